@@ -2,9 +2,9 @@
 // The module's entry: which figures, a fresh page and a file for each.
 #include "render/render.h"
 
-#include "io/folder.h"
-#include "render/figures.h"
-#include "render/foot.h"
+#include "io/files/folder.h"
+#include "render/canvas/foot.h"
+#include "render/figures/figures.h"
 
 #include <errno.h>
 #include <limits.h>

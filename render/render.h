@@ -9,8 +9,8 @@
 
 #include "amontons_pictures.h"
 #include "base/error.h"
-#include "io/html_writer.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
+#include "io/text/html_writer.h"
 
 // What `field` may show: X(symbol, name, words, unit in SI, unit in normalised scenes). Stresses
 // hold the viscous part.
@@ -50,7 +50,7 @@ bool amontons_render_plot(const char *plot, const char *picture, const PictureSt
 typedef bool (*RenderFilmFunction)(const char *folder, const FilmRequest *request, Error *err);
 bool amontons_render_film(const char *folder, const FilmRequest *request, Error *err);
 
-// A mesh to draw: arrays as in io/mesh_file, all borrowed.
+// A mesh to draw: arrays as in io/mesh/mesh_file, all borrowed.
 typedef struct RenderMesh {
     const char *title, *note;   // two lines above the picture; NULL or empty: none
     int32_t node_count;

@@ -40,7 +40,7 @@ typedef struct PictureRequest {
 // Draws figures of the result in `folder` into folder/figures/NAME.png (.pdf, .svg). NULL: all.
 bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err);
 
-// Draws the curves that the YAML file `plot` describes (render/plot_file.h) into the file
+// Draws the curves that the YAML file `plot` describes (render/plot/plot_file.h) into the file
 // `picture`, whose name ends in .png, .pdf or .svg: style->format is not asked. NULL is fine.
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
                                Error *err);

@@ -5,7 +5,7 @@
 #define AMONTONS_TESTS_BLOCK_LATTICE_H
 
 #include "base/memory.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 #include "near.h"
 #include "random_numbers.h"
 

@@ -6,7 +6,7 @@
 #define AMONTONS_TESTS_BLOCK_MESH_H
 
 #include "block_lattice.h"
-#include "bulk/mesh.h"
+#include "fem/mesh.h"
 
 // Where the nodes of an element lie in its cell, in half cells from the lower left corner.
 static inline const int8_t (*block_pattern(ElementKind kind, int32_t half))[2]
@@ -81,7 +81,7 @@ static inline void block_add_curve(const BlockLattice *lattice, BlockRow row, Me
 static inline MeshFile block_file(const BlockDef *def)
 {
     Error err = {0};
-    MeshFile file = {0};
+    MeshFile file = {.dim = 2};
     int32_t order = def->kind == ELEMENT_T3 || def->kind == ELEMENT_Q4 ? 1 : 2;
     BlockLattice lattice = {
         .order = order, .columns = order * def->nx + 1, .rows = order * def->nz + 1};

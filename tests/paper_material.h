@@ -2,7 +2,7 @@
 #ifndef AMONTONS_TESTS_PAPER_MATERIAL_H
 #define AMONTONS_TESTS_PAPER_MATERIAL_H
 
-#include "bulk/material.h"
+#include "fem/material.h"
 
 // The paper's set A, normalised, in plane stress.
 static inline Material paper_material(void)

@@ -3,7 +3,7 @@
 #ifndef AMONTONS_TESTS_SCENE_OF_TEXT_H
 #define AMONTONS_TESTS_SCENE_OF_TEXT_H
 
-#include "io/folder.h"
+#include "io/files/folder.h"
 #include "near.h"
 #include "scene/scene.h"
 

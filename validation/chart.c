@@ -7,8 +7,8 @@
 // or 0 (logarithmic or not) and the number of curves, and for each curve a line with its number of
 // points and its name, then a line "x y" for each point.
 #include "base/memory.h"
-#include "render/axes.h"
-#include "render/legend_place.h"
+#include "render/canvas/axes.h"
+#include "render/plot/legend_place.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -128,9 +128,9 @@ static bool draw_curve(const Page *page, const Axes *axes, const Curve *curve, C
     if (!points) return false;
     for (int64_t i = 0; i < curve->count; i++)
         points[i] = axes_place(axes, curve->x[i], curve->y[i]);
-    shape_line(page->canvas, &stroke, points, curve->count);
+    draw_line(page->canvas, &stroke, points, curve->count);
     for (int64_t i = 0; curve->count <= MARKED_MAX && i < curve->count; i++)
-        shape_disc(page->canvas, color, points[i], DISC_RADIUS * page->point);
+        draw_disc(page->canvas, color, points[i], DISC_RADIUS * page->point);
     memory_free(points);
     return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The largest eigenvalues of a dense symmetric pencil, a x = mu b x with b positive definite, where
-// few of them are wanted: without the others. Called by bulk/reduction.
+// few of them are wanted: without the others. Called by reduction/reduction.
 #ifndef AMONTONS_BASE_LARGEST_EIGEN_H
 #define AMONTONS_BASE_LARGEST_EIGEN_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs another program and takes what it says. Called by study/sweep/slurm_jobs.
+// Runs another program and takes what it says. Called by study/sweep/computing/slurm_jobs.
 #ifndef AMONTONS_BASE_PROGRAM_H
 #define AMONTONS_BASE_PROGRAM_H
 

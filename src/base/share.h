@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Work in two halves that know nothing of each other, on two cores where there are two. What comes
 // out does not depend on whether a second thread was to be had. Called by base/sparse,
-// base/largest_eigen, base/dense_halves and several of bulk/.
+// base/largest_eigen, base/dense_threaded and several of reduction/.
 #ifndef AMONTONS_BASE_SHARE_H
 #define AMONTONS_BASE_SHARE_H
 

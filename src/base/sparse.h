@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sparse symmetric matrices and their Cholesky factors (CHOLMOD behind it), with a chosen set of
-// unknowns eliminated last. Called by bulk/assembly (products) and bulk/interface_operator.
+// unknowns eliminated last. Called by fem/assembly (products) and reduction/interface_operator.
 //
 // With the border b ordered last and the interior i before it,
 //

@@ -2,7 +2,7 @@
 // One thread beside its owner, for what takes long and is waited for by nobody: jobs are done in
 // the order in which they were handed over. A job is the number of a slot, of which there are few:
 // its owner keeps what it needs there. Called by record/fields and
-// bulk/factors_ahead.
+// reduction/factors_ahead.
 //
 //   slot -> (the owner fills it) -> submit ... -> wait -> destroy
 #ifndef AMONTONS_BASE_WORKER_H

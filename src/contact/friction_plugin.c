@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/friction_plugin.h"
 
-#include "io/open_file.h"
+#include "io/files/open_file.h"
 
 #include <dlfcn.h>
 #include <limits.h>

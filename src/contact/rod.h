@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The rod that drives the block: node j of the strip is held at, or pushed to,
-// u_x = u_x,j(0) + U, U = V t, with no shear. Behind a machine that yields (bulk/machine) the rod's
+// u_x = u_x,j(0) + U, U = V t, with no shear. Behind a machine that yields the rod's
 // own way R stands in the place of U; it belongs to the state (stepping/state). Used by
 // contact/contact_problem and stepping/.
 //
@@ -71,7 +71,7 @@ void rod_set_velocity(Rod *rod, double velocity, double time);
 // Where node j must go: the velocity bound of contact/contact_problem, from where it is without any
 // velocity (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.
 double rod_bound(const Rod *rod, int32_t j, double position, double time, double reach);
-// The same against a rod on a spring that would be at `way` if it had no velocity (bulk/machine).
+// The same against a rod on a spring that would be at `way` if it had no velocity.
 double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach);
 
 // F_T, from the reactions on the interface [interface->count].

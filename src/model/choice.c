@@ -2,13 +2,13 @@
 // With n unknowns on the mesh, m of them on the interface: a sparse factor of a mesh of two
 // dimensions takes n^1.5 operations. Of the n log n entries that a pass goes through more come from
 // far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and
-// products of q x m answers, q what is left where motions replace what is far; of two halves
-// (bulk/mirror) those of each. A stage on it, and the contact problem of either way, passes through
-// matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
-// by validation/benchmark/choice.py.
+// products of q x m responses, q what is left where modes replace what is far; of two parts
+// (reduction/mirror) those of each. A stage on it, and the contact problem of either way, passes
+// through matrices of some m x m. The seconds before them were fitted to processor times of thirty
+// shapes by validation/benchmark/choice.py.
 #include "model/choice.h"
 
-#include "bulk/far_patches.h"
+#include "reduction/far_patches.h"
 
 #include <math.h>
 
@@ -17,11 +17,11 @@ static const double FULL_FACTOR = 7.6e-9;   // rung and n^1.5
 static const double FULL_STAGE = 1.2e-9;   // stage and n^1.5
 static const double FULL_BORDER = 4.9e-9;   // stage and m^2
 static const double REDUCTION_FACTORS = 5.0e-5;   // n
-static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2 of each half
+static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2 of each part
 static const double REDUCED_STAGE = 3.8e-9;   // stage and m^2
 static const double ANY_STAGE = 5e-6;   // stage: contact and certificate of small interfaces
 
-// Several materials have no one viscous time: more motions are left, and go through each stage.
+// Several materials have no one viscous time: more modes are left, and go through each stage.
 static const double OF_SEVERAL = 2.5;
 
 static const double RUNGS = 11;   // used by a run with a sliding
@@ -39,7 +39,7 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes)
     double n = sizes->unknowns, square = sizes->interface * sizes->interface;
     double factor = FULL_FACTOR * pow(n, 1.5);
     double pass = FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square;
-    double parts = sizes->halves, m = sizes->interface / parts;
+    double parts = sizes->parts, m = sizes->interface / parts;
     double products = REDUCTION_PRODUCTS * parts * m * m * far_patches_left(n / parts, m);
     double stage = REDUCED_STAGE * square * (sizes->several ? OF_SEVERAL : 1);
     double reduction = REDUCTION_FACTORS * n + products, any = sizes->stages * ANY_STAGE;
@@ -50,7 +50,7 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes)
 
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)
 {
-    double n = sizes->unknowns / sizes->halves, m = sizes->interface / sizes->halves;
+    double n = sizes->unknowns / sizes->parts, m = sizes->interface / sizes->parts;
     double bytes = BYTES_FACTORS * n + BYTES_PRODUCTS * m * far_patches_left(n, m);
     if (sizes->held) return true;
     if (bytes > BYTES_MAX) return false;

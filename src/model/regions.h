@@ -7,7 +7,7 @@
 #include "model/model.h"
 
 // Marks the elements of model->mesh with their materials and measures these; groups those that are
-// nearly incompressible (bulk/element_group). ERROR_INPUT: no such surface, or two that share an
+// nearly incompressible (fem/element_group). ERROR_INPUT: no such surface, or two that share an
 // element.
 bool model_mark_regions(Model *model, Error *err);
 

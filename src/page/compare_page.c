@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/module.h"
-#include "io/json_reader.h"
+#include "io/text/json_reader.h"
 #include "page/numbers.h"
 #include "page/scene_part.h"
 #include "page/sheet.h"

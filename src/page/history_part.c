@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
-#include "io/file_lock.h"
-#include "io/open_file.h"
-#include "io/result_file.h"
+#include "io/files/file_lock.h"
+#include "io/files/open_file.h"
+#include "io/hdf5/result_file.h"
 
 #include <dirent.h>
 #include <errno.h>

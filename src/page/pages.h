@@ -3,7 +3,7 @@
 #ifndef AMONTONS_PAGE_PAGES_H
 #define AMONTONS_PAGE_PAGES_H
 
-#include "io/html_writer.h"
+#include "io/text/html_writer.h"
 
 bool run_page_write(HtmlWriter *html, const char *folder, Error *err);
 bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err);

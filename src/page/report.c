@@ -3,7 +3,7 @@
 #include "amontons.h"
 
 #include "base/apart.h"
-#include "io/part_file.h"
+#include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
 

@@ -2,8 +2,8 @@
 #include "page/run_source.h"
 
 #include "base/memory.h"
-#include "io/json_reader.h"
-#include "io/text_file.h"
+#include "io/files/text_file.h"
+#include "io/text/json_reader.h"
 #include "run/result_folder.h"
 
 #include <limits.h>

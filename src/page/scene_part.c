@@ -4,7 +4,7 @@
 #include "page/scene_part.h"
 
 #include "base/memory.h"
-#include "io/json_reader.h"
+#include "io/text/json_reader.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_PAGE_SCENE_PART_H
 #define AMONTONS_PAGE_SCENE_PART_H
 
-#include "io/html_writer.h"
+#include "io/text/html_writer.h"
 #include "page/run_source.h"
 
 // A table with a row a group of keys: "material | young 1, poisson 0.34, ...".

@@ -5,7 +5,7 @@
 #ifndef AMONTONS_PAGE_SHEET_H
 #define AMONTONS_PAGE_SHEET_H
 
-#include "io/html_writer.h"
+#include "io/text/html_writer.h"
 
 typedef struct SheetPart {
     const char *id, *name;   // of a section, for the links at the top; NULL ends a list

@@ -11,7 +11,7 @@
 #include "record/front_path.h"
 #include "record/pad_sums.h"
 
-// symbol, name; the numbers stand in history.h5 (io/result_file)
+// symbol, name; the numbers stand in history.h5 (io/hdf5/result_file)
 #define EVENT_KINDS(X)                                                                             \
     X(EVENT_QUASI_STATIC, "quasi-static")                                                          \
     X(EVENT_BOUNDED, "bounded rapid")                                                              \

@@ -4,9 +4,9 @@
 #ifndef AMONTONS_RECORD_FIELD_FILES_H
 #define AMONTONS_RECORD_FIELD_FILES_H
 
-#include "bulk/recovery.h"
+#include "fem/recovery.h"
 #include "contact/interface.h"
-#include "io/field_file.h"
+#include "io/fields/field_file.h"
 
 enum { FIELD_LINE_ARRAYS = 6 };
 
@@ -27,7 +27,7 @@ typedef struct FieldFiles {
 
 // Of the whole mesh. Nothing is owned.
 typedef struct FieldState {
-    const double *displacement, *velocity;   // [2 * nodes]
+    const double *displacement, *velocity;   // [dim * nodes]
     double time;
 } FieldState;
 

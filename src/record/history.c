@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A recorder: every accepted step becomes a row of each series in history.h5. Which series there
-// are, their names, units and kinds stands in io/result_tables.h; the switches below say where a
-// value comes from. io/array_file gathers rows into chunks and compresses those.
+// are, their names, units and kinds stands in io/hdf5/result_tables.h; the switches below say where
+// a value comes from. io/hdf5/array_file gathers rows into chunks and compresses those.
 #include "record/history.h"
 
 #include "base/clock.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // history.h5: every accepted step, appended as it comes and flushed now and then, so that a killed
-// run leaves what it had. Names and shapes: io/result_file. A Recorder of run/simulation.
+// run leaves what it had. Names and shapes: io/hdf5/result_file. A Recorder of run/simulation.
 #ifndef AMONTONS_RECORD_HISTORY_H
 #define AMONTONS_RECORD_HISTORY_H
 
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 #include "record/answers.h"
 #include "record/contact_arrays.h"
 

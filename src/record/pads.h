@@ -7,7 +7,7 @@
 #ifndef AMONTONS_RECORD_PADS_H
 #define AMONTONS_RECORD_PADS_H
 
-#include "io/json_writer.h"
+#include "io/text/json_writer.h"
 #include "record/events.h"
 
 // From the end of one sliding to the beginning of the next. NaN, order 0: did not happen.

@@ -6,8 +6,8 @@
 
 #include "record/error_bars.h"
 
-// figures/accuracy.json (render/plot_file's format, which a user may edit) and figures/accuracy.png
-// in the result folder `folder`.
+// figures/accuracy.json (render/plot/plot_file's format, which a user may edit) and
+// figures/accuracy.png in the result folder `folder`.
 bool accuracy_figure(const Levels *levels, const char *title, const char *folder, Error *err);
 
 // For a search that was stopped (`err` says where): adds to `err` what whole runs gave, and leaves

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons cache` asks of io/cache_folder.
+// What `amontons cache` asks of io/cache/cache_folder.
 #include "amontons_cache.h"
-#include "io/cache_folder.h"
+#include "io/cache/cache_folder.h"
 
 #include <stdio.h>
 

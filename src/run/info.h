@@ -4,7 +4,7 @@
 #define AMONTONS_RUN_INFO_H
 
 #include "amontons.h"
-#include "bulk/mesh.h"
+#include "fem/mesh.h"
 
 bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err);   // .msh, .geo
 void info_write_mesh(const Mesh *mesh, FILE *out);

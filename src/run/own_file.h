@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which names a result of ours has in its folder; io/own_mark says whether a file of such a name is
-// ours. Whatever else lies there belongs to somebody. Called by run/result_folder.
+// Which names a result of ours has in its folder; io/files/own_mark says whether a file of such a
+// name is ours. Whatever else lies there belongs to somebody. Called by run/result_folder.
 #ifndef AMONTONS_RUN_OWN_FILE_H
 #define AMONTONS_RUN_OWN_FILE_H
 
@@ -10,7 +10,7 @@
 #define CHECKPOINT_FILE "checkpoint.bin"   // of a run (run/checkpoint)
 
 // What proves a result, in the order in which it is to be removed; NULL: no more. Beside each there
-// may be an unfinished one, name.part, and its name.journal (io/array_journal).
+// may be an unfinished one, name.part, and its name.journal (io/hdf5/array_journal).
 const char *own_file_name(int32_t k);
 
 bool own_file_is_figure(const char *name);   // in figures/: force.png

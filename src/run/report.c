@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // run.json, one object, written when all else is: a folder without it holds no finished result.
 // Scripts read it by key: keys may be added, none may change its name or meaning. A number that is
-// NaN or infinite is written as null (io/json_writer), and says that there was none. `length` below
-// is the block's: lengths are given over it where the key says over_L.
+// NaN or infinite is written as null (io/text/json_writer), and says that there was none. `length`
+// below is the block's: lengths are given over it where the key says over_L.
 #include "run/report.h"
 
 #include "base/computation.h"
 #include "base/kernels.h"
-#include "io/json_writer.h"
+#include "io/text/json_writer.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -101,10 +101,9 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_integer(json, "elements", model->elements);
     json_integer(json, "full_dofs", model->full_dofs);
     json_integer(json, "reduced_dofs", model->system.dof_count);
-    json_boolean(json, "by_halves", model->reduced.halves != NULL);
+    json_boolean(json, "by_halves", model->reduced.symmetry != NULL);
     json_text(json, "mesh_by", mesh_maker(model));
     json_boolean(json, "from_cache", model->from_cache);
-    json_boolean(json, "upper_from_cache", model->upper_from_cache);
     write_expected(json, model);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);

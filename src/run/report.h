@@ -15,7 +15,7 @@ typedef struct RunErrors {
     double energy, complementarity, moment, equation;
     double penetration;   // of a contact node into the plane, length
     double reduction;   // of the interface operator, measured when the basis was built, at the
-        // steps that were accepted (bulk/reduction); 0: full mesh
+        // steps that were accepted (reduction/reduction); 0: full mesh
     double moment_quasi_static;   // without inertia, over frames in which nothing is fast
 } RunErrors;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of an earlier result go the files that run/own_file names and io/own_mark knows to be ours: those
-// that prove a result, the numbered ones in fields/, and the figures. Where a file of such a name
-// is somebody's, a run, which would write over it, is refused. A link in the place of fields/ or
-// figures/ is not followed.
+// Of an earlier result go the files that run/own_file names and io/files/own_mark knows to be ours:
+// those that prove a result, the numbered ones in fields/, and the figures. Where a file of such a
+// name is somebody's, a run, which would write over it, is refused. A link in the place of fields/
+// or figures/ is not followed.
 //
 // They go in two steps: clear moves them into a folder of their own, settle removes that once the
 // new result has begun; without it, release puts them back. Whatever moment a kill meets, the name
@@ -12,9 +12,9 @@
 //   amontons.gone      the new run had begun: they go
 #include "run/result_folder.h"
 
-#include "io/folder.h"
-#include "io/open_file.h"
-#include "io/own_mark.h"
+#include "io/files/folder.h"
+#include "io/files/open_file.h"
+#include "io/files/own_mark.h"
 
 #include <dirent.h>
 #include <errno.h>

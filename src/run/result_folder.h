@@ -8,7 +8,7 @@
 #define AMONTONS_RUN_RESULT_FOLDER_H
 
 #include "amontons.h"
-#include "io/file_lock.h"
+#include "io/files/file_lock.h"
 #include "run/own_file.h"
 
 typedef struct ResultFolder {

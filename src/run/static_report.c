@@ -5,8 +5,8 @@
 #include "run/static_solve.h"
 
 #include "base/memory.h"
-#include "io/array_file.h"
-#include "io/json_writer.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/json_writer.h"
 #include "record/field_files.h"
 #include "scene/keys.h"
 

@@ -3,7 +3,7 @@
 #include "scene/keys.h"
 
 #include "base/memory.h"
-#include "io/text_file.h"
+#include "io/files/text_file.h"
 
 enum { VALUE_SIZE = 8192, BYTES_MAX = 1 << 28 };
 

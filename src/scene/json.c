@@ -4,7 +4,7 @@
 // never needed again. What is written can be read as a scene, JSON being YAML.
 #include "scene/keys.h"
 
-#include "io/folder.h"
+#include "io/files/folder.h"
 #include "scene/materials.h"
 
 #include <string.h>

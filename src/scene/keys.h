@@ -5,7 +5,7 @@
 #define AMONTONS_SCENE_KEYS_H
 
 #include "base/hash.h"
-#include "io/json_writer.h"
+#include "io/text/json_writer.h"
 #include "scene/scene.h"
 
 #include <math.h>

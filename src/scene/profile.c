@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "io/text_file.h"
+#include "io/files/text_file.h"
 #include "scene/units.h"
 
 #include <math.h>

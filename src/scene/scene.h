@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "contact/friction_law.h"
-#include "io/mesh_file.h"
-#include "io/yaml_document.h"
+#include "io/mesh/mesh_file.h"
+#include "io/text/yaml_document.h"
 #include "scene/scene_values.h"
 
 enum { SCENE_KEYS_MAX = 128 };   // of scene/keys

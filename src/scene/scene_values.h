@@ -4,7 +4,7 @@
 #define AMONTONS_SCENE_SCENE_VALUES_H
 
 #include "contact/friction_law.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 enum {
     SCENE_TEXT_SIZE = 512,

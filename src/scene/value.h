@@ -3,7 +3,7 @@
 #ifndef AMONTONS_SCENE_VALUE_H
 #define AMONTONS_SCENE_VALUE_H
 
-#include "io/yaml_document.h"
+#include "io/text/yaml_document.h"
 #include "scene/keys.h"
 
 // Where a value stands. `part`: the parameter's name when one of mesh.set is set alone, else NULL.

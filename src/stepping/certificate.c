@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
-#include "stepping/weakening_load.h"
+#include "stepping/weakening_ratio.h"
 
 #include <math.h>
 
@@ -15,13 +15,13 @@
 // this times its least, (sqrt 2 + 1/sqrt 2)/2.
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
-// A load that changes by less than this part in a power of the iteration has settled: enough to
+// A ratio that changes by less than this part in a power of the iteration has settled: enough to
 // tell it from 1. So many powers at most.
 static const double SETTLED = 1e-6;
 enum { POWERS_MAX = 200 };
 
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
-// (bulk/interface_operator), once for all states.
+// (reduction/interface_operator), once for all states.
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate = (Certificate){0};
@@ -54,9 +54,11 @@ void certificate_destroy(Certificate *certificate)
 }
 
 // S with open nodes condensed out; NULL where they alone are singular in it.
-static const double *close_matrix(const State *state, ContactMatrix *matrix)
+static const double *close_matrix(const Certificate *certificate, const State *state,
+                                  ContactMatrix *matrix)
 {
-    return contact_matrix_close(matrix, state->status, state->contact_count);
+    return contact_matrix_close(matrix, state->status, state->contact_count,
+                                certificate->moving.interface->dim);
 }
 
 // part S + (1 - part) S_C - W on F, part < 1, is positive definite; S that of `rung`. Parts of
@@ -69,8 +71,9 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_find(moving, state, false);
     if (!moving->weakens) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
-    if (certificate->damping) damping = close_matrix(state, &certificate->damping_contact);
-    if (part > 0) own = close_matrix(state, rung);
+    if (certificate->damping)
+        damping = close_matrix(certificate, state, &certificate->damping_contact);
+    if (part > 0) own = close_matrix(certificate, state, rung);
     if (!damping || (part > 0 && !own)) return false;
     moving_set_gather(moving, damping, 1 - part, 0, certificate->matrix);
     if (part > 0) moving_set_gather(moving, own, part, 1, certificate->matrix);
@@ -126,7 +129,7 @@ static bool is_positive(Certificate *certificate, const double *closed)
 // nodes.
 static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
-    const double *closed = close_matrix(state, rung);
+    const double *closed = close_matrix(certificate, state, rung);
     int32_t *pivots = certificate->pivots, count = certificate->moving.count;
     if (!closed) return false;
     certificate->checks++;
@@ -160,34 +163,34 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
     return found;
 }
 
-double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung)
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
-    double started = clock_seconds(), load = INFINITY;
+    double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
-    const double *closed = close_matrix(state, rung);
+    const double *closed = close_matrix(certificate, state, rung);
     if (closed) {
         moving_set_find(&certificate->moving, state, false);
         fill_coupled(certificate, closed);
         certificate->checks++;
         if (dense_lu(certificate->matrix, certificate->moving.count, pivots))
-            load = weakening_load(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
-                                  SETTLED, certificate->vector);
+            ratio = weakening_ratio(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
+                                    SETTLED, certificate->vector);
     }
     certificate->seconds += clock_seconds() - started;
-    return load;
+    return ratio;
 }
 
 bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder)
 {
-    double load[3] = {0}, octaves;
+    double ratio[3] = {0}, octaves;
     if (!ladder_fill(ladder)) return false;   // so is the parabola
     for (int32_t k = 0; k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        load[0] = load[1];
-        load[1] = load[2];
-        load[2] = rung ? certificate_load(certificate, state, rung) : 0;
-        // Each by itself: fmax would lose a load that is not a number.
-        if (!(load[2] < 1) || !(weakening_load_top(load, &octaves) < 1)) return false;
+        ratio[0] = ratio[1];
+        ratio[1] = ratio[2];
+        ratio[2] = rung ? certificate_ratio(certificate, state, rung) : 0;
+        // Each by itself: fmax would lose a ratio that is not a number.
+        if (!(ratio[2] < 1) || !(weakening_ratio_top(ratio, &octaves) < 1)) return false;
     }
     return true;
 }

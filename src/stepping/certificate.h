@@ -68,8 +68,8 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, L
 bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder);
 
 // Weakening over what the block withstands at s = 1/(gamma dt), the pressure that follows slip
-// included (stepping/weakening_load); INFINITY where S is singular.
-double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung);
+// included (stepping/weakening_ratio); INFINITY where S is singular.
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung);
 
 // What its one matrix keeps, and its counter.
 void certificate_archive(Certificate *certificate, Archive *archive);

@@ -22,7 +22,7 @@
 #ifndef AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
 #define AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
 
-#include "bulk/assembly.h"
+#include "fem/assembly.h"
 #include "contact/rod.h"
 #include "stepping/energy.h"
 #include "stepping/load_course.h"

@@ -15,7 +15,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "stepping/weakening_load.h"
+#include "stepping/weakening_ratio.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,29 +133,29 @@ void growth_destroy(Growth *growth)
 // --- the scan -----------------------------------------------------------------------------------
 
 // INFINITY: S cannot be factored there.
-static double load_at(Growth *growth, int32_t k)
+static double ratio_at(Growth *growth, int32_t k)
 {
     MovingSet *moving = &growth->moving;
     moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
     if (!dense_lu(growth->matrix, moving->count, growth->pivots)) return INFINITY;
-    return weakening_load(moving, growth->matrix, growth->pivots, 2000, 1e-12, growth->step);
+    return weakening_ratio(moving, growth->matrix, growth->pivots, 2000, 1e-12, growth->step);
 }
 
-// load >= 1: some s > 0 is a real growth rate with the pressure held. At an end of the range no
+// ratio >= 1: some s > 0 is a real growth rate with the pressure held. At an end of the range no
 // parabola is fitted.
 GrowthScan growth_scan(Growth *growth, const State *state)
 {
-    double load[GROWTH_SHIFTS_MAX] = {0}, octaves;
+    double ratio[GROWTH_SHIFTS_MAX] = {0}, octaves;
     int32_t best = 0, count = growth->shift_count;
     moving_set_find(&growth->moving, state, true);
     for (int32_t k = 0; k < count; k++) {
-        load[k] = load_at(growth, k);
-        if (load[k] > load[best]) best = k;
+        ratio[k] = ratio_at(growth, k);
+        if (ratio[k] > ratio[best]) best = k;
     }
-    GrowthScan scan = {.load = load[best], .rate = growth->shift[best]};
+    GrowthScan scan = {.ratio = ratio[best], .rate = growth->shift[best]};
     if (best == 0 || best == count - 1) return scan;
-    scan.load = weakening_load_top(load + best - 1, &octaves);
+    scan.ratio = weakening_ratio_top(ratio + best - 1, &octaves);
     scan.rate *= exp2(octaves);
     return scan;
 }
@@ -306,7 +306,7 @@ static void scale_mode(const Growth *growth, double *re, double *im)
     int32_t largest = 0;
     double square = 0;
     for (int32_t i = 0; i < growth->interface->contact_count; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = interface_tangent(growth->interface, i);
         double here = re[t] * re[t] + (im ? im[t] * im[t] : 0);
         if (here > square) {
             square = here;

@@ -12,9 +12,9 @@
 //   growth_rates  the rightmost lambda, exactly: shift-and-invert Arnoldi on the companion form
 //                 with real shifts s (Saad, Numerical Methods for Large Eigenvalue Problems, 2011,
 //                 ch. 8). Each product costs one solve with s M + C + K/s, which the border
-//                 (bulk/interface_operator) factors once for all states. Re lambda > 0 first: l_sc;
-//                 lambda real and > 0 first: l_c.
-//   growth_scan   real growth without the coupling: the largest load over s (weakening_load)
+//                 (reduction/interface_operator) factors once for all states. Re lambda > 0
+//                 first: l_sc; lambda real and > 0 first: l_c.
+//   growth_scan   real growth without the coupling: the largest weakening_ratio over s
 //                 with P_t alone in the rows of slipping tangents.
 //
 // Called by study/stability/stability.
@@ -49,7 +49,7 @@ typedef struct GrowthRates {
 } GrowthRates;
 
 typedef struct GrowthScan {
-    double load;   // weakening over what the block withstands: >= 1 is real growth
+    double ratio;   // weakening over what the block withstands: >= 1 is real growth
     double rate;   // s where that is, 1/time
 } GrowthScan;
 

@@ -6,7 +6,7 @@
 #ifndef AMONTONS_STEPPING_LADDER_H
 #define AMONTONS_STEPPING_LADDER_H
 
-#include "bulk/interface_operator.h"
+#include "reduction/interface_operator.h"
 #include "contact/contact_matrix.h"
 
 enum { LADDER_RUNGS_MAX = 128 };

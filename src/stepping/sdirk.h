@@ -7,7 +7,7 @@
 //                w_i  = v_n + dt sum_j<i a_ij a_j,              a_j = (v_j - w_j)/(gamma dt)
 //
 // Contact, friction and rod hold at each stage, hence at the end of the step, which is the last
-// stage. A rod on a spring has no mass: its way R follows as u does, R' = v_R (bulk/machine).
+// stage. A rod on a spring has no mass: its way R follows as u does, R' = v_R (reduction/machine).
 // Called by stepping/step_control.
 #ifndef AMONTONS_STEPPING_SDIRK_H
 #define AMONTONS_STEPPING_SDIRK_H

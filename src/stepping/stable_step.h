@@ -14,7 +14,7 @@
 #ifndef AMONTONS_STEPPING_STABLE_STEP_H
 #define AMONTONS_STEPPING_STABLE_STEP_H
 
-#include "bulk/assembly.h"
+#include "fem/assembly.h"
 
 // The limit above times a safety factor for the estimate of the eigenvalues. Deterministic.
 bool stable_step(const Bulk *bulk, double *step, Error *err);

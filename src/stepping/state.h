@@ -4,7 +4,7 @@
 #define AMONTONS_STEPPING_STATE_H
 
 #include "base/archive.h"
-#include "bulk/interface_operator.h"
+#include "reduction/interface_operator.h"
 #include "contact/contact_problem.h"
 
 // What is stepped: the bulk, where it meets the world, and by which laws. Nothing is owned.

@@ -133,7 +133,8 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
 {
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
-        fastest = fmax(fastest, fabs(state->slip_rate[interface_tangent(i)]));
+        fastest =
+            fmax(fastest, fabs(state->slip_rate[interface_tangent(control->scheme.interface, i)]));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
     return growth > 1 &&
            certificate_oscillates_less(&control->certificate, state, &control->ladder, growth);

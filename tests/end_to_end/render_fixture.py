@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes result folders for test_render.py: history.h5 by the table of src/io/result_file.h, as a
+"""Writes result folders for test_render.py: history.h5 by the table of src/io/hdf5/result_file.h, as a
 stick-slip run would leave it. Nothing is computed from mechanics: the history is drawn up so that
 every feature a figure must show stands at a known place.
 

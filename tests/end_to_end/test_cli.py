@@ -2,6 +2,7 @@
 """The built program as its users call it: help, exit statuses, messages, progress, signals."""
 import fcntl
 import json
+import math
 import os
 import pty
 import re
@@ -278,7 +279,9 @@ class Run(InFolder):
         self.assertEqual(run["scene"]["mesh"]["set"]["nx"], 10)
         self.assertTrue((result / run["scene"]["mesh"]["file"]).samefile(SOURCE / "meshes/block.geo"))
         shown = float(re.search(r"mu_M +([\d.]+)", done.stdout)[1])
-        self.assertAlmostEqual(shown, run["results"]["mu_M"], delta=6e-5)
+        self.assertAlmostEqual(shown, run["results"]["mu_M"], delta=0.501 * 10**math.ceil(math.log10(run["results"]["mu_M_known_to"])))
+        self.assertNotIn("+-", done.stdout)   # no error bar was asked for
+        self.assertIn(f"on this mesh {run['results']['mu_M']:.4f}", done.stdout)
         accepted = int(re.search(r"steps +(\d+) accepted", done.stdout)[1])
         self.assertEqual(accepted, run["steps"]["accepted"])
         for name in ("force", "slip-map", "contact-density"):
@@ -296,7 +299,7 @@ class Run(InFolder):
         info = amontons("info", result)
         self.assertEqual((info.returncode, info.stderr), (0, ""))
         for name in ("mu_M", "mu_hold", "mu_max"):
-            self.assertRegex(info.stdout, rf"\n  {name} +{run['results'][name]:.6g}\b")
+            self.assertRegex(info.stdout, rf"\n  {name} +\S+ \(on this mesh {run['results'][name]:.6g}\b")
         self.assertEqual(info.stdout.count("\n  leading rapid"),
                          sum(e["kind"].startswith("leading") for e in run["results"]["events"]))
 
@@ -525,11 +528,15 @@ class Run(InFolder):
                 self.assertRegex(states[0], r"^\[[#.]+\] +\d+ %  U .* mu .* dt .* event")
 
     def test_progress_of_an_error_bar(self):
-        """Runs behind it are named, with no time left, which nobody knows: each ends once its answer is known."""
-        shown = self.run_on_terminal(80, "--to", "50%", "--within", "0.001s")
-        members = re.findall(r"mesh 1, run [12]  U [^\r]*", shown)
-        self.assertTrue(members)
-        self.assertEqual([line for line in members if "left" in line], [])
+        """Runs behind it are named. When the last of them ends nobody knows; what is left of --within is known."""
+        for words, left in (([], "none"), (["--within", "60s"], r"[01]:\d\d left$")):
+            shown = self.run_on_terminal(80, "--to", "50%", *words)
+            runs = re.findall(r"mesh [123], run [12], +\d+ %  U [^\r\x1b]*", shown)
+            self.assertLessEqual({f"mesh {mesh}, run {run}," for mesh in (1, 2, 3) for run in (1, 2)},
+                                 {" ".join(line.split()[:4]) for line in runs})
+            wrong = [line for line in runs if "left" in line] if left == "none" else \
+                [line for line in runs if not re.search(left, line)]
+            self.assertEqual(wrong, [])
 
     def run_on_terminal(self, columns, *words):
         ours, theirs = pty.openpty()

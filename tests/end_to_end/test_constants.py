@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The lists that constants.py varies are complete: every number of solver, stepper, bulk and
+"""The lists that constants.py varies are complete: every number of solver, stepper, elements, reduction and
 recorders stands in one of them, and where it says. Nothing is built here."""
 import math
 import os

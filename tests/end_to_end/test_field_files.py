@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What our writers store, read by programs that are not ours: VTK's Python reader, meshio, h5py.
 
-The unit tests of io/field_file and io/result_file write their files into AMONTONS_TEST_OUTPUT; the
+The unit tests of io/fields/field_file and io/hdf5/result_file write their files into AMONTONS_TEST_OUTPUT; the
 values come from formulas that both sides know, so every comparison is exact.
 """
 import os

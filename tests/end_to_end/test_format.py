@@ -85,15 +85,15 @@ def faults(path):
 # What no file of the library does, and the one place that may.
 HABITS = [
     ("prints or ends the program",   # there: a forked child
-     r"src/cli/|src/study/sweep/pool\.c|src/base/apart\.c",
+     r"src/cli/|src/study/sweep/computing/pool\.c|src/base/apart\.c",
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("changes what is the process's",
-     r"src/cli/|src/study/sweep/(pool|element)\.c|src/base/(apart|worker)\.c|src/io/mesh_file_module\.c",
+     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|worker)\.c|src/io/mesh/mesh_file_module\.c",
      # there: processes and a thread of their own; what gmsh changes is put back
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
     ("allocates by itself", r"src/base/memory\.c",
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
-    ("opens a file by itself", r"src/io/open_file\.c",   # HDF5, libav, VTK and Cairo get what is open already
+    ("opens a file by itself", r"src/io/files/open_file\.c",   # HDF5, libav, VTK and Cairo get what is open already
      r'(?<![>.])\b(fopen|freopen|creat|mkstemp|mkostemp|open|openat)\((?!"/dev/null"|"/proc/|[^;]*O_DIRECTORY)'
      r"|\b(avio_open2?|cairo_surface_write_to_png|cairo_(pdf|svg)_surface_create)\(|\bstd::[io]?fstream|\bO_CREAT\b"),
     ("keeps state in a function", None, r"(?m)^[ \t]+static (?!const )[^(]*?[;=]"),
@@ -126,14 +126,14 @@ class Style(unittest.TestCase):
                 ("    fprintf(stderr, \"x\");", "src/io/a.c", 1),
                 ("    fprintf(out, \"x\");", "src/io/a.c", 0), ("    exit(1);", "src/cli/a.c", 0),
                 ("    snprintf(a, 3, \"b\");", "src/io/a.c", 0),
-                ("    double *a = malloc(8);", "src/bulk/a.c", 1),
+                ("    double *a = malloc(8);", "src/fem/a.c", 1),
                 ("    void *a = aligned_alloc(64, 64);", "src/base/memory.c", 0),
                 ("    static int32_t calls = 0;", "src/io/a.c", 1),
                 ("    static char buffer[9];", "src/io/a.c", 1),
                 ("    static const double a[] = {1};", "src/io/a.c", 0),
                 ('    file = fopen(path, "w");', "render/a.c", 1), ("    creat(path, 0666);", "src/io/a.c", 1),
                 ("    std::ofstream out(path);", "src/io/a.cc", 1),
-                ("    int file = open(path, O_RDWR | O_CREAT, 0666);", "src/io/open_file.c", 0),
+                ("    int file = open(path, O_RDWR | O_CREAT, 0666);", "src/io/files/open_file.c", 0),
                 ("    open_to_write(path, OPEN_KEPT, why);", "src/io/a.c", 0),
                 ("static Module *opened;", "src/base/module.c", 0)]:
             with self.subTest(line):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The folders of src are layers: a file includes its own folder and those above it in the list. No two
-files include or call each other, neither directly nor through others.
+"""The folders of src are layers: a file includes its own folder and those above it in the list; contact/ and
+reduction/ are neighbours that do not know each other. The rooms of a large folder are layers, too. No two files
+include or call each other, neither directly nor through others.
 
 Also: nothing below scene/ knows a scene or the public header, no study knows another, render/ sees base/ and the result
 format only, cli/ sees the public headers only, and modules export amontons_ symbols only.
@@ -15,21 +16,43 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
+LAYERS = ["base", "io", "fem", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_simulation.h", "amontons_stability.h")
-CAIRO = r"render/(canvas|shapes|text)\.[ch]"
+CAIRO = r"render/canvas/(canvas|drawing|text)\.[ch]"
+NEIGHBOURS = {"contact", "reduction"}
 STUDIES = ["study/stability", "study/line", "study/sweep"]
+# A room includes itself and the rows above it; rooms of a row do not know each other. What is in none includes all.
+ROOMS = {
+    "io": ["files", "text hdf5 video cache", "mesh", "fields"],
+    "study/sweep": ["reading", "computing", "showing"],
+    "render": ["canvas", "plot figures", "film frames"],
+}
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
+def split(folder):
+    """("io", "mesh") of "io/mesh", ("fem", "") of "fem": where it stands, and which room of it."""
+    home = next((home for home in ROOMS if folder.startswith(home + "/")), None)
+    return (home, folder[len(home) + 1:]) if home else (folder, "")
+
+
+def rooms_allow(folder, target):
+    """Whether a file in `folder` may include one in `target`, as far as their rooms say."""
+    (home, room), (target_home, target_room) = split(folder), split(target)
+    if home != target_home or not room:
+        return True
+    row = {name: k for k, names in enumerate(ROOMS[home]) for name in names.split()}
+    return target_room == room or row.get(target_room, len(row)) < row[room]
+
+
 def allowed(folder, include):
-    """Whether a file in `folder` ("bulk", "render", "" for amontons.h) may include `include`."""
+    """Whether a file in `folder` ("fem", "render/plot", "" for amontons.h) may include `include`."""
     layer = folder.split("/")[0]
     if include == "amontons_error.h":
         return folder in ("base", "")   # what base/error.h shows to everybody
     if include == "amontons_pictures.h":
-        return folder in ("render", "")   # what render/render.h is asked
+        return layer in ("render", "")   # what render/render.h is asked
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
     if include in ("build_record.h", "computing_sources.h", "page_resources.h"):
@@ -38,17 +61,24 @@ def allowed(folder, include):
         return False
     if folder == "":
         return include.startswith(("base/", "amontons"))   # the public header and its parts
-    if folder == "render":
+    if include == "render/render.h":
+        return True
+    if not rooms_allow(folder, include.rpartition("/")[0]):
+        return False
+    if layer == "render":
         return include.startswith(("base/", "render/")) or include in (
-            "io/array_file.h", "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/own_mark.h", "io/part_file.h", "io/html_writer.h", "io/result_file.h",
-            "io/video_file.h", "io/yaml_document.h", "io/shape.h")   # fields inside an element
+            "io/files/folder.h", "io/files/own_mark.h", "io/files/part_file.h", "io/text/html_writer.h", "io/text/yaml_document.h",
+            "io/hdf5/array_file.h", "io/hdf5/result_file.h", "io/video/video_file.h", "io/mesh/mesh_file.h", "io/fields/field_read.h",
+            "io/mesh/shape_functions.h")   # fields inside an element
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")
-    if include in (*PUBLIC, "render/render.h"):
+    if include in PUBLIC:
         return True
     target, *inner = include.split("/")[:-1]
-    if target == layer == "study" and inner != folder.split("/")[1:]:
+    if target == layer == "study" and inner[:1] != folder.split("/")[1:2]:
         return False   # one kind of study knows nothing of another
+    if {target, layer} == NEIGHBOURS:
+        return False
     return target in LAYERS and LAYERS.index(target) <= LAYERS.index(layer)
 
 
@@ -58,8 +88,10 @@ def violations(root):
     files = [*root.glob("src/**/*"), *root.glob("render/**/*")]
     for path in sorted(f for f in files if f.suffix in (".c", ".h", ".cc")):
         place = path.relative_to(root).parts
-        folder = "render" if place[0] == "render" else "/".join(place[1:-1])
-        if folder not in [*LAYERS, *STUDIES, "render", ""] or folder == "study":
+        folder = "/".join(place[place[0] == "src":-1])
+        home, room = split(folder)
+        if home not in [*LAYERS, *STUDIES, "render", ""] or folder in ("study", "io") or \
+                room and room not in " ".join(ROOMS[home]).split():
             found.append(f"{'/'.join(place)}: {folder} is not a layer")
             continue
         for include in OWN_INCLUDE.findall(path.read_text()):
@@ -140,50 +172,67 @@ class Layers(unittest.TestCase):
     def test_sees_faults(self):
         """Each rule catches the file that breaks it, and nothing else."""
         faults = {
-            "src/base/a.c": "io/array_file.h",
-            "src/bulk/a.c": "contact/rod.h",
-            "src/bulk/b.c": "amontons_error.h",
+            "src/base/a.c": "io/hdf5/array_file.h",
+            "src/fem/a.c": "contact/rod.h",
+            "src/fem/b.c": "amontons_error.h",
+            "src/fem/c.c": "reduction/reduction.h",
+            "src/contact/b.c": "reduction/machine.h",
+            "src/reduction/a.h": "contact/rod.h",
             "src/stepping/a.h": "scene/scene.h",
             "src/contact/a.c": "amontons.h",
             "src/run/a.c": "cli/options.h",
             "src/cli/a.c": "scene/scene.h",
             "src/study/line/a.c": "study/sweep/sweep.h",
             "src/record/a.c": "scene/scene.h",
-            "src/io/a.cc": "render/render.h",
+            "src/io/fields/a.cc": "render/render.h",
+            "src/io/files/a.c": "io/text/json_writer.h",
+            "src/io/text/a.c": "io/hdf5/array_file.h",
+            "src/io/mesh/a.c": "io/fields/field_grid.h",
+            "src/study/sweep/reading/a.c": "study/sweep/computing/point.h",
+            "src/study/sweep/showing/a.c": "study/sweep/refine.h",
             "src/run/b.c": "utils/list.h",
             "src/amontons.h": "scene/scene.h",
             "render/a.c": "record/history.h",
-            "render/b.c": "io/field_file.h",
+            "render/film/b.c": "io/fields/field_file.h",
+            "render/plot/a.c": "render/figures/zoom.h",
         }
         good = {
-            "src/bulk/good.c": ["bulk/mesh.h", "io/mesh_file.h", "base/error.h"],
+            "src/io/mesh/good.c": ["io/mesh/mesh_file.h", "io/cache/cache_folder.h", "io/files/folder.h", "base/error.h"],
+            "src/study/sweep/good.c": ["study/sweep/showing/table.h", "study/sweep/refine.h"],
+            "src/study/sweep/computing/good.c": ["study/sweep/reading/study.h", "run/simulation_state.h"],
+            "src/fem/good.c": ["fem/mesh.h", "io/mesh/mesh_file.h", "base/error.h"],
+            "src/contact/good.c": ["contact/rod.h", "fem/mesh.h"],
+            "src/reduction/good.c": ["reduction/machine.h", "fem/mesh.h"],
+            "src/stepping/good.c": ["contact/rod.h", "reduction/machine.h"],
             "src/study/line/good.c": ["study/line/model1d.h", "run/simulation_state.h"],
             "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],
-            "render/good.c": ["render/render.h", "io/result_file.h", "base/memory.h"],
+            "render/film/good.c": ["render/render.h", "render/canvas/page.h", "render/figures/zoom.h"],
+            "render/good.c": ["render/render.h", "io/hdf5/result_file.h", "base/memory.h"],
         }
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             for name, includes in [*((f, [i]) for f, i in faults.items()), *good.items()]:
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text("".join(f'#include "{i}"\n' for i in includes))
-            (root / "src/utils").mkdir()
-            (root / "src/utils/list.c").write_text("")
+            for name in ("src/utils/list.c", "src/io/list.c", "src/fem/list/list.c", "src/io/misc/list.c"):
+                (root / name).parent.mkdir(exist_ok=True)
+                (root / name).write_text("")
             expected = [f"{name} includes {include}" for name, include in faults.items()]
-            expected.append("src/utils/list.c: utils is not a layer")
+            expected += [f"src/{name}/list.c: {name} is not a layer" for name in ("utils", "io", "fem/list", "io/misc")]
             self.assertEqual(sorted(violations(root)), sorted(expected))
 
     def test_no_library_below_its_layer(self):
         """Each library is behind one of our files: nothing else includes its header."""
         owners = {
-            "gmshc.h": r"src/io/mesh_\w+_module\.c",
+            "gmshc.h": r"src/io/mesh/mesh_\w+_module\.c",
             "cholmod.h": r"src/base/sparse\w*\.[ch]",
-            "hdf5.h": r"src/io/array_(file_module|attribute|disk|series)\.[ch]",
-            "libfyaml.h": r"src/io/yaml_\w+\.[ch]",
+            "hdf5.h": r"src/io/hdf5/array_(file_module|attribute|disk|series)\.[ch]",
+            "libfyaml.h": r"src/io/text/yaml_\w+\.[ch]",
             "cairo[\\w-]*.h": CAIRO,
-            "(?:osmesa|egl|gl|glext).h": r"render/gl_image\.c",
-            "png.h": r"render/png_encode\.c",
-            "vtk\\w*.h": r"src/io/field_file_module\.cc",
+            "(?:osmesa|egl|gl|glext).h": r"render/canvas/gl_image\.c",
+            "png.h": r"render/canvas/png_encode\.c",
+            "vtk\\w*.h": r"src/io/fields/field_file_module\.cc",
         }
         for path in sorted(f for top in ("src", "render") for f in (SOURCE / top).rglob("*.[ch]*")):
             name = str(path.relative_to(SOURCE))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every file that any command writes or reads, as src/io/own_mark.h lists them: what somebody has put in its place, a file, a
+"""Every file that any command writes or reads, as src/io/files/own_mark.h lists them: what somebody has put in its place, a file, a
 link or a pipe, is neither lost nor waited for. A command whose files the list lacks fails here."""
 import fnmatch
 import os
@@ -53,7 +53,7 @@ STANDARD = b"somebody's, and long enough to be worth something\n"
 
 def rows():
     """(pattern, mark) of each row of the list."""
-    text = (SOURCE / "src/io/own_mark.h").read_text()
+    text = (SOURCE / "src/io/files/own_mark.h").read_text()
     words = dict(re.findall(r'#define (OWN_\w+) "((?:[^"\\]|\\.)*)"', text))
     found = re.findall(r'X\("([^"]+)", (?:"((?:[^"\\]|\\.)*)"|(OWN_\w+))\)', text)
     return [(pattern, (words[word] if word else mark).encode().decode("unicode_escape").encode())
@@ -139,7 +139,7 @@ class OwnFiles(unittest.TestCase):
             for path in paths:
                 with self.subTest(command=name, file=str(path)):
                     row = row_of(path)
-                    self.assertIsNotNone(row, "add it to OWN_MARKS, src/io/own_mark.h")
+                    self.assertIsNotNone(row, "add it to OWN_MARKS, src/io/files/own_mark.h")
                     met.add(row[0])
                     held = (self.stock / path).read_bytes()
                     self.assertTrue(not held or row[1] in held[:1 << 20] + held[-(1 << 20):])

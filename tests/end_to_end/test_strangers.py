@@ -27,7 +27,7 @@ def runs(values, answer="mu_hold", drift=0, late=0):
 
 
 def asked(value, bar):
-    return {"status": 0, "said": "", "mu_hold": value, "mu_hold_error": bar}
+    return {"status": 0, "said": "", "mu_hold": value, "mu_hold_error": bar, "levels": [{"refine": 1.2}]}
 
 
 class Problems(unittest.TestCase):
@@ -45,7 +45,7 @@ class Problems(unittest.TestCase):
 
     def test_program_takes_a_sample(self):
         with tempfile.TemporaryDirectory() as folder:
-            for number in range(1, 201, 13):
+            for number in (*range(1, 201, 13), 115):      # 115: a profile that ends at the contact's end in five digits
                 seconds, said = strangers.forecast(problems.problem(number).write(Path(folder)))
                 self.assertIsNotNone(seconds, f"{number}: {said}")
 
@@ -54,7 +54,7 @@ class Judge(unittest.TestCase):
     def test_reading_of_a_run(self):
         """The second half alone; the lowest of drops that repeat, else their lowest decile; a drift between quarters."""
         peaks = [{"U": u, "mu": mu} for u, mu in ((1, 9), (4, 8), (6, 0.4), (7, 0.5), (8, 0.6), (9, 0.7))]
-        report = {"results": {"peaks": peaks, "drops": {"period": 1, "list": peaks}}}
+        report = {"results": {"peaks": peaks, "drops": {"period": 1, "list": peaks}, "mu_M_is": "peaks", "mu_steady": 0.3}}
         found = judge.reading(report, 10)
         self.assertAlmostEqual(found["mu_M"], 0.55)
         self.assertEqual(found["mu_hold"], 0.4)
@@ -63,6 +63,9 @@ class Judge(unittest.TestCase):
         self.assertAlmostEqual(judge.reading(report, 10)["mu_hold"], 0.43)
         self.assertIsNone(judge.reading(report, 16)["mu_M"])
         self.assertIsNone(judge.reading(report, 12)["mu_M"])       # three, but none in the last quarter
+        report["results"] |= {"peaks": peaks[:2], "drops": {"period": 0, "list": []}, "mu_M_is": "steady sliding"}
+        self.assertEqual(judge.reading(report, 10)["mu_M"], 0.3)
+        self.assertIsNone(judge.reading(report, 7)["mu_M"])        # a peak in the second half: it did not slide steadily all along
 
     def test_reference_of_meshes_that_scatter(self):
         truth = judge.reference(runs([[0.3, 0.31, 0.32], [0.32, 0.33, 0.34], [0.31, 0.31, 0.4], [0.31, 0.4, 0.5]]), "mu_hold")
@@ -85,7 +88,7 @@ class Judge(unittest.TestCase):
         self.assertIsNone(judge.reference(runs([[None] * 3] * 3, late=2), "mu_hold"))      # too few drops are not none
 
     def test_verdicts(self):
-        truth, rough, none = judge.Reference(0.30, 0.001), judge.Reference(0.30, 0.01), judge.Reference(None)
+        truth, rough, none = judge.Reference(0.30, 0.001, 3, 1.2), judge.Reference(0.30, 0.01, 3, 1.2), judge.Reference(None)
         for value, bar, of, kind in ((0.305, 0.01, truth, "held"), (0.315, 0.01, truth, "broken"), (0.305, None, truth, "not known"),
                                      (None, None, truth, "not known"), (None, None, none, "held"), (0.3, 0.1, none, "broken"),
                                      (0.315, 0.01, rough, "no reference"), (0.36, 0.01, rough, "broken"), (0.3, 0.01, None, "no reference")):
@@ -93,6 +96,8 @@ class Judge(unittest.TestCase):
             self.assertEqual(found.kind, kind, (value, bar, of))
         self.assertAlmostEqual(judge.verdict(1, "mu_hold", asked(0.315, 0.01), truth).ratio, 1.5)
         self.assertEqual(judge.verdict(1, "mu_hold", asked(0.3, 0.01) | {"status": 2}, truth).kind, "refused")
+        finer = {"levels": [{"refine": 1}, {"refine": truth.finest + 0.1}]}
+        self.assertEqual(judge.verdict(1, "mu_hold", asked(0.315, 0.01) | finer, truth).kind, "no reference")
 
     def test_acceptance(self):
         held = [judge.Verdict(k, "mu_M", "held", 0.1 + 0.04 * (k % 20)) for k in range(19)]

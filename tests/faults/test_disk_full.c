@@ -3,7 +3,7 @@
 // that says so, and no file with a final name is half a file.
 #include "base/memory.h"
 #include "block_mesh.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 #include "result_place.h"
 #include "small_scene.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is looked for in a .geo before gmsh sees it. It lies in a folder of its own, so that what it
 // includes is not another open file of the fuzzer.
-#include "io/geo_commands.h"
-#include "io/geo_parameters.h"
+#include "io/mesh/geo_commands.h"
+#include "io/mesh/geo_parameters.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdio.h>

@@ -2,8 +2,8 @@
 // A history that is a whole HDF5 file but not one of ours: arrays of other types, shapes and
 // lengths, or missing, from letters as in fuzz_mesh. (What damaged bytes do inside HDF5 is another
 // question, to which a process of its own is the answer: base/apart.)
-#include "io/result_file.h"
-#include "render/result_view.h"
+#include "io/hdf5/result_file.h"
+#include "render/figures/result_view.h"
 #include "run/info.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // run.json, of which sweeps and `amontons info` look up single values.
-#include "io/json_reader.h"
+#include "io/text/json_reader.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <string.h>

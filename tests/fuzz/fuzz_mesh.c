@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The border to gmsh: tags, positions, elements and groups as its interface may deliver them, from
 // letters: '0' is 0, 'A' is 17, and so on. What is accepted is looked through.
-#include "bulk/mesh.h"
-#include "io/mesh_raw.h"
+#include "fem/mesh.h"
+#include "io/mesh/mesh_raw.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <math.h>

@@ -184,7 +184,7 @@ def in_source(name):
 
 
 def left(n, m):
-    """As far_patches_left of src/bulk/far_patches.c."""
+    """As far_patches_left of src/reduction/far_patches.c."""
     return min(n, 1.5 * int(min(max(8000 / m, 8), 20)) * m) if m >= 100 else n
 
 

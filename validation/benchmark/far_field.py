@@ -5,7 +5,7 @@
     validation/benchmark/far_field.py [--cells 40] [--distance 8 12 16 24] [--least 0.25] [--at-rest 1e-12] [--step 6]
                                       [--chunk 24] [--share 0.75]
 
-Unknowns farther than `distance` elements from the interface become motions, as src/bulk/far_samples.c finds them, in one patch (the program: many, in layers):
+Unknowns farther than `distance` elements from the interface become motions, as src/reduction/far_samples.c finds them, in one patch (the program: many, in layers):
 answers to random motions of the interface, at rest and in turns at inertias `step` apart, `chunk` at once, until less than
 `share` of them is new; new is what has an energy of `least` times tolerance^2, `at-rest` at rest. Shown: motions, unknowns that are left, motions asked,
 and the worst error of S at points drawn at random, over what is allowed. 40 x 40 cells take 20 s."""

@@ -54,7 +54,7 @@ def make_history(program, folder):
 
 
 def make_sweep(folder, scattered):
-    """As study/sweep/table writes it."""
+    """As study/sweep/showing/table writes it."""
     random, side = np.random.default_rng(3), (400, POINTS // 400)
     if scattered:
         pressure, length = 10 ** (3 * random.random(POINTS) - 4), 10 ** (2 * random.random(POINTS) - 1)

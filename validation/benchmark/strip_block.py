@@ -9,7 +9,7 @@ import scipy.sparse
 from scipy.sparse.linalg import splu
 
 POISSON, HEIGHT, STRIP = 0.34, 0.5, (0.225, 0.275)
-MESH_SHARE, LEVEL_RATIO, LEVEL_LOWEST = 2.5, 100, 0.1   # of src/bulk/reduction.c, strip.c
+MESH_SHARE, LEVEL_RATIO, LEVEL_LOWEST = 2.5, 100, 0.1   # of src/reduction/reduction.c, training_points.c
 GAUSS = 1 / math.sqrt(3)
 
 

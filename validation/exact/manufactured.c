@@ -10,8 +10,8 @@
 //   amontons_manufactured MESH.geo name=value ...
 #include "base/dense.h"
 #include "base/memory.h"
-#include "bulk/assembly.h"
-#include "bulk/element.h"
+#include "fem/assembly.h"
+#include "fem/element.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,7 @@ static void chosen(double x, double z, double u[2], double gradient[2][2], doubl
 }
 
 // -div sigma of plane stress, sigma = dev eps + lam tr(eps) I, with moduli that owe nothing to
-// bulk/material:  (dev + lam) u_x,xx + lam u_z,xz + dev/2 (u_x,zz + u_z,xz), and likewise along z.
+// fem/material:  (dev + lam) u_x,xx + lam u_z,xz + dev/2 (u_x,zz + u_z,xz), and likewise along z.
 static void body_force(const Material *material, double x, double z, double force[2])
 {
     double u[2], gradient[2][2], s[2][3], nu = material->poisson;
@@ -93,7 +93,7 @@ typedef struct Place {
 static Place place_at(ElementKind kind, const double (*position)[2], const double point[2],
                       double weight)
 {
-    Place place = {.shape = shape_at(kind, point[0], point[1])};
+    Place place = {.shape = shape_at(kind, point)};
     place.weight = weight * element_strain_matrix(kind, position, point, place.b);
     for (int32_t a = 0; a < element_node_count(kind); a++) {
         place.x += place.shape.value[a] * position[a][0];

@@ -2,8 +2,8 @@
 // Mistakes in the bulk and in the matrix of a stage.
 #include "mistake.h"
 
-#include "bulk/interface_operator.h"
-#include "bulk/material.h"
+#include "reduction/interface_operator.h"
+#include "fem/material.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 // machine, output by window. scenes.py says which tests must see them.
 #include "mistake.h"
 
-#include "bulk/machine.h"
-#include "bulk/mesh.h"
+#include "reduction/machine.h"
+#include "fem/mesh.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"

@@ -110,6 +110,13 @@ class Verdict:
     said: str = ""
 
 
+def reaches(truth, asked, most=math.inf):
+    """Whether the reference goes to meshes as fine as the finest of the answer (`most`: than which none is asked for). A
+    branch that only fine meshes come to, as where slip gets past the last nodes, is no fault of the finer ones."""
+    finest = max((level["refine"] for level in asked["levels"]), default=1)
+    return truth.finest >= min(finest, most) * (1 - 1e-9)
+
+
 def decides(truth, value, bar):
     """Whether its own error is below a third of the bar; or the answer so far off, or so near, that it does not matter."""
     error = abs(value - truth.value)
@@ -117,7 +124,7 @@ def decides(truth, value, bar):
 
 
 def verdict(number, answer, asked, truth):
-    """asked: {"status", "mu_M", "mu_M_error", ...} of a run with --to; truth: its Reference, or None."""
+    """asked: {"status", "mu_M", "mu_M_error", "levels", ...} of a run with --to; truth: its Reference, or None."""
     if asked["status"] != 0:
         return Verdict(number, answer, "refused", said=asked["said"][:200])
     value, bar = asked[answer], asked[f"{answer}_error"]
@@ -131,7 +138,8 @@ def verdict(number, answer, asked, truth):
     if bar is None:
         return Verdict(number, answer, "not known", said=f"off by {100 * (value / truth.value - 1):.1f} %")
     error = abs(value - truth.value)
-    kind = "no reference" if not decides(truth, value, bar) else "held" if error <= bar else "broken"
+    known = decides(truth, value, bar) and reaches(truth, asked)
+    kind = "no reference" if not known else "held" if error <= bar else "broken"
     return Verdict(number, answer, kind, error / bar)
 
 

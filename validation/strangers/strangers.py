@@ -128,10 +128,9 @@ def reference_run(one, scene, place, longer, limit):
 
 def enough(asked, runs):
     """Whether the reference is known well enough for each bar that was given."""
-    finest = max((level["refine"] for level in asked["levels"]), default=1)
     for name in judge.ANSWERS:
         truth, value, bar = judge.reference(runs, name), asked[name], asked[f"{name}_error"]
-        if truth is None or truth.finest < min(finest, LADDER[-1]):
+        if truth is None or not judge.reaches(truth, asked, LADDER[-1]):
             return False
         if truth.value is not None and value is not None and bar and not judge.decides(truth, value, bar):
             return False

@@ -4,8 +4,8 @@
 // (keys end in _over_L), in the scene's units in the arrays. The JSON is written last.
 #include "study/line/model1d.h"
 
-#include "io/array_file.h"
-#include "io/json_writer.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/json_writer.h"
 #include "scene/keys.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 // null. The JSON is written last: where it exists, the arrays are complete.
 #include "study/stability/stability.h"
 
-#include "io/array_file.h"
-#include "io/json_writer.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/json_writer.h"
 #include "scene/keys.h"
 
 #include <math.h>

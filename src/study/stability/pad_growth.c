@@ -6,7 +6,7 @@
 //
 //     drag       smallest v' S_C[T,T] v / v' w v over slips v of the whole pad
 //     stiffness  smallest v' S_K[T,T] v / v' w v
-//     load(J)    largest weakening over the resistance S(s) = s M + C + K/s of J, over s
+//     ratio(J)    largest weakening over the resistance S(s) = s M + C + K/s of J, over s
 //                (stepping/growth, growth_scan); it rises with J, and l_c is where it reaches 1
 //
 // Shorter contacts resist more. Of the pad that takes part most, a part in the middle alone is put
@@ -19,7 +19,7 @@
 // Drag is what a geometry has of viscosity against slip: eta1/2 over H for a layer of height H that
 // shears, about eta over the length for a short pad on a large block. Weakening over drag,
 // (mu_S - mu_K) p / (v_c drag), decides where slip begins to oscillate; elasticity and inertia
-// together resist more, so a pad runs away by itself only where load > 1.
+// together resist more, so a pad runs away by itself only where that ratio > 1.
 #include "study/stability/stability.h"
 
 #include "base/dense.h"
@@ -86,7 +86,7 @@ static bool softest_slip(PadWork *work, const InterfaceOperator *condensed, doub
         for (int32_t a = 0; a < work->count; a++) {
             int32_t i = work->nodes[a];
             work->matrix[(int64_t)work->count * b + a] =
-                schur[size * interface_tangent(j) + interface_tangent(i)] /
+                schur[size * interface_tangent(interface, j) + interface_tangent(interface, i)] /
                 sqrt(interface->weight[i] * interface->weight[j]);
         }
     }
@@ -106,34 +106,34 @@ static void hold_all(PadWork *work)
     for (int32_t j = 0; j < trial->rod_count; j++) trial->rod_touches[j] = 1;
 }
 
-// The load when the first `slipping` nodes of the pad slip forward, slowly, and all else is held.
-static double load_of(PadWork *work, int32_t slipping)
+// The ratio when the first `slipping` nodes of the pad slip forward, slowly, and all else is held.
+static double ratio_of(PadWork *work, int32_t slipping)
 {
     State *trial = &work->trial;
     hold_all(work);
     for (int32_t a = 0; a < slipping; a++) {
         int32_t i = work->nodes[a];
         trial->status[i] = CONTACT_SLIP_FORWARD;
-        trial->slip_rate[interface_tangent(i)] = 0;
+        trial->slip_rate[interface_tangent(work->interface, i)] = 0;
     }
-    return growth_scan(work->path->growth, trial).load;
+    return growth_scan(work->path->growth, trial).ratio;
 }
 
 // Linear between the last number of nodes that is stable and the next.
 static double critical_length(PadWork *work)
 {
     int32_t holds = 0, fails = work->count;
-    double below = 0, above = load_of(work, fails);
+    double below = 0, above = ratio_of(work, fails);
     if (!(above >= 1)) return NAN;
     while (fails - holds > 1) {
         int32_t middle = (holds + fails) / 2;
-        double load = load_of(work, middle);
-        if (load >= 1) {
+        double ratio = ratio_of(work, middle);
+        if (ratio >= 1) {
             fails = middle;
-            above = load;
+            above = ratio;
         } else {
             holds = middle;
-            below = load;
+            below = ratio;
         }
     }
     double length = 0;
@@ -155,9 +155,9 @@ static bool growth_of_contact(PadWork *work, int32_t touching, double *rate, Err
         int32_t i = work->nodes[a];
         bool inside = a >= first && a <= last, end = a == first || a == last;
         trial->status[i] = inside ? CONTACT_SLIP_FORWARD : CONTACT_OPEN;
-        trial->slip_rate[interface_tangent(i)] = 0;
-        trial->reaction[interface_normal(i)] = work->pressure * work->interface->weight[i] *
-                                               (end ? 0.5 : 1);
+        trial->slip_rate[interface_tangent(work->interface, i)] = 0;
+        trial->reaction[interface_normal(work->interface, i)] =
+            work->pressure * work->interface->weight[i] * (end ? 0.5 : 1);
     }
     TRY(growth_rates(work->path->growth, trial, &rates, err));
     *rate = rates.count > 0 ? rates.rate[0].re : -INFINITY;
@@ -200,20 +200,22 @@ static double fall_of_mu(PadWork *work)
         int32_t i = work->nodes[a];
         const FrictionLaw *own = friction_at(law, i);
         double kinetic = fmax(own->mu_static - friction_drop(own), 0);
-        work->values[a] = fabs(path->runaway.reaction[interface_tangent(i)]) -
-                          kinetic * path->runaway.reaction[interface_normal(i)];
+        work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
+                          kinetic * path->runaway.reaction[interface_normal(interface, i)];
         for (int32_t b = 0; b < work->count; b++)
             work->matrix[(int64_t)work->count * b + a] =
-                schur[size * interface_tangent(work->nodes[b]) + interface_tangent(i)];
+                schur[size * interface_tangent(interface, work->nodes[b]) +
+                      interface_tangent(interface, i)];
     }
     if (!dense_lu(work->matrix, work->count, work->pivots)) return NAN;   // it floats
     dense_lu_solve(work->matrix, work->count, work->pivots, work->values);
     for (int32_t a = 0; a < work->count; a++)
         for (int32_t j = 0; j < interface->rod_count; j++)
-            fall -= schur[size * interface_tangent(work->nodes[a]) + interface_rod(interface, j)] *
+            fall -= schur[size * interface_tangent(interface, work->nodes[a]) +
+                          interface_rod(interface, j)] *
                     work->values[a];
     for (int32_t i = 0; i < interface->contact_count; i++)
-        load += path->runaway.reaction[interface_normal(i)];
+        load += path->runaway.reaction[interface_normal(interface, i)];
     return fall / load;
 }
 
@@ -229,7 +231,7 @@ static void sum_pad(const PadWork *work, StabilityPad *pad)
         int32_t i = work->nodes[a];
         double weight = interface->weight[i];
         pad->length += weight;
-        pad->pressure += state->reaction[interface_normal(i)];
+        pad->pressure += state->reaction[interface_normal(interface, i)];
         if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
         pad->mode += weight * hypot(re[i], im[i]);
     }
@@ -256,7 +258,7 @@ static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
     sum_pad(work, pad);
     TRY(softest_slip(work, work->path->control.certificate.damping, &pad->drag, err));
     TRY(softest_slip(work, work->stiffness, &pad->stiffness, err));
-    pad->load = load_of(work, work->count);
+    pad->load = ratio_of(work, work->count);
     pad->l_c = critical_length(work);
     pad->mu_fall = fall_of_mu(work);
 cleanup:

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_STUDY_SWEEP_REFINE_H
 #define AMONTONS_STUDY_SWEEP_REFINE_H
 
-#include "study/sweep/point.h"
+#include "study/sweep/computing/point.h"
 
 // A round begins: chosen points get a smaller accuracy.mu, and wait to be computed where no earlier
 // sweep did. *before: the points as they were, [point_count], the caller's to free (memory_free);

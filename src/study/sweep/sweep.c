@@ -4,19 +4,19 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
-#include "io/folder.h"
-#include "io/open_file.h"
-#include "io/own_mark.h"
-#include "study/sweep/figure_plot.h"
-#include "study/sweep/figure_ranking.h"
-#include "study/sweep/pool.h"
+#include "io/files/folder.h"
+#include "io/files/open_file.h"
+#include "io/files/own_mark.h"
+#include "study/sweep/computing/block_counts.h"
+#include "study/sweep/computing/pool.h"
+#include "study/sweep/computing/share.h"
+#include "study/sweep/computing/slurm.h"
+#include "study/sweep/computing/tally.h"
+#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study_read.h"
 #include "study/sweep/refine.h"
-#include "study/sweep/share.h"
-#include "study/sweep/sharing.h"
-#include "study/sweep/slurm.h"
-#include "study/sweep/study_point.h"
-#include "study/sweep/study_read.h"
-#include "study/sweep/tally.h"
+#include "study/sweep/showing/figure_plot.h"
+#include "study/sweep/showing/figure_ranking.h"
 
 #include <errno.h>
 #include <string.h>
@@ -155,16 +155,16 @@ cleanup:
 static bool plan_points(Sweep *sweep, Error *err)
 {
     PointMesh mesh = {0};
-    Sharing sharing = {0};
+    BlockCounts counts = {0};
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
-    TRY(sharing_create(sweep->study.point_count, &sharing, err));
+    TRY(block_counts_create(sweep->study.point_count, &counts, err));
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         TRY(point_scene(sweep, k, scene, err));
         TRY(point_hash(scene, &mesh, point->hash, err));
-        TRY(sharing_note(scene, &mesh, &sharing, err));
+        TRY(block_counts_note(scene, &mesh, &counts, err));
         if (sweep->study.keep_table) TRY(check_table(sweep, scene, err));
         if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
             FAIL(err, ERROR_INPUT,
@@ -172,11 +172,11 @@ static bool plan_points(Sweep *sweep, Error *err)
                  "`set: {accuracy.mu: 3%%}`",
                  sweep->study.path);
     }
-    TRY(sharing_count(&sharing, sweep->points, err));
+    TRY(block_counts_set(&counts, sweep->points, err));
     TRY(points_find_same(sweep, err));
     TRY(find_baselines(sweep, &mesh, scene, err));
 cleanup:
-    sharing_destroy(&sharing);
+    block_counts_destroy(&counts);
     memory_free(scene);
     return error_is_clean(err);
 }
@@ -191,17 +191,17 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
     if (sweep->study.rank.wanted) {
         TRY(ranking_make(sweep, &table, &ranking, err));
         TRY(ranking_write(sweep, &table, &ranking, err));
-        if (whole) TRY(ranking_print(sweep, &ranking, err));
+        if (whole) TRY(ranking_print(sweep, &table, &ranking, err));
         if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
     for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
         TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
-    if (sweep->options->out && table.mesh_left_out)
+    if (sweep->options->out && table.no_bar)
         fprintf(sweep->options->out,
-                "\nAt %d of %d points errors leave out the mesh's, which is not known; a study's "
-                "`set: {accuracy.mu: 1%%}` asks for it\n",
-                table.mesh_left_out, sweep->study.point_count);
+                "\nAt %d of %d points there is no error bar: mu is known to what a mesh usually "
+                "leaves; a study's `set: {accuracy.mu: 1%%}` asks for bars\n",
+                table.no_bar, sweep->study.point_count);
 cleanup:
     ranking_destroy(&ranking);
     table_destroy(&table);

@@ -159,7 +159,7 @@ static void test_no_beginning(void **state)
 static void test_memory(void **state)
 {
     (void)state;
-    Interface interface = {.contact_count = 2, .count = 4};
+    Interface interface = {.dim = 2, .contact_count = 2, .count = 4};
     int64_t live = memory_counters().live, k = 0;
     for (bool made = false; !made; k++) {
         Error err = {0};

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "contact_by_hand.h"
+#include "plane.h"
 
 // One node:  S = [s_t c; c s_n],  with g and bound as they come.
 typedef struct OneNode {
@@ -228,8 +229,8 @@ static void test_two_nodes(void **state)
             const double s[] = {2, 0, -1, 0, 0, 1, 0, 0, -1, 0, 2, 0, 0, 0, 0, 1};
             memcpy(hand.schur, s, sizeof s);
             for (int32_t i = 0; i < 2; i++) {
-                hand.g[interface_tangent(i)] = cases[k].g[i];
-                hand.g[interface_normal(i)] = -10;
+                hand.g[plane_tangent(i)] = cases[k].g[i];
+                hand.g[plane_normal(i)] = -10;
                 hand.status[i] = (uint8_t)(i ? guess / 4 : guess % 4);
             }
             assert_true(hand_contact_solve(&hand));

@@ -4,10 +4,9 @@
 #include "model/basis_cache.h"
 
 #include "base/memory.h"
-#include "io/cache_file.h"
 #include "random_numbers.h"
 #include "cache_fixture.h"
-#include "unit/bulk/reduced_block.h"
+#include "unit/reduction/reduced_block.h"
 
 enum { PATH_SIZE = 2 * PLACE_SIZE, M = 7, ALL = 11, DOFS = 40, LEVELS = 3 };
 static const char NAME[] = "00112233445566778899aabbccddeeff";
@@ -94,56 +93,56 @@ static void test_round_trip(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-static void make_fold(int32_t count, int32_t whole, int32_t first, Fold *fold)
+static void make_map(int32_t count, int32_t whole, int32_t first, SymmetryMap *map)
 {
     Error err = {0};
-    assert_true(fold_create(count, fold, &err));
+    assert_true(symmetry_map_create(count, map, &err));
     for (int32_t k = 0; k < count; k++) {
         int32_t other = k + 1 < count ? whole - 1 - k : first + k;
-        fold_append(fold, first + k, other, k % 2 ? -1 : 1);
+        symmetry_map_append(map, first + k, other, k % 2 ? -1 : 1);
     }
 }
 
-// M = 7 and 2 images: halves of 5 and 4 on the border, 3 and 2 inside.
-static void make_halves(ReducedBulk *reduced)
+// M = 7 and 2 mirrored unknowns: parts of 5 and 4 on the border, 3 and 2 inside.
+static void make_parts(ReducedBulk *reduced)
 {
-    enum { IMAGES = 2 };
+    enum { MIRRORED = 2 };
     static const int32_t border[] = {5, 4}, interior[] = {3, 2}, dofs[] = {21, DOFS - 21};
     Error err = {0};
     Random random = {.state = 9};
     *reduced = (ReducedBulk){.full_dofs = DOFS,
                              .interface_count = M,
-                             .interior_count = IMAGES + 5,
-                             .count = M + IMAGES + 5,
-                             .load = random_array(&random, M + IMAGES + 5),
-                             .half = NEW_ARRAY(ReducedBulk, 2, &err),
-                             .halves = NEW_ARRAY(Halves, 1, &err)};
-    Halves *halves = reduced->halves;
-    *halves = (Halves){.interface_count = M,
-                       .images = IMAGES,
-                       .at_rest = {.follow = random_array(&random, IMAGES * M),
-                                   .lower = random_array(&random, IMAGES * IMAGES)}};
-    for (int h = 0; h < 2; h++) {
-        ReducedBulk *half = &reduced->half[h];
-        int32_t m = border[h], all = m + interior[h];
-        halves->interior[h] = interior[h];
-        make_fold(m, M + IMAGES, h, &halves->border[h]);
-        make_fold(dofs[h], DOFS, h, &halves->mesh[h]);
-        *half = (ReducedBulk){.full_dofs = dofs[h],
+                             .interior_count = MIRRORED + 5,
+                             .count = M + MIRRORED + 5,
+                             .load = random_array(&random, M + MIRRORED + 5),
+                             .part = NEW_ARRAY(ReducedBulk, 2, &err),
+                             .symmetry = NEW_ARRAY(SymmetryParts, 1, &err)};
+    SymmetryParts *symmetry = reduced->symmetry;
+    *symmetry = (SymmetryParts){.interface_count = M,
+                                .mirrored = MIRRORED,
+                                .at_rest = {.follow = random_array(&random, MIRRORED * M),
+                                            .lower = random_array(&random, MIRRORED * MIRRORED)}};
+    for (int p = 0; p < 2; p++) {
+        ReducedBulk *part = &reduced->part[p];
+        int32_t m = border[p], all = m + interior[p];
+        symmetry->interior[p] = interior[p];
+        make_map(m, M + MIRRORED, p, &symmetry->border[p]);
+        make_map(dofs[p], DOFS, p, &symmetry->mesh[p]);
+        *part = (ReducedBulk){.full_dofs = dofs[p],
                               .interface_count = m,
-                              .interior_count = interior[h],
+                              .interior_count = interior[p],
                               .count = all,
                               .mass = random_array(&random, all * all),
                               .damping = random_array(&random, all * all),
                               .stiffness = random_array(&random, m * m),
                               .viscous = random_array(&random, m * m),
                               .load = random_array(&random, all),
-                              .modes = random_array(&random, dofs[h] * all),
-                              .errors = {LEVELS, {1, 10, 1e4}, {1e-4 * (h + 1), 2e-4, 0.3}}};
+                              .modes = random_array(&random, dofs[p] * all),
+                              .errors = {LEVELS, {1, 10, 1e4}, {1e-4 * (p + 1), 2e-4, 0.3}}};
     }
 }
 
-static void assert_same_fold(const Fold *a, const Fold *b)
+static void assert_same_map(const SymmetryMap *a, const SymmetryMap *b)
 {
     assert_int_equal(a->count, b->count);
     assert_memory_equal(a->one, b->one, (size_t)a->count * sizeof *a->one);
@@ -151,44 +150,44 @@ static void assert_same_fold(const Fold *a, const Fold *b)
     assert_memory_equal(a->sign, b->sign, (size_t)a->count * sizeof *a->sign);
 }
 
-static void test_halves(void **state)
+static void test_symmetry_parts(void **state)
 {
     (void)state;
     ReducedBulk made, read;
     char note[CACHE_NOTE_SIZE] = "";
     int64_t live = memory_counters().live;
-    make_halves(&made);
+    make_parts(&made);
     assert_true(basis_cache_store(NAME, &made, note));
     for (int with_modes = 0; with_modes < 2; with_modes++) {
         assert_true(load(NAME, with_modes, &read, note));
         assert_true(read.full_dofs == DOFS && read.count == made.count);
-        assert_true(read.interior_count == made.interior_count && read.halves->images == 2);
+        assert_true(read.interior_count == made.interior_count && read.symmetry->mirrored == 2);
         assert_same(read.load, made.load, (size_t)made.count);
-        assert_same(read.halves->at_rest.follow, made.halves->at_rest.follow, 2 * M);
-        assert_same(read.halves->at_rest.lower, made.halves->at_rest.lower, 4);
-        for (int h = 0; h < 2; h++) {
-            const ReducedBulk *half = &read.half[h], *wanted = &made.half[h];
+        assert_same(read.symmetry->at_rest.follow, made.symmetry->at_rest.follow, 2 * M);
+        assert_same(read.symmetry->at_rest.lower, made.symmetry->at_rest.lower, 4);
+        for (int p = 0; p < 2; p++) {
+            const ReducedBulk *part = &read.part[p], *wanted = &made.part[p];
             size_t all = (size_t)wanted->count, m = (size_t)wanted->interface_count;
-            assert_int_equal(read.halves->interior[h], wanted->interior_count);
-            assert_same_fold(&read.halves->border[h], &made.halves->border[h]);
-            assert_same(half->mass, wanted->mass, all * all);
-            assert_same(half->damping, wanted->damping, all * all);
-            assert_same(half->stiffness, wanted->stiffness, m * m);
-            assert_same(half->viscous, wanted->viscous, m * m);
-            assert_same(half->load, wanted->load, all);
-            assert_memory_equal(&half->errors.error, &wanted->errors.error, LEVELS * 8);
+            assert_int_equal(read.symmetry->interior[p], wanted->interior_count);
+            assert_same_map(&read.symmetry->border[p], &made.symmetry->border[p]);
+            assert_same(part->mass, wanted->mass, all * all);
+            assert_same(part->damping, wanted->damping, all * all);
+            assert_same(part->stiffness, wanted->stiffness, m * m);
+            assert_same(part->viscous, wanted->viscous, m * m);
+            assert_same(part->load, wanted->load, all);
+            assert_memory_equal(&part->errors.error, &wanted->errors.error, LEVELS * 8);
             if (!with_modes) continue;
-            assert_same_fold(&read.halves->mesh[h], &made.halves->mesh[h]);
-            assert_same(half->modes, wanted->modes, (size_t)wanted->full_dofs * all);
+            assert_same_map(&read.symmetry->mesh[p], &made.symmetry->mesh[p]);
+            assert_same(part->modes, wanted->modes, (size_t)wanted->full_dofs * all);
         }
         reduced_bulk_destroy(&read);
     }
-    // Another length than its halves have together: not whole.
+    // Another length than its parts have together: not whole.
     made.interior_count++;
     made.count++;
     assert_true(basis_cache_store(NAME, &made, note));
     assert_false(load(NAME, false, &read, note));
-    assert_string_equal(note, "a cached basis is not used: an array is missing");
+    assert_string_equal(note, "a cached basis is not used: an array is missing or wrong");
     reduced_bulk_destroy(&made);
     assert_int_equal(memory_counters().live, live);
 }
@@ -225,25 +224,37 @@ static void test_not_trusted(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-// A file that is whole, but holds other arrays than a basis does.
-static void test_missing_arrays(void **state)
+// A file that is whole, but whose sizes are none: more levels than there is room for, a count of
+// which fuzzing found the first.
+static void test_impossible_sizes(void **state)
 {
     (void)state;
-    Error err = {0};
-    ReducedBulk read;
-    char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s.basis", cache, NAME);
-    double counts[4] = {DOFS, M, ALL - M, LEVELS}, few[LEVELS] = {0};
-    CacheArray arrays[] = {{"counts", 4, counts}, {"inertia", LEVELS, few}, {"error", LEVELS, few}};
-    // More levels than there is room for; counts that are none, of which fuzzing found the first.
-    static const double bad[] = {LEVELS, 1e9, 1e103, -1, 0.5, NAN};
-    for (size_t trial = 0; trial < sizeof bad / sizeof *bad; trial++) {
-        counts[3] = bad[trial];
-        counts[1] = trial < 2 ? M : bad[trial];
-        assert_true(cache_file_write(path, NAME, arrays, 3, &err));
+    ReducedBulk made, read;
+    char note[CACHE_NOTE_SIZE] = "";
+    int64_t live = memory_counters().live;
+    make_basis(5, &made);
+    int32_t *const places[] = {&made.interface_count, &made.interior_count, &made.errors.count,
+                               &made.full_dofs};
+    static const int32_t wrong[] = {-1, -1, REDUCTION_LEVELS_MAX + 1, 1 << 28};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char name[64];
+        int32_t kept = *places[k];
+        size_t size;
+        basis_cache_store(NAME, &made, note);
+        snprintf(name, sizeof name, "%s.basis", NAME);
+        char *bytes = cache_bytes(name, &size);
+        for (size_t at = 64; at < size - 32; at++)   // the first of these that holds the number
+            if (memcmp(bytes + at, &kept, sizeof kept) == 0) {
+                memcpy(bytes + at, &wrong[k], sizeof kept);
+                break;
+            }
+        cache_put(name, bytes, size);
+        free(bytes);
         assert_false(load(NAME, false, &read, note));
-        assert_string_equal(note, "a cached basis is not used: an array is missing");
+        assert_string_equal(note, "a cached basis is not used: an array is missing or wrong");
     }
+    reduced_bulk_destroy(&made);
+    assert_int_equal(memory_counters().live, live);
 }
 
 static void test_memory_faults(void **state)
@@ -308,8 +319,8 @@ static void test_recorded_basis(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_halves),
-        cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_missing_arrays),
+        cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_symmetry_parts),
+        cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_impossible_sizes),
         cmocka_unit_test(test_memory_faults), cmocka_unit_test(test_recorded_basis),
     };
     return cmocka_run_group_tests(tests, cache_begin, cache_end);

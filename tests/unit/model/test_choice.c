@@ -11,7 +11,7 @@ static ChoiceSizes block(double side, double stages)
     return (ChoiceSizes){.unknowns = 2 * (side + 1) * (side + 1),
                          .interface = 2 * (side + 1) + 0.1 * side,
                          .stages = stages,
-                         .halves = 1,
+                         .parts = 1,
                          .runs = 1};
 }
 

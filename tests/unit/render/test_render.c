@@ -3,7 +3,7 @@
 #include "render/render.h"
 
 #include "base/memory.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 
 #include <math.h>
 #include <setjmp.h>

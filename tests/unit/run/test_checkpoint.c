@@ -6,7 +6,7 @@
 #include "base/computation.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 #include "cache_fixture.h"
 #include "small_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The generated tables of docs/ are what the tables of the code say. When one differs, this writes
 // the page with the right table into the build folder, so that mending is one copy.
-#include "io/result_tables.h"
+#include "io/hdf5/result_tables.h"
 #include "scene/keys.h"
 
 #include <setjmp.h>

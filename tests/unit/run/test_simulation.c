@@ -4,7 +4,7 @@
 #include "run/simulation_state.h"
 
 #include "base/memory.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 #include "result_place.h"
 #include "small_scene.h"
 

@@ -5,6 +5,7 @@
 #include "stepping/certificate.h"
 
 #include "certificate_rig.h"
+#include "plane.h"
 
 enum { UNKNOWNS_MAX = 32 };
 
@@ -26,8 +27,8 @@ static void list_moving(Slip *slip)
     slip->count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (slip->seen->status[i] == CONTACT_STICK) continue;
-        slip->moving[slip->count++] = interface_tangent(i);
-        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = interface_normal(i);
+        slip->moving[slip->count++] = plane_tangent(i);
+        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = plane_normal(i);
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
         if (!slip->seen->rod_touches[j]) slip->moving[slip->count++] = interface_rod(interface, j);
@@ -110,10 +111,10 @@ static void random_state(Random *random, const BlockRig *rig, double pressure, S
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen->status[i] = (uint8_t)random_index(random, 4);
         bool open = seen->status[i] == CONTACT_OPEN;
-        seen->reaction[interface_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
+        seen->reaction[plane_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
         double speed = random_between(random, 0, 1) < 0.8 ? random_between(random, 0.01, 0.99)
                                                           : random_between(random, 1.01, 2);
-        seen->slip_rate[interface_tangent(i)] =
+        seen->slip_rate[plane_tangent(i)] =
             (seen->status[i] == CONTACT_SLIP_BACKWARD ? -speed : speed) *
             rig->law.critical_velocity;
     }
@@ -207,7 +208,8 @@ static int sign_at(const Slip *slip, double part)
     return hand_sign(a, n);
 }
 
-// At 1/load of its weakening a state stands where the determinant changes sign, for the first time.
+// At 1/ratio of its weakening a state stands where the determinant changes sign, for the first
+// time.
 static void test_load(void **state)
 {
     (void)state;
@@ -223,28 +225,28 @@ static void test_load(void **state)
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        double load = certificate_load(&on.certificate, &on.seen, rung);
-        assert_true(isfinite(load) && load >= 0);
-        if (load == 0) continue;
-        assert_int_equal(sign_at(&slip, 0.999 / load), 1);
-        assert_int_equal(sign_at(&slip, 1.001 / load), -1);
+        double ratio = certificate_ratio(&on.certificate, &on.seen, rung);
+        assert_true(isfinite(ratio) && ratio >= 0);
+        if (ratio == 0) continue;
+        assert_int_equal(sign_at(&slip, 0.999 / ratio), 1);
+        assert_int_equal(sign_at(&slip, 1.001 / ratio), -1);
         for (double part = 0; part < 0.99; part += 0.1)
-            assert_int_equal(sign_at(&slip, part / load), 1);
-        above += load > 1;
-        below += load < 1;
+            assert_int_equal(sign_at(&slip, part / ratio), 1);
+        above += ratio > 1;
+        below += ratio < 1;
     }
-    print_message("load above 1: %d times, below: %d\n", above, below);
+    print_message("ratio above 1: %d times, below: %d\n", above, below);
     assert_true(above > 20 && below > 20);
     certificate_rig_destroy(&on);
 }
 
 // The largest load of a state on the rungs of `ladder` that are built.
-static double largest_load(CertificateRig *on, Ladder *ladder)
+static double largest_ratio(CertificateRig *on, Ladder *ladder)
 {
     double largest = 0;
     for (int32_t k = 0; k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) largest = fmax(largest, certificate_load(&on->certificate, &on->seen, rung));
+        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung));
     }
     return largest;
 }
@@ -260,7 +262,7 @@ static void build_rungs(Ladder *ladder, int32_t apart)
 static void press(const Interface *interface, double factor, State *seen)
 {
     for (int32_t i = 0; i < interface->contact_count; i++)
-        seen->reaction[interface_normal(i)] *= factor;
+        seen->reaction[plane_normal(i)] *= factor;
 }
 
 // Steps fell by `apart` rungs each time. What runs away at a rate between those that are built is
@@ -288,11 +290,11 @@ static void check_holes(int32_t apart)
         ladder_init(&on.rig.system, longest, shortest, &on.ladder);
         build_rungs(&on.ladder, apart);
         random_state(&random, &on.rig, 1, &on.seen);
-        double largest = fmax(largest_load(&on, &all), largest_load(&on, &between));
+        double largest = fmax(largest_ratio(&on, &all), largest_ratio(&on, &between));
         double wanted = random_between(&random, 0.9, 1.2);
         if (largest == 0) continue;
         press(&on.rig.interface, wanted / largest, &on.seen);
-        bool seen = largest_load(&on, &on.ladder) >= 1;
+        bool seen = largest_ratio(&on, &on.ladder) >= 1;
         bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder);
         if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
         excluded += excludes;
@@ -315,7 +317,7 @@ static void test_holes(void **state)
 
 // All nodes slip, just below v_c, where mu_kinetic = 0 leaves no friction and S - W is symmetric.
 // Node i weakens by `part` of S's diagonal there, less `spread` of that times i: all nodes bear
-// nearly the same, as on a short step. Returns the largest load, from eigenvalues.
+// nearly the same, as on a short step. Returns the largest ratio, from eigenvalues.
 static double alike_state(const BlockRig *rig, const double *schur, double part, double spread,
                           State *seen)
 {
@@ -324,21 +326,21 @@ static double alike_state(const BlockRig *rig, const double *schur, double part,
     int32_t n = interface->contact_count;
     double weak[UNKNOWNS_MAX], a[UNKNOWNS_MAX * UNKNOWNS_MAX], values[UNKNOWNS_MAX];
     for (int32_t i = 0; i < n; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = plane_tangent(i);
         weak[i] = part * (1 - spread * i) * schur[t * interface->count + t];
         seen->status[i] = CONTACT_SLIP_FORWARD;
         seen->slip_rate[t] = (1 - 1e-9) * law->critical_velocity;
-        seen->reaction[interface_normal(i)] = weak[i] * law->critical_velocity / law->mu_static;
+        seen->reaction[plane_normal(i)] = weak[i] * law->critical_velocity / law->mu_static;
     }
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = 0; j < n; j++)
-            a[i * n + j] = schur[interface_tangent(i) * interface->count + interface_tangent(j)] /
+            a[i * n + j] = schur[plane_tangent(i) * interface->count + plane_tangent(j)] /
                            sqrt(weak[i] * weak[j]);
     hand_eigenvalues(a, n, values);
     return 1 / values[0];
 }
 
-// Where loads lie so close that powers do not tell them apart, what comes out is no less than the
+// Where ratios lie so close that powers do not tell them apart, what comes out is no less than the
 // largest and a few parts in a hundred more at most: a step is not refused for that alone.
 static void test_load_of_nodes_alike(void **state)
 {
@@ -353,10 +355,10 @@ static void test_load_of_nodes_alike(void **state)
         ContactMatrix *rung = certificate_rig_rung(&on, k);
         for (double spread = 1e-1; spread > 1e-5; spread /= 3) {
             double largest = alike_state(&on.rig, rung->schur, 0.1, spread, &on.seen);
-            double load = certificate_load(&on.certificate, &on.seen, rung);
-            assert_true(load >= 0.999 * largest);
-            if (!(load <= 1.08 * largest)) fail_msg("load %g, not %g", load, largest);
-            apart += load > 1.01 * largest;
+            double ratio = certificate_ratio(&on.certificate, &on.seen, rung);
+            assert_true(ratio >= 0.999 * largest);
+            if (!(ratio <= 1.08 * largest)) fail_msg("ratio %g, not %g", ratio, largest);
+            apart += ratio > 1.01 * largest;
         }
     }
     print_message("powers did not settle: %d times\n", apart);

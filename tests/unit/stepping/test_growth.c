@@ -5,7 +5,7 @@
 
 #include "base/dense.h"
 #include "block_mesh.h"
-#include "bulk/reduction.h"
+#include "reduction/reduction.h"
 #include "dense_by_hand.h"
 
 #include <complex.h>
@@ -261,8 +261,7 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
     case_build_block(&test, &def, &SOFT);
     if (reduced) {
         double *rotation = hand_matrix(test.interface.count, 1);
-        ReductionDef how = {
-            1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false, {NULL, NULL}};
+        ReductionDef how = {1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false};
         assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
                                     &test.reduced, &err));
         assert_true(bulk_operator_reduce(&test.reduced, rotation, 1, &test.system, &err));
@@ -358,7 +357,7 @@ static void check_rigid_block(double machine, double softness, double lag)
     for (int32_t i = 0; i < 3; i++) test.state.slip_rate[2 * i] = 0.06;
     assert_true(growth_rates(test.growth, &test.state, &rates, &err));
     assert_true(rates.real.re < 1e-3 * rate);   // a double root at 0
-    assert_near("nothing to bear", growth_scan(test.growth, &test.state).load, 0, 0);
+    assert_near("nothing to bear", growth_scan(test.growth, &test.state).ratio, 0, 0);
     case_close(&test);
 }
 
@@ -383,7 +382,7 @@ static void column_build(Case *test, double shear, double eta, double density, d
     int32_t nodes = LAYERS + 1, n = 2 * nodes;
     double h = height / LAYERS;
     Bulk *bulk = &test->bulk;
-    *bulk = (Bulk){.dof_count = n};
+    *bulk = (Bulk){.dim = 2, .dof_count = n};
     bulk->pattern.size = n;
     bulk->pattern.start = NEW_ARRAY(int32_t, n + 1, &err);
     bulk->pattern.index = NEW_ARRAY(int32_t, 3 * n, &err);
@@ -406,7 +405,8 @@ static void column_build(Case *test, double shear, double eta, double density, d
         bulk->pattern.start[dof + 1] = entry;
     }
     Interface *interface = &test->interface;
-    *interface = (Interface){.contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
+    *interface =
+        (Interface){.dim = 2, .contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
     interface->dofs = NEW_ARRAY(int32_t, 3, &err);
     interface->x = NEW_ARRAY(double, 1, &err);
     interface->weight = NEW_ARRAY(double, 1, &err);
@@ -448,7 +448,7 @@ static void test_shear_column(void **unused)
         Complex s = rates.rate[0].re + rates.rate[0].im * I;
         if (creal(s) > 0 && isnan(oscillates)) oscillates = weakening;
         if (rates.real.re > 0 && isnan(runs)) runs = weakening;
-        if (scan.load >= 1 && isnan(overload)) overload = weakening;
+        if (scan.ratio >= 1 && isnan(overload)) overload = weakening;
         if (creal(s) <= 0) continue;
         // The residual over the derivative: how far the exact rate lies.
         Complex step = 1e-6 * s, f = column_equation(s, shear, eta, density, height, weakening);
@@ -466,7 +466,7 @@ static void test_shear_column(void **unused)
 
 // --- the certificate, memory --------------------------------------------------------------------
 
-// The scan's load is the factor by which all weakening can be raised until a real rate exists when
+// The scan's ratio is the factor by which all weakening can be raised until a real rate exists when
 // mu P_n is left out; here mu is small, so the exact problem agrees.
 static void test_scan(void **unused)
 {
@@ -482,11 +482,11 @@ static void test_scan(void **unused)
     GrowthRates rates;
     set_state(&test, 1000, 5);
     GrowthScan scan = growth_scan(test.growth, &test.state);
-    assert_true(scan.load > 0.1 && scan.rate > 0.1);
+    assert_true(scan.ratio > 0.1 && scan.rate > 0.1);
     for (int32_t beyond = 0; beyond < 2; beyond++) {
-        double pressure = 1000 / scan.load * (beyond ? 1.004 : 0.996);
+        double pressure = 1000 / scan.ratio * (beyond ? 1.004 : 0.996);
         set_state(&test, pressure, 5);
-        assert_near("the load is proportional", growth_scan(test.growth, &test.state).load,
+        assert_near("the ratio is proportional", growth_scan(test.growth, &test.state).ratio,
                     beyond ? 1.004 : 0.996, 1e-9);
         assert_true(growth_rates(test.growth, &test.state, &rates, &err));
         assert_int_equal(rates.real.re > 0, beyond);

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A Cairo surface: an image for PNG, else PDF or SVG into memory, in points, scaled so that all
+// three are drawn in the same pixels. Same picture, same bytes: no date is stored.
+#include "render/canvas/canvas.h"
+
+#include "base/memory.h"
+#include "io/files/part_file.h"
+#include "render/canvas/png_encode.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { POINTS_AN_INCH = 72 };
+
+struct Canvas {
+    CanvasDef def;
+    cairo_surface_t *surface;   // owned
+    cairo_t *cairo;   // owned
+    uint32_t map[MAP_SIZE], below;   // as Cairo stores pixels: alpha, red, green, blue
+    char *bytes;   // [room] of the PDF or SVG; owned
+    int64_t size, room;
+    Error failure;   // the first one
+};
+
+const char *canvas_ending(CanvasFormat format)
+{
+    static const char *const ending[CANVAS_FORMATS] = {"png", "pdf", "svg"};
+    return ending[format];
+}
+
+// --- begin ---------------------------------------------------------------------------------------
+
+// What there is of the file goes on in memory. false: there is none left.
+static bool bytes_add(void *self, const uint8_t *bytes, size_t length)
+{
+    Canvas *canvas = self;
+    int64_t size = canvas->size + (int64_t)length;
+    if (size > canvas->room) {
+        char *longer = memory_resize(canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure);
+        if (!longer) return false;
+        canvas->bytes = longer;
+        canvas->room = 2 * size;
+    }
+    memcpy(canvas->bytes + canvas->size, bytes, length);
+    canvas->size = size;
+    return true;
+}
+
+static cairo_status_t bytes_of_cairo(void *self, const unsigned char *bytes, unsigned int length)
+{
+    return bytes_add(self, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
+}
+
+static cairo_surface_t *surface_create(Canvas *canvas)
+{
+    const CanvasDef *def = &canvas->def;
+    double points = POINTS_AN_INCH / def->dpi;
+    cairo_surface_t *surface = NULL;
+    switch (def->format) {
+    case CANVAS_PDF:
+        surface = cairo_pdf_surface_create_for_stream(bytes_of_cairo, canvas, def->width * points,
+                                                      def->height * points);
+        break;
+    case CANVAS_SVG:
+        surface = cairo_svg_surface_create_for_stream(bytes_of_cairo, canvas, def->width * points,
+                                                      def->height * points);
+        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
+        break;
+    case CANVAS_PNG:
+    case CANVAS_FORMATS:
+        return cairo_image_surface_create(CAIRO_FORMAT_RGB24, def->width, def->height);
+    }
+    cairo_surface_set_device_scale(surface, points, points);
+    return surface;
+}
+
+Canvas *canvas_create(const CanvasDef *def, Error *err)
+{
+    static const Color paper = {1, 1, 1, 1};
+    Canvas *canvas = NULL;
+    if (def->width < CANVAS_SIZE_MIN || def->width > CANVAS_SIZE_MAX ||
+        def->height < CANVAS_SIZE_MIN || def->height > CANVAS_SIZE_MAX)
+        FAIL(err, ERROR_INPUT, "a picture of %d by %d pixels: each must be from %d to %d",
+             def->width, def->height, CANVAS_SIZE_MIN, CANVAS_SIZE_MAX);
+    TRY(canvas = NEW_ARRAY(Canvas, 1, err));
+    canvas->def = *def;
+    TRY(canvas->bytes = NEW_ARRAY(char, 1, err));
+    canvas->room = 1;
+    canvas->surface = surface_create(canvas);
+    canvas->cairo = cairo_create(canvas->surface);
+    cairo_status_t status = cairo_status(canvas->cairo);
+    if (status)
+        FAIL(err, status == CAIRO_STATUS_NO_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+             "Cairo gives no page of %d by %d pixels: %s", def->width, def->height,
+             cairo_status_to_string(status));
+    canvas_ink(canvas, paper);
+    cairo_paint(canvas->cairo);
+    return canvas;
+cleanup:
+    canvas_destroy(canvas);
+    return NULL;
+}
+
+void canvas_destroy(Canvas *canvas)
+{
+    if (!canvas) return;
+    cairo_destroy(canvas->cairo);   // NULL is fine, here and below
+    cairo_surface_destroy(canvas->surface);
+    memory_free(canvas->bytes);
+    memory_free(canvas);
+}
+
+int32_t canvas_width(const Canvas *canvas)
+{
+    return canvas->def.width;
+}
+
+int32_t canvas_height(const Canvas *canvas)
+{
+    return canvas->def.height;
+}
+
+Error *canvas_failure(Canvas *canvas)
+{
+    return &canvas->failure;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+cairo_t *canvas_ink(Canvas *canvas, Color color)
+{
+    if (canvas->def.dark) color = color_on_dark(color);
+    cairo_set_source_rgba(canvas->cairo, (double)color.red, (double)color.green, (double)color.blue,
+                          (double)color.alpha);
+    cairo_new_path(canvas->cairo);   // text leaves a point, from which the next shape would begin
+    return canvas->cairo;
+}
+
+// Whole pixels.
+void canvas_clip(Canvas *canvas, const Box *box)
+{
+    cairo_reset_clip(canvas->cairo);
+    if (!box) return;
+    double left = round(box->left), top = round(box->top);
+    cairo_rectangle(canvas->cairo, left, top, fmax(round(box->right) - left, 0),
+                    fmax(round(box->bottom) - top, 0));
+    cairo_clip(canvas->cairo);
+}
+
+static uint32_t opaque_pixel(uint8_t red, uint8_t green, uint8_t blue)
+{
+    return 0xff000000u | (uint32_t)red << 16 | (uint32_t)green << 8 | blue;
+}
+
+void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
+{
+    for (int32_t k = 0; k < MAP_SIZE; ++k) {
+        const uint8_t *color = colors + 3 * (canvas->def.dark ? MAP_SIZE - 1 - k : k);
+        canvas->map[k] = opaque_pixel(color[0], color[1], color[2]);
+    }
+    if (canvas->def.dark) below = color_on_dark(below);
+    canvas->below = opaque_pixel((uint8_t)lroundf(255 * below.red),
+                                 (uint8_t)lroundf(255 * below.green),
+                                 (uint8_t)lroundf(255 * below.blue));
+}
+
+// Cairo places what OpenGL draws: an image of its own, so that PDF and SVG hold the same pixels.
+static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
+{
+    GlImageDef def = *wanted;
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, def.width, def.height);
+    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+    def.colors = canvas->map;
+    def.color_count = MAP_SIZE;
+    def.below = canvas->below;
+    uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
+    if (cairo_surface_status(image)) {
+        error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "a map of %d by %d values: %s", def.width, def.height,
+                  cairo_status_to_string(cairo_surface_status(image)));
+    } else if (gl_image_draw(GL_OSMESA, &def, pixels, &canvas->failure)) {
+        cairo_surface_mark_dirty(image);
+        canvas_image(canvas, box, image);
+    }
+    cairo_surface_destroy(image);
+}
+
+// One pixel of an image a value, not interpolated: what is seen is a number that was computed,
+// never a mixture.
+void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns, int32_t rows)
+{
+    draw_pixels(canvas, box, &(GlImageDef){.width = columns, .height = rows, .values = values});
+}
+
+void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count)
+{
+    draw_pixels(canvas, box,
+                &(GlImageDef){.width = (int32_t)lround(box->right - box->left),
+                              .height = (int32_t)lround(box->bottom - box->top),
+                              .corners = corners,
+                              .corner_count = count});
+}
+
+// Exact pixels: no filter, and no edge that mixes with the paper.
+void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image)
+{
+    cairo_t *cairo = canvas->cairo;
+    double width = box->right - box->left, height = box->bottom - box->top;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, box->left, box->top, width, height);
+    cairo_translate(cairo, box->left, box->top);
+    cairo_scale(cairo, width / cairo_image_surface_get_width(image),
+                height / cairo_image_surface_get_height(image));
+    cairo_set_source_surface(cairo, image, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+    cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+    cairo_fill(cairo);
+    cairo_restore(cairo);
+}
+
+// --- end -----------------------------------------------------------------------------------------
+
+// What the drawing code left, or Cairo.
+static bool canvas_check(Canvas *canvas, Error *err)
+{
+    cairo_status_t status = cairo_status(canvas->cairo);
+    if (!error_is_clean(&canvas->failure)) {
+        *err = canvas->failure;
+        return false;
+    }
+    if (status)
+        FAIL(err, status == CAIRO_STATUS_NO_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+             "Cairo cannot draw: %s", cairo_status_to_string(status));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err)
+{
+    int64_t width = canvas->def.width, height = canvas->def.height;
+    *pixels = NULL;
+    TRY(canvas_check(canvas, err));
+    TRY(*pixels = memory_bytes(3 * width * height, err));
+    cairo_surface_flush(canvas->surface);
+    const uint8_t *line = cairo_image_surface_get_data(canvas->surface);
+    uint8_t *to = *pixels;
+    for (int64_t row = 0; row < height; ++row) {
+        const uint32_t *pixel = (const uint32_t *)(const void *)line;
+        for (int64_t k = 0; k < width; ++k, to += 3) {
+            to[0] = (uint8_t)(pixel[k] >> 16);
+            to[1] = (uint8_t)(pixel[k] >> 8);
+            to[2] = (uint8_t)pixel[k];
+        }
+        line += cairo_image_surface_get_stride(canvas->surface);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err)
+{
+    if (!canvas_check(canvas, err)) return NULL;
+    cairo_surface_flush(canvas->surface);
+    *stride = cairo_image_surface_get_stride(canvas->surface);
+    return cairo_image_surface_get_data(canvas->surface);
+}
+
+void canvas_copy(Canvas *canvas, Canvas *from)
+{
+    size_t line = (size_t)cairo_image_surface_get_stride(from->surface);
+    cairo_surface_flush(from->surface);
+    cairo_surface_flush(canvas->surface);
+    memcpy(cairo_image_surface_get_data(canvas->surface),
+           cairo_image_surface_get_data(from->surface), line * (size_t)from->def.height);
+    cairo_surface_mark_dirty(canvas->surface);
+}
+
+static bool encode_png(Canvas *canvas, const char *title, bool small, Error *err)
+{
+    PngPicture picture = {.width = canvas->def.width,
+                          .height = canvas->def.height,
+                          .stride = cairo_image_surface_get_stride(canvas->surface),
+                          .pixels = cairo_image_surface_get_data(canvas->surface),
+                          .pixels_per_metre = canvas->def.dpi / 0.0254,
+                          .title = title,
+                          .few_colors = small};
+    return png_encode(&picture, bytes_add, canvas, err);
+}
+
+bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *bytes, Error *err)
+{
+    if (canvas->def.format == CANVAS_PDF) {
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_TITLE, title);
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATOR,
+                                       "amontons " AMONTONS_VERSION);
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
+    }
+    cairo_surface_flush(canvas->surface);
+    if (canvas->def.format == CANVAS_PNG) encode_png(canvas, title, small, &canvas->failure);
+    cairo_surface_finish(canvas->surface);   // the last of the bytes
+    *bytes = (PictureBytes){canvas->bytes, canvas->size};
+    return canvas_check(canvas, err);
+}
+
+bool canvas_write(Canvas *canvas, const char *path, const char *title, bool any, Error *err)
+{
+    PartFile file = {0};
+    PictureBytes picture = {0};
+    static const char writer[] = "<!-- amontons " AMONTONS_VERSION " -->\n";
+    TRY(canvas_finish(canvas, title, false, &picture, err));
+    TRY(part_file_replace(&file, path, any, err));
+    TRY(part_file_write(&file, picture.bytes, picture.size, err));
+    if (canvas->def.format == CANVAS_SVG)   // the others have a place for it
+        TRY(part_file_write(&file, writer, sizeof writer - 1, err));
+    TRY(part_file_commit(&file, err));
+cleanup:
+    part_file_discard(&file);
+    return error_is_clean(err);
+}

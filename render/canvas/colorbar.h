@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The key beside a map: the colours from bottom to top, with ticks. Called by the map figures.
+#ifndef AMONTONS_RENDER_CANVAS_COLORBAR_H
+#define AMONTONS_RENDER_CANVAS_COLORBAR_H
+
+#include "render/canvas/axes.h"
+
+typedef struct Colorbar {
+    double low, high;   // shown at the bottom and the top of the bar
+    bool falling;   // the colour map's value 0 stands at the top, not at the bottom
+    bool clipped,
+        clipped_above;   // what is below `low`, above `high`, is shown as that: its number
+    // says so
+    bool powers;   // low and high are decimal logarithms: ticks are powers of ten
+    const char *label;   // text.h's marks
+    const char *neutral;   // name of the neutral colour, shown in a patch below; NULL: no patch
+    Color neutral_color;
+} Colorbar;
+
+// Ends at handy numbers around `range`, which may be empty.
+void colorbar_fit(Colorbar *bar, const double range[2]);
+Ticks colorbar_ticks(const Colorbar *bar);
+
+// Points to the right of the bar's left edge that it takes.
+double colorbar_width(const Page *page, const Colorbar *bar);
+
+// Draws the bar into `box` (its colours; ticks go to the right); uses the canvas's colour map.
+void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box);
+
+#endif

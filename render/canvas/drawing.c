@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/canvas/drawing.h"
+
+#include <cairo.h>
+
+#include <math.h>
+#include <stddef.h>
+
+static const double PI = 3.14159265358979323846;
+
+// Cairo's time to stroke a path grows faster than its length: a long one is stroked in pieces,
+// which share a point. They are opaque, so that joints do not show.
+enum { PIECE = 256 };
+
+void draw_fill(Canvas *canvas, Color color, const Box *box)
+{
+    cairo_t *cairo = canvas_ink(canvas, color);
+    cairo_rectangle(cairo, box->left, box->top, box->right - box->left, box->bottom - box->top);
+    cairo_fill(cairo);
+}
+
+void draw_disc(Canvas *canvas, Color color, Point centre, double radius)
+{
+    cairo_t *cairo = canvas_ink(canvas, color);
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, centre.x, centre.y, radius, 0, 2 * PI);
+    cairo_fill(cairo);
+}
+
+void draw_polygon(Canvas *canvas, Color color, const Point *corners, int32_t count)
+{
+    cairo_t *cairo = canvas_ink(canvas, color);
+    for (int32_t k = 0; k < count; ++k) cairo_line_to(cairo, corners[k].x, corners[k].y);
+    cairo_close_path(cairo);
+    cairo_fill(cairo);
+}
+
+static cairo_t *stroke_begin(Canvas *canvas, const Stroke *stroke, cairo_line_cap_t cap)
+{
+    cairo_t *cairo = canvas_ink(canvas, stroke->color);
+    const double dashes[2] = {stroke->dash, stroke->space};
+    cairo_set_line_width(cairo, stroke->width);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cairo, stroke->dash > 0 ? CAIRO_LINE_CAP_BUTT : cap);
+    cairo_set_dash(cairo, dashes, stroke->dash > 0 ? 2 : 0, 0);
+    return cairo;
+}
+
+static bool point_is_finite(Point point)
+{
+    return isfinite(point.x) && isfinite(point.y);
+}
+
+// A point alone becomes a dot. Dashes are not cut into pieces: each would begin anew.
+void draw_line(Canvas *canvas, const Stroke *stroke, const Point *points, int64_t count)
+{
+    cairo_t *cairo = stroke_begin(canvas, stroke, CAIRO_LINE_CAP_ROUND);
+    int64_t in_piece = 0;
+    for (int64_t k = 0; k < count; ++k) {
+        if (!point_is_finite(points[k])) continue;
+        if (k == 0 || !point_is_finite(points[k - 1]))
+            cairo_move_to(cairo, points[k].x, points[k].y);
+        cairo_line_to(cairo, points[k].x, points[k].y);
+        if (++in_piece < PIECE || stroke->dash > 0) continue;
+        cairo_stroke(cairo);
+        cairo_move_to(cairo, points[k].x, points[k].y);
+        in_piece = 0;
+    }
+    cairo_stroke(cairo);
+}
+
+void draw_segment(Canvas *canvas, const Stroke *stroke, Point from, Point to)
+{
+    cairo_t *cairo = stroke_begin(canvas, stroke, CAIRO_LINE_CAP_BUTT);
+    cairo_move_to(cairo, from.x, from.y);
+    cairo_line_to(cairo, to.x, to.y);
+    cairo_stroke(cairo);
+}
+
+void draw_outline(Canvas *canvas, const Stroke *stroke, const Box *box)
+{
+    cairo_t *cairo = stroke_begin(canvas, stroke, CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+    cairo_rectangle(cairo, box->left, box->top, box->right - box->left, box->bottom - box->top);
+    cairo_stroke(cairo);
+}
+
+// Lines at 45 degrees that begin left of the box, as far as it is high; the clip cuts them off.
+void draw_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double spacing)
+{
+    double height = box->bottom - box->top;
+    canvas_clip(canvas, box);
+    double x = box->left - height;
+    while (x < box->right) {
+        draw_segment(canvas, stroke, (Point){x, box->bottom}, (Point){x + height, box->top});
+        x += spacing;
+    }
+    canvas_clip(canvas, NULL);
+}

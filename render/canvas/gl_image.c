@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pixels are unsigned integers from the table to memory: no blending, no filter, no rounding. What
+// a source has opened stays open until the program ends, as modules do: a context and its shaders
+// take longer than an image. One thread draws at a time.
+#include "render/canvas/gl_image.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/osmesa.h>
+
+#include <GL/glext.h>
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <stddef.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { TOKEN_SIZE = 16 };   // pixels a side of the buffer OSMesa insists on, never drawn into
+enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
+
+// clang-format off
+// All of OpenGL that is used: return type, name, arguments.
+#define GL_CALLS(X) \
+    X(void, ActiveTexture, (GLenum)) \
+    X(void, AttachShader, (GLuint, GLuint)) \
+    X(void, BindBuffer, (GLenum, GLuint)) \
+    X(void, BindFramebuffer, (GLenum, GLuint)) \
+    X(void, BindTexture, (GLenum, GLuint)) \
+    X(void, BindVertexArray, (GLuint)) \
+    X(void, BufferData, (GLenum, GLsizeiptr, const void *, GLenum)) \
+    X(GLenum, CheckFramebufferStatus, (GLenum)) \
+    X(void, ClearBufferuiv, (GLenum, GLint, const GLuint *)) \
+    X(void, CompileShader, (GLuint)) \
+    X(GLuint, CreateProgram, (void)) \
+    X(GLuint, CreateShader, (GLenum)) \
+    X(void, DrawArrays, (GLenum, GLint, GLsizei)) \
+    X(void, EnableVertexAttribArray, (GLuint)) \
+    X(void, FramebufferTexture2D, (GLenum, GLenum, GLenum, GLuint, GLint)) \
+    X(void, GenBuffers, (GLsizei, GLuint *)) \
+    X(void, GenFramebuffers, (GLsizei, GLuint *)) \
+    X(void, GenTextures, (GLsizei, GLuint *)) \
+    X(void, GenVertexArrays, (GLsizei, GLuint *)) \
+    X(GLenum, GetError, (void)) \
+    X(void, GetIntegerv, (GLenum, GLint *)) \
+    X(void, GetProgramInfoLog, (GLuint, GLsizei, GLsizei *, GLchar *)) \
+    X(void, GetProgramiv, (GLuint, GLenum, GLint *)) \
+    X(GLint, GetUniformLocation, (GLuint, const GLchar *)) \
+    X(void, LinkProgram, (GLuint)) \
+    X(void, PixelStorei, (GLenum, GLint)) \
+    X(void, ReadPixels, (GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void *)) \
+    X(void, ShaderSource, (GLuint, GLsizei, const GLchar *const *, const GLint *)) \
+    X(void, TexImage2D, \
+      (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *)) \
+    X(void, TexParameteri, (GLenum, GLenum, GLint)) \
+    X(void, Uniform1i, (GLint, GLint)) \
+    X(void, Uniform1ui, (GLint, GLuint)) \
+    X(void, Uniform2f, (GLint, GLfloat, GLfloat)) \
+    X(void, UseProgram, (GLuint)) \
+    X(void, VertexAttribPointer, (GLuint, GLint, GLenum, GLboolean, GLsizei, const void *)) \
+    X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
+// clang-format on
+
+typedef void (*GlFunction)(void);
+
+// Of OSMesa and EGL, the calls a context needs.
+typedef struct GlContext {
+    void *library;   // as dlopen gives it; never closed
+    GlFunction (*find)(const char *name);
+    OSMesaContext mesa;
+    GLboolean (*mesa_use)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
+    EGLDisplay display;
+    EGLContext egl;
+    EGLBoolean (*egl_use)(EGLDisplay, EGLSurface, EGLSurface, EGLContext);
+    uint8_t token[TOKEN_SIZE * TOKEN_SIZE * 4];
+} GlContext;
+
+typedef struct Gl {
+#define X(type, name, arguments) type(*name) arguments;
+    GL_CALLS(X)
+#undef X
+    GlContext context;
+    GLuint program, texture[UNITS];
+    bool tried, ready;
+    pid_t process;   // that it was opened in
+    Error failure;   // of the only try
+} Gl;
+
+static Gl opened[GL_SOURCES];   // zeroed: not tried
+static pthread_mutex_t drawing = PTHREAD_MUTEX_INITIALIZER;
+
+// --- a context -----------------------------------------------------------------------------------
+
+// POSIX: a function from an object's address.
+static bool find_in(void *library, const char *name, void *function, size_t size, Error *err)
+{
+    void *address = dlsym(library, name);
+    if (!address) FAIL(err, ERROR_LIBRARY, "%s", dlerror());
+    memcpy(function, &address, size);
+cleanup:
+    return error_is_clean(err);
+}
+#define FIND(name, function)                                                                       \
+    TRY(find_in(context->library, name, &(function), sizeof(function), err))
+
+static bool library_open(GlContext *context, const char *name, Error *err)
+{
+    context->library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+    if (!context->library) FAIL(err, ERROR_LIBRARY, "%s", dlerror());
+cleanup:
+    return error_is_clean(err);
+}
+
+// 3.3 core is what the shaders need; a driver may give a later version.
+static bool mesa_open(GlContext *context, Error *err)
+{
+    static const int wanted[] = {OSMESA_FORMAT,
+                                 OSMESA_RGBA,
+                                 OSMESA_DEPTH_BITS,
+                                 0,
+                                 OSMESA_PROFILE,
+                                 OSMESA_CORE_PROFILE,
+                                 OSMESA_CONTEXT_MAJOR_VERSION,
+                                 3,
+                                 OSMESA_CONTEXT_MINOR_VERSION,
+                                 3,
+                                 0};
+    OSMesaContext (*create)(const int *, OSMesaContext) = NULL;
+    TRY(library_open(context, "libOSMesa.so.8", err));
+    FIND("OSMesaGetProcAddress", context->find);
+    FIND("OSMesaMakeCurrent", context->mesa_use);
+    FIND("OSMesaCreateContextAttribs", create);
+    context->mesa = create(wanted, NULL);
+    if (!context->mesa) FAIL(err, ERROR_LIBRARY, "OSMesa gives no OpenGL 3.3 core context");
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool egl_open(GlContext *context, Error *err)
+{
+    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                    3,
+                                    EGL_CONTEXT_MINOR_VERSION,
+                                    3,
+                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                    EGL_NONE};
+    EGLDisplay (*display)(EGLenum, void *, const EGLAttrib *) = NULL;
+    EGLBoolean (*begin)(EGLDisplay, EGLint *, EGLint *) = NULL, (*bind)(EGLenum) = NULL;
+    EGLContext (*create)(EGLDisplay, EGLConfig, EGLContext, const EGLint *) = NULL;
+    TRY(library_open(context, "libEGL.so.1", err));
+    FIND("eglGetProcAddress", context->find);
+    FIND("eglMakeCurrent", context->egl_use);
+    FIND("eglGetPlatformDisplay", display);
+    FIND("eglInitialize", begin);
+    FIND("eglBindAPI", bind);
+    FIND("eglCreateContext", create);
+    context->display = display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    if (context->display == EGL_NO_DISPLAY || !begin(context->display, NULL, NULL) ||
+        !bind(EGL_OPENGL_API))
+        FAIL(err, ERROR_LIBRARY, "EGL draws nothing without a surface here");
+    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    if (context->egl == EGL_NO_CONTEXT)
+        FAIL(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
+cleanup:
+    return error_is_clean(err);
+}
+
+// Makes the context this thread's, or nobody's.
+static bool context_use(GlContext *context, bool use)
+{
+    if (context->mesa)
+        return use ? context->mesa_use(context->mesa, context->token, GL_UNSIGNED_BYTE, TOKEN_SIZE,
+                                       TOKEN_SIZE)
+                   : context->mesa_use(NULL, NULL, 0, 0, 0);
+    return context->egl_use(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE,
+                            use ? context->egl : EGL_NO_CONTEXT);
+}
+
+// --- shaders and buffers -------------------------------------------------------------------------
+
+// Rows are read back from the bottom: y downwards in both makes the first row the top one.
+static const char VERTEX_SOURCE[] =
+    "#version 330 core\n"
+    "uniform vec2 size;\n"
+    "layout(location = 0) in vec3 corner;\n"
+    "out float at;\n"
+    "void main() {\n"
+    "    at = corner.z;\n"
+    "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
+    "}\n";
+
+static const char FRAGMENT_SOURCE[] =
+    "#version 330 core\n"
+    "uniform int per_pixel;\n"
+    "uniform uint below;\n"
+    "uniform usampler2D colors;\n"
+    "uniform sampler2D values;\n"
+    "in float at;\n"
+    "out uint color;\n"
+    "void main() {\n"
+    "    float value = per_pixel != 0 ? texelFetch(values, ivec2(gl_FragCoord.xy), 0).r\n"
+    "                                 : max(at, 0.0);\n"
+    "    if (!(value >= -1.5)) discard;\n"
+    "    float last = float(textureSize(colors, 0).x - 1);\n"
+    "    int place = int(floor(clamp(value, 0.0, 1.0) * last + 0.5));\n"
+    "    color = value < 0.0 ? below : texelFetch(colors, ivec2(place, 0), 0).r;\n"
+    "}\n";
+
+static void shader_add(const Gl *gl, GLenum stage, const char *source)
+{
+    GLuint shader = gl->CreateShader(stage);
+    gl->ShaderSource(shader, 1, &source, NULL);
+    gl->CompileShader(shader);
+    gl->AttachShader(gl->program, shader);
+}
+
+// What a compiler says shows when its shader is linked.
+static bool program_create(Gl *gl, Error *err)
+{
+    GLint done = GL_FALSE;
+    GLchar said[300] = "";
+    gl->program = gl->CreateProgram();
+    shader_add(gl, GL_VERTEX_SHADER, VERTEX_SOURCE);
+    shader_add(gl, GL_FRAGMENT_SHADER, FRAGMENT_SOURCE);
+    gl->LinkProgram(gl->program);
+    gl->GetProgramiv(gl->program, GL_LINK_STATUS, &done);
+    gl->GetProgramInfoLog(gl->program, sizeof said, NULL, said);
+    if (!done) FAIL(err, ERROR_LIBRARY, "OpenGL does not take the shaders: %s", said);
+    gl->UseProgram(gl->program);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "colors"), UNIT_COLORS);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "values"), UNIT_VALUES);
+cleanup:
+    return error_is_clean(err);
+}
+
+// One vertex buffer, a texture a unit, a frame buffer; all stay bound.
+static void buffers_create(Gl *gl)
+{
+    GLuint layout = 0, corners = 0, frame = 0;
+    gl->GenVertexArrays(1, &layout);
+    gl->BindVertexArray(layout);
+    gl->GenBuffers(1, &corners);
+    gl->BindBuffer(GL_ARRAY_BUFFER, corners);
+    gl->EnableVertexAttribArray(0);
+    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(GlCorner), NULL);
+    gl->GenTextures(UNITS, gl->texture);
+    for (GLenum unit = 0; unit < UNITS; ++unit) {
+        gl->ActiveTexture(GL_TEXTURE0 + unit);
+        gl->BindTexture(GL_TEXTURE_2D, gl->texture[unit]);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    gl->GenFramebuffers(1, &frame);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+static bool calls_find(Gl *gl, Error *err)
+{
+#define X(type, name, arguments)                                                                   \
+    gl->name = (type(*) arguments)gl->context.find("gl" #name);                                    \
+    if (!gl->name) FAIL(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
+    GL_CALLS(X)
+#undef X
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool gl_open(Gl *gl, GlSource source, Error *err)
+{
+    TRY(source == GL_OSMESA ? mesa_open(&gl->context, err) : egl_open(&gl->context, err));
+    if (!context_use(&gl->context, true))
+        FAIL(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
+    TRY(calls_find(gl, err));
+    TRY(program_create(gl, err));
+    buffers_create(gl);
+    gl->ready = true;
+    gl->process = getpid();
+    context_use(&gl->context, false);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- an image ------------------------------------------------------------------------------------
+
+static bool target_size(const Gl *gl, const GlImageDef *def, Error *err)
+{
+    GLint most = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (def->width > most || def->height > most)
+        FAIL(err, ERROR_LIBRARY, "OpenGL draws at most %d by %d pixels, not %d by %d", most, most,
+             def->width, def->height);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_TARGET);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->width, def->height, 0, GL_RED_INTEGER,
+                   GL_UNSIGNED_INT, NULL);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                             gl->texture[UNIT_TARGET], 0);
+    // What cannot be had leaves the texture before.
+    if (gl->GetError() || gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        FAIL(err, ERROR_LIBRARY, "OpenGL gives no image of %d by %d pixels", def->width,
+             def->height);
+    gl->Viewport(0, 0, def->width, def->height);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void corners_draw(const Gl *gl, const GlCorner *corners, int64_t count)
+{
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * (GLsizeiptr)sizeof *corners, corners,
+                   GL_STREAM_DRAW);
+    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)count);
+}
+
+// Values that are a texture fill the image by one triangle that is larger than it.
+static bool image_draw(const Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *err)
+{
+    static const GLuint empty[4] = {0};
+    float width = (float)def->width, height = (float)def->height;
+    GLenum status = GL_NO_ERROR;
+    const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
+    TRY(target_size(gl, def, err));
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
+                   GL_UNSIGNED_INT, def->colors);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->values ? def->width : 1,
+                   def->values ? def->height : 1, 0, GL_RED, GL_FLOAT, def->values);
+    gl->Uniform2f(gl->GetUniformLocation(gl->program, "size"), width, height);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "per_pixel"), def->values != NULL);
+    gl->Uniform1ui(gl->GetUniformLocation(gl->program, "below"), def->below);
+    gl->ClearBufferuiv(GL_COLOR, 0, empty);
+    if (def->values)
+        corners_draw(gl, all, 3);
+    else
+        corners_draw(gl, def->corners, def->corner_count);
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, def->stride);
+    gl->ReadPixels(0, 0, def->width, def->height, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels);
+    status = gl->GetError();
+    if (status)
+        FAIL(err, status == GL_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+             "OpenGL fails to draw (0x%x)", status);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The first source that works, from `first` on; why none does, by each of them. In a process that
+// was forked after Mesa's threads began these are missing, and it would wait for them for ever:
+// there the next source is taken.
+static Gl *gl_choose(GlSource first, Error *err)
+{
+    const char *said[GL_SOURCES] = {"not tried", "not tried"};
+    for (GlSource source = first; source < GL_SOURCES; ++source) {
+        Gl *gl = &opened[source];
+        if (!gl->tried) gl_open(gl, source, &gl->failure);
+        gl->tried = true;
+        if (gl->ready && gl->process == getpid()) return gl;
+        said[source] = gl->ready ? "in use before this process was forked" : gl->failure.message;
+    }
+    FAIL(err, ERROR_LIBRARY, "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s",
+         said[GL_OSMESA], said[GL_EGL]);
+cleanup:
+    return NULL;
+}
+
+bool gl_image_draw(GlSource first, const GlImageDef *def, uint32_t *pixels, Error *err)
+{
+    Gl *gl = NULL;
+    pthread_mutex_lock(&drawing);
+    TRY(gl = gl_choose(first, err));
+    if (!context_use(&gl->context, true))
+        FAIL(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
+    image_draw(gl, def, pixels, err);
+    while (gl->GetError() != GL_NO_ERROR) {
+    }   // none is left for the next image
+    context_use(&gl->context, false);
+cleanup:
+    pthread_mutex_unlock(&drawing);
+    return error_is_clean(err);
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The page that every drawing routine is handed, from its beginning to its file, and the few sizes
+// all figures share. Sizes are in printer's points: a figure is drawn for print, whatever its
+// pixels.
+#ifndef AMONTONS_RENDER_CANVAS_PAGE_H
+#define AMONTONS_RENDER_CANVAS_PAGE_H
+
+#include "amontons_pictures.h"
+#include "render/canvas/drawing.h"
+#include "render/canvas/text.h"
+
+typedef struct Page {
+    Canvas *canvas;   // owned
+    Text *text;   // owned
+    double point;   // pixels in a printed point
+    double head, foot;   // pixels kept free above and below the figure, whole numbers
+    bool overwrite;   // as its style has it
+} Page;
+
+typedef struct PageDef {
+    const PictureStyle *style;
+    double height;   // of the figure over the page's width
+    const char *title;   // drawn above the figure, shrunk to fit; NULL or empty: none
+    double foot;   // points below the figure
+} PageDef;
+
+// Points in the width of a page of this style.
+double page_width(const PictureStyle *style);
+
+// A page that is empty but for its title. ERROR_INPUT: a format there is none of, or a size beyond
+// what canvas allows.
+bool page_begin(Page *page, const PageDef *def, Error *err);
+
+// Writes the picture into the file `path`, with `title` stored in it.
+bool page_finish(Page *page, const char *path, const char *title, Error *err);
+void page_destroy(Page *page);   // zeroed is fine
+
+// The style with the format that the file's name ends in; ERROR_INPUT: in none.
+bool page_style_of_name(const char *path, PictureStyle *style, Error *err);
+
+static const double LABEL_SIZE = 7.5;   // points: names of axes
+static const double NUMBER_SIZE = 6.8;   // points: numbers at ticks
+static const double SMALL_SIZE = 6.0;   // points: inside an inset
+static const double FRAME_WIDTH = 0.5;   // points: frames and ticks
+static const double CURVE_WIDTH = 0.8;   // points: data
+
+static const Color INK = {0.08f, 0.08f, 0.10f, 1};
+static const Color PAPER = {1, 1, 1, 1};
+static const Color ZOOM_FORCE = {0.75f, 0.12f, 0.12f, 1};   // outlines what an inset shows
+static const Color ZOOM_DENSITY = {0.08f, 0.35f, 0.70f, 1};   // outlines the contact-density map
+
+#endif

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Letters of one size and slant are handed to Cairo together, so that a PDF holds words. Slanted
+// letters are the upright ones sheared: the base package of the font has no oblique face.
+#include "render/canvas/text.h"
+
+#include "base/memory.h"
+
+#include <cairo-ft.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NEST_MAX = 4, RUN_SIZE = 256, LETTER_SIZE = 4 };
+
+static const double SCRIPT_SIZE = 0.7;   // of the text around it
+static const double SCRIPT_DROP = 0.18;   // of a lowered baseline, over the size around it
+static const double SCRIPT_RISE = 0.36;   // of a raised one
+static const double SLANT = 0.2;   // shear of slanted letters
+static const double DIGIT_HEIGHT = 0.729;   // of DejaVu Sans, over its size
+static const double PI = 3.14159265358979323846;
+static const char MINUS[] = "\u2212", REPLACEMENT[] = "\ufffd";
+
+struct Text {
+    Canvas *canvas;   // not owned
+    cairo_font_face_t *font;   // owned
+    cairo_font_options_t *options;   // owned
+};
+
+// Where a run of letters is: changed by the marks, kept on a stack.
+typedef struct Pen {
+    double size, baseline;   // pixels; baseline: upwards from the text's
+    bool slanted, raised;
+} Pen;
+
+// A line of text being laid out.
+typedef struct Line {
+    cairo_t *cairo;   // its origin is the start of the baseline
+    double along;   // the pen's way from there
+    bool drawn;   // false: only measured
+    char run[RUN_SIZE + LETTER_SIZE];   // letters that wait for the pen to change
+    size_t length;   // of these, bytes
+} Line;
+
+static const char *const FONT_FILES[] = {
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
+
+static bool is_font(FT_Library library, const char *path)
+{
+    FT_Face face = NULL;
+    if (FT_New_Face(library, path, 0, &face)) return false;
+    bool scales = FT_IS_SCALABLE(face);
+    FT_Done_Face(face);
+    return scales;
+}
+
+// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried.
+static bool font_find(const char **path, Error *err)
+{
+    FT_Library library = NULL;
+    *path = getenv("AMONTONS_FONT");
+    if (FT_Init_FreeType(&library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
+    if (*path && (*path)[0]) {
+        if (!is_font(library, *path))
+            FAIL(err, ERROR_LIBRARY,
+                 "AMONTONS_FONT=%s is not a font that FreeType can read and scale", *path);
+        goto cleanup;
+    }
+    for (size_t k = 0; k < sizeof FONT_FILES / sizeof *FONT_FILES; ++k) {
+        *path = FONT_FILES[k];
+        if (is_font(library, *path)) goto cleanup;
+    }
+    FAIL(err, ERROR_LIBRARY,
+         "no DejaVuSans.ttf in the system's font folders (%s, ...): install the Debian package "
+         "fonts-dejavu-core, or set AMONTONS_FONT to a .ttf file",
+         FONT_FILES[0]);
+cleanup:
+    FT_Done_FreeType(library);
+    return error_is_clean(err);
+}
+
+// Cairo opens the file itself, as it keeps fonts for longer than we do. Nothing is looked up: the
+// pattern names a file.
+static bool font_open(Text *text, Error *err)
+{
+    const char *path = NULL;
+    FcPattern *pattern = NULL;
+    TRY(font_find(&path, err));
+    pattern = FcPatternCreate();
+    if (!pattern) FAIL(err, ERROR_MEMORY, "no memory for a font");
+    FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)path);
+    text->font = cairo_ft_font_face_create_for_pattern(pattern);
+cleanup:
+    if (pattern) FcPatternDestroy(pattern);
+    return error_is_clean(err);
+}
+
+// Not hinted: letters keep their shape at print size, and are as wide in a PDF as in a PNG.
+Text *text_create(Canvas *canvas, Error *err)
+{
+    Text *text = NULL;
+    TRY(text = NEW_ARRAY(Text, 1, err));
+    text->canvas = canvas;
+    TRY(font_open(text, err));
+    text->options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(text->options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(text->options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(text->options, CAIRO_ANTIALIAS_GRAY);
+    return text;
+cleanup:
+    text_destroy(text);
+    return NULL;
+}
+
+void text_destroy(Text *text)
+{
+    if (!text) return;
+    if (text->options) cairo_font_options_destroy(text->options);
+    cairo_font_face_destroy(text->font);   // NULL is fine
+    memory_free(text);
+}
+
+double text_digit_height(void)
+{
+    return DIGIT_HEIGHT;
+}
+
+// Bytes of the UTF-8 letter at `words`; 0: they are none.
+static size_t letter_length(const char *words)
+{
+    const unsigned char *byte = (const unsigned char *)words;
+    size_t length = byte[0] >= 0xf0 ? 4 : byte[0] >= 0xe0 ? 3 : byte[0] >= 0xc0 ? 2 : 1;
+    bool lead = byte[0] < 0x80 || (byte[0] >= 0xc2 && byte[0] <= 0xf4);
+    for (size_t k = 1; k < length; ++k)
+        if ((byte[k] & 0xc0) != 0x80) return 0;
+    bool wide = length < 3 || byte[0] != 0xe0 || byte[1] >= 0xa0;   // else written too long
+    bool paired = byte[0] == 0xed && byte[1] >= 0xa0;   // half a UTF-16 pair
+    bool beyond = length == 4 &&
+                  ((byte[0] == 0xf0 && byte[1] < 0x90) || (byte[0] == 0xf4 && byte[1] >= 0x90));
+    return lead && wide && !paired && !beyond ? length : 0;
+}
+
+// Draws, or only measures, the letters that wait.
+static void run_end(Line *line, const Pen *pen)
+{
+    cairo_matrix_t matrix;
+    cairo_text_extents_t extents;
+    if (line->length == 0) return;
+    line->run[line->length] = '\0';
+    line->length = 0;
+    cairo_matrix_init(&matrix, pen->size, 0, pen->slanted ? -SLANT * pen->size : 0, pen->size, 0,
+                      0);
+    cairo_set_font_matrix(line->cairo, &matrix);
+    if (line->drawn) {
+        cairo_move_to(line->cairo, line->along, -pen->baseline);
+        cairo_show_text(line->cairo, line->run);
+    }
+    cairo_text_extents(line->cairo, line->run, &extents);
+    line->along += extents.x_advance;
+}
+
+static void letter_add(Line *line, const Pen *pen, const char *letter, size_t length)
+{
+    if (line->length + length >= RUN_SIZE) run_end(line, pen);
+    memcpy(line->run + line->length, letter, length);
+    line->length += length;
+}
+
+// The pen inside a mark's braces.
+static Pen pen_marked(const Pen *pen, char mark)
+{
+    Pen inner = *pen;
+    if (mark == '~') inner.slanted = true;
+    if (mark == '_' || mark == '^') {
+        inner.size *= SCRIPT_SIZE;
+        inner.slanted = false;
+        inner.raised = mark == '^';
+        inner.baseline += pen->size * (mark == '^' ? SCRIPT_RISE : -SCRIPT_DROP);
+    }
+    return inner;
+}
+
+// Goes along the words, letter by letter, opening and closing marks.
+static void line_walk(Line *line, double size, const char *words)
+{
+    Pen pen[NEST_MAX + 1] = {{.size = size}};
+    int32_t depth = 0;
+    while (*words) {
+        bool opens = (*words == '_' || *words == '^' || *words == '~') && words[1] == '{';
+        if (opens && depth < NEST_MAX) {
+            run_end(line, &pen[depth]);
+            pen[depth + 1] = pen_marked(&pen[depth], *words);
+            ++depth;
+            words += 2;
+        } else if (*words == '}' && depth > 0) {
+            run_end(line, &pen[depth--]);
+            ++words;
+        } else {
+            size_t length = letter_length(words);
+            bool minus = *words == '-' && pen[depth].raised;
+            const char *letter = minus ? MINUS : length ? words : REPLACEMENT;
+            letter_add(line, &pen[depth], letter, letter == words ? length : strlen(letter));
+            words += length ? length : 1;
+        }
+    }
+    run_end(line, &pen[depth]);
+}
+
+static void line_begin(Text *text, Line *line, Color color)
+{
+    line->cairo = canvas_ink(text->canvas, color);
+    cairo_set_font_face(line->cairo, text->font);
+    cairo_set_font_options(line->cairo, text->options);
+}
+
+// In the pixels of `size`, marks not counted.
+double text_width(Text *text, double size, const char *words)
+{
+    Line line = {0};
+    line_begin(text, &line, (Color){0, 0, 0, 1});
+    line_walk(&line, size, words);
+    return line.along;
+}
+
+// Placed by its measured width.
+void text_draw(Text *text, const TextStyle *style, Point place, const char *words)
+{
+    double back = style->across * text_width(text, style->size, words);
+    double down = style->up * style->size * DIGIT_HEIGHT;
+    Line line = {.drawn = true};
+    line_begin(text, &line, style->color);
+    cairo_save(line.cairo);
+    cairo_translate(line.cairo, round(place.x + (style->rising ? down : -back)),
+                    round(place.y + (style->rising ? back : down)));
+    if (style->rising) cairo_rotate(line.cairo, -PI / 2);
+    line_walk(&line, style->size, words);
+    cairo_restore(line.cairo);
+}

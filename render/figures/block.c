@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Energies need strains, which are not stored: they are taken at the nodes of each element from the
+// slopes of the shape functions, and the mean over the elements around a node is what it has, as
+// fem/recovery does it for the stresses.
+#include "render/figures/block.h"
+
+#include "base/memory.h"
+#include "io/mesh/shape_functions.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SHOWN = 0.05;   // largest drawn deformation over the block's larger extent
+
+BlockWords block_words(BlockQuantity quantity)
+{
+    static const BlockWords words[BLOCK_QUANTITY_COUNT] = {
+#define X(symbol, name, words, si, normalised) {name, words, si, normalised},
+        BLOCK_QUANTITIES(X)
+#undef X
+    };
+    return words[quantity];
+}
+
+bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err)
+{
+    char names[200] = "";
+    *quantity = BLOCK_VON_MISES;
+    if (!name) return true;
+    for (int32_t k = 0; k < BLOCK_QUANTITY_COUNT; ++k) {
+        *quantity = (BlockQuantity)k;
+        if (strcmp(block_words(*quantity).name, name) == 0) return true;
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "",
+                 block_words(*quantity).name);
+    }
+    FAIL(err, ERROR_INPUT, "there is no field called \"%.40s\"; known are: %s", name, names);
+cleanup:
+    return false;
+}
+
+// --- times ---------------------------------------------------------------------------------------
+
+bool block_times_read(const char *folder, const ResultView *view, BlockTimes *times, Error *err)
+{
+    *times = (BlockTimes){0};
+    TRY(field_times_read(folder, &times->times, &times->count, err));
+    TRY(times->row = NEW_ARRAY(int64_t, times->count, err));
+    int64_t row = 0;
+    for (int32_t k = 0; k < times->count; ++k) {
+        double t = times->times[k].t;
+        while (row + 1 < view->rows && fabs(view->t[row + 1] - t) <= fabs(view->t[row] - t)) ++row;
+        times->row[k] = row;
+    }
+cleanup:
+    if (!error_is_clean(err)) block_times_destroy(times);
+    return error_is_clean(err);
+}
+
+void block_times_destroy(BlockTimes *times)
+{
+    memory_free(times->times);
+    memory_free(times->row);
+    *times = (BlockTimes){0};
+}
+
+bool block_moment_read(const char *at, bool *is_U, double *value, Error *err)
+{
+    char *end = NULL;
+    *is_U = strncmp(at, "U=", 2) == 0;
+    bool known = *is_U || strncmp(at, "t=", 2) == 0;
+    *value = known ? strtod(at + 2, &end) : NAN;
+    if (!end || end == at + 2 || *end || !isfinite(*value))
+        FAIL(err, ERROR_INPUT, "a time is given as U=0.0117 or t=120, not as \"%.40s\"", at);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool block_time_find(const BlockTimes *times, const ResultView *view, const char *at,
+                     int32_t *index, Error *err)
+{
+    bool by_U = false;
+    double wanted = 0, nearest = INFINITY;
+    TRY(block_moment_read(at, &by_U, &wanted, err));
+    for (int32_t k = 0; k < times->count; ++k) {
+        double away = fabs((by_U ? view->U[times->row[k]] : times->times[k].t) - wanted);
+        if (!(away < nearest)) continue;
+        nearest = away;
+        *index = k;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+int32_t block_time_before(const BlockTimes *times, const ResultView *view, double U)
+{
+    int32_t index = 0;
+    for (int32_t k = 0; k < times->count; ++k)
+        if (view->U[times->row[k]] <= U) index = k;
+    return index;
+}
+
+bool block_read(const char *folder, const ResultView *view, const BlockTimes *times, int32_t index,
+                Block *block, Error *err)
+{
+    char path[PATH_MAX];
+    *block = (Block){.t = times->times[index].t, .row = times->row[index]};
+    block->U = view->U[block->row];
+    snprintf(path, sizeof path, "%s/%s", folder, times->times[index].file);
+    TRY(field_frame_read(path, &block->frame, err));
+    TRY(block->value = NEW_ARRAY(double, block->frame.node_count, err));
+    TRY(block->place = memory_array(block->frame.node_count, sizeof *block->place, err));
+    block_deform(block, 0);
+cleanup:
+    if (!error_is_clean(err)) block_destroy(block);
+    return error_is_clean(err);
+}
+
+void block_destroy(Block *block)
+{
+    field_frame_destroy(&block->frame);
+    memory_free(block->value);
+    memory_free(block->place);
+    *block = (Block){0};
+}
+
+// --- quantities ----------------------------------------------------------------------------------
+
+// Adds the strain (xx, zz, 2 xz) of `vectors` at the nodes of element e to theirs.
+static void element_strains(const FieldFrame *frame, int32_t e, const double *vectors,
+                            double *strain)
+{
+    const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+    ElementKind kind = (ElementKind)frame->kind[e];
+    int32_t count = element_node_count(kind);
+    MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
+    for (int32_t a = 0; a < count; ++a)
+        memcpy(position[a], frame->position + 3 * nodes[a], sizeof position[a]);
+    for (int32_t at = 0; at < count; ++at) {
+        double slope[2][2] = {{0}};   // of component, along x and z
+        ShapeValues shape = shape_at(kind, shape_node(kind, at));
+        shape_gradients(kind, &shape, (const MeshPlace *)position, gradient);
+        for (int32_t a = 0; a < count; ++a)
+            for (int32_t d = 0; d < 2; ++d) {
+                slope[d][0] += gradient[a][0] * vectors[3 * nodes[a] + d];
+                slope[d][1] += gradient[a][1] * vectors[3 * nodes[a] + d];
+            }
+        strain[3 * nodes[at]] += slope[0][0];
+        strain[3 * nodes[at] + 1] += slope[1][1];
+        strain[3 * nodes[at] + 2] += slope[0][1] + slope[1][0];
+    }
+}
+
+// factor * (stress less `other`) : strain of `vectors`, the mean over elements. other: NULL: 0.
+static bool take_work(Block *block, const double *stress, const double *other,
+                      const double *vectors, double factor, Error *err)
+{
+    const FieldFrame *frame = &block->frame;
+    double *strain = NEW_ARRAY(double, 3 * (int64_t)frame->node_count, err);
+    int32_t *shares = NEW_ARRAY(int32_t, frame->node_count, err);
+    TRY(strain && shares);
+    for (int32_t e = 0; e < frame->element_count; ++e) {
+        element_strains(frame, e, vectors, strain);
+        for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k)
+            ++shares[frame->element_nodes[k]];
+    }
+    for (int64_t i = 0; i < frame->node_count; ++i) {
+        double work = 0;
+        for (int64_t k = 3 * i; k < 3 * i + 3; ++k)
+            work += (stress[k] - (other ? other[k] : 0)) * strain[k];
+        block->value[i] = factor * work / fmax(shares[i], 1);
+    }
+cleanup:
+    memory_free(strain);
+    memory_free(shares);
+    return error_is_clean(err);
+}
+
+bool block_take(Block *block, BlockQuantity quantity, Error *err)
+{
+    const FieldFrame *frame = &block->frame;
+    if (quantity == BLOCK_ENERGY)
+        return take_work(block, frame->stress_elastic, NULL, frame->displacement, 0.5, err);
+    if (quantity == BLOCK_DISSIPATION)
+        return take_work(block, frame->stress, frame->stress_elastic, frame->velocity, 1, err);
+    for (int64_t i = 0; i < frame->node_count; ++i) {
+        const double *stress = frame->stress + 3 * i;
+        const double *moved = frame->displacement + 3 * i, *speed = frame->velocity + 3 * i;
+        const double values[] = {[BLOCK_VON_MISES] = frame->von_mises[i],
+                                 [BLOCK_STRESS_XX] = stress[0],
+                                 [BLOCK_STRESS_ZZ] = stress[1],
+                                 [BLOCK_STRESS_XZ] = stress[2],
+                                 [BLOCK_PRESSURE] = -(stress[0] + stress[1]) / 2,
+                                 [BLOCK_VELOCITY] = hypot(speed[0], speed[1]),
+                                 [BLOCK_DISPLACEMENT] = hypot(moved[0], moved[1])};
+        block->value[i] = values[quantity];
+    }
+    return true;
+}
+
+// --- deformation ---------------------------------------------------------------------------------
+
+static double mean_along_x(const FieldFrame *frame)
+{
+    double sum = 0;
+    for (int64_t i = 0; i < frame->node_count; ++i) sum += frame->displacement[3 * i];
+    return sum / frame->node_count;
+}
+
+double block_magnification(const Block *block)
+{
+    static const double handy[] = {5, 2, 1};
+    const FieldFrame *frame = &block->frame;
+    double mean = mean_along_x(frame), moved = 0, low[2] = {INFINITY, INFINITY};
+    double high[2] = {-INFINITY, -INFINITY};
+    for (int64_t i = 0; i < frame->node_count; ++i) {
+        moved = fmax(moved, fabs(frame->displacement[3 * i] - mean));
+        moved = fmax(moved, fabs(frame->displacement[3 * i + 1]));
+        for (int32_t d = 0; d < 2; ++d) {
+            low[d] = fmin(low[d], frame->position[3 * i + d]);
+            high[d] = fmax(high[d], frame->position[3 * i + d]);
+        }
+    }
+    double most = SHOWN * fmax(high[0] - low[0], high[1] - low[1]) / moved;
+    if (!(most > 1) || !isfinite(most)) return 1;
+    double power = pow(10, floor(log10(most)));
+    for (int32_t k = 0; k < 3; ++k)
+        if (handy[k] * power <= most) return handy[k] * power;
+    return power;
+}
+
+void block_deform(Block *block, double magnification)
+{
+    const FieldFrame *frame = &block->frame;
+    double mean[2] = {mean_along_x(frame), 0};
+    for (int64_t i = 0; i < frame->node_count; ++i)
+        for (int32_t d = 0; d < 2; ++d)
+            block->place[i][d] = frame->position[3 * i + d] +
+                                 magnification * (frame->displacement[3 * i + d] - mean[d]);
+}

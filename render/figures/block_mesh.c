@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An element is cut into a lattice of parts, each some pixels wide, on which positions and quantity
+// are those of the shape functions; in a part they are linear. The error of that is below
+// 1 / (8 n^2) of the second difference over the element, for n parts along its side.
+#include "render/figures/block_mesh.h"
+
+#include "base/memory.h"
+#include "io/mesh/shape_functions.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { PARTS_MAX = 16, LATTICE_MAX = (PARTS_MAX + 1) * (PARTS_MAX + 1) };
+
+static const double PART_SIZE = 8;   // pixels: a part's side
+
+typedef struct Corner {
+    Point at;   // pixels
+    double value;
+} Corner;
+
+typedef bool (*TriangleFunction)(void *context, const Corner corner[3]);
+
+static Point node_place(const Block *block, const Axes *axes, int32_t node)
+{
+    return axes_place(axes, block->place[node][0], block->place[node][1]);
+}
+
+// Along each side as many parts as its length asks for, whichever element it belongs to: elements
+// side by side leave no crack. Inside as many as along the side that has most. A T3 stays whole:
+// beside a quadrilateral that is cut a pixel may be missed.
+typedef struct Parts {
+    int32_t inside, side[4];
+} Parts;
+
+static Parts choose_parts(const Block *block, const Axes *axes, int32_t e)
+{
+    const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
+    ElementKind kind = (ElementKind)block->frame.kind[e];
+    int32_t corners = element_corner_count(kind);
+    Parts parts = {1, {1, 1, 1, 1}};
+    if (kind == ELEMENT_T3) return parts;
+    for (int32_t k = 0; k < corners; ++k) {
+        Point a = node_place(block, axes, nodes[k]);
+        Point b = node_place(block, axes, nodes[(k + 1) % corners]);
+        double wanted = ceil(hypot(b.x - a.x, b.y - a.y) / PART_SIZE);
+        parts.side[k] = (int32_t)fmin(fmax(wanted, 2), PARTS_MAX);
+        if (parts.side[k] > parts.inside) parts.inside = parts.side[k];
+    }
+    return parts;
+}
+
+// Of `inside` parts the i-th, moved to where a side's own parts meet.
+static double side_place(const Parts *parts, int32_t side, int32_t i)
+{
+    int32_t count = parts->side[side];
+    return round((double)i * count / parts->inside) / count;
+}
+
+// From 0 to 1 along both axes of an element.
+static void lattice_place(const Parts *parts, bool triangle, int32_t i, int32_t j, double place[2])
+{
+    int32_t last = parts->inside;
+    place[0] = (double)i / last;
+    place[1] = (double)j / last;
+    if (j == 0) place[0] = side_place(parts, 0, i);
+    if (!triangle && i == last) place[1] = side_place(parts, 1, j);
+    if (!triangle && j == last) place[0] = side_place(parts, 2, i);
+    if (i == 0) place[1] = side_place(parts, triangle ? 2 : 3, j);
+    if (triangle && i > 0 && j > 0 && i + j == last) {
+        place[1] = side_place(parts, 1, j);
+        place[0] = 1 - place[1];
+    }
+}
+
+// lattice: [(inside + 1)^2], row by row along eta; of a triangle only where i + j <= inside.
+static void fill_lattice(const Block *block, const Axes *axes, int32_t e, const Parts *parts,
+                         Corner *lattice)
+{
+    const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
+    ElementKind kind = (ElementKind)block->frame.kind[e];
+    int32_t count = element_node_count(kind), last = parts->inside;
+    bool triangle = element_corner_count(kind) == 3;
+    for (int32_t j = 0; j <= last; ++j)
+        for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
+            double at[2], x = 0, z = 0, value = 0;
+            lattice_place(parts, triangle, i, j, at);
+            for (int32_t d = 0; d < 2 && !triangle; ++d) at[d] = 2 * at[d] - 1;
+            ShapeValues shape = shape_at(kind, at);
+            for (int32_t a = 0; a < count; ++a) {
+                x += shape.value[a] * block->place[nodes[a]][0];
+                z += shape.value[a] * block->place[nodes[a]][1];
+                value += shape.value[a] * block->value[nodes[a]];
+            }
+            lattice[j * (last + 1) + i] = (Corner){axes_place(axes, x, z), value};
+        }
+}
+
+// Whether an element may have this value: shape functions of order 2 leave the range of the nodes
+// by less than its width.
+static bool may_reach(const Block *block, int32_t e, double level)
+{
+    const FieldFrame *frame = &block->frame;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k) {
+        double value = block->value[frame->element_nodes[k]];
+        low = fmin(low, value);
+        high = fmax(high, value);
+    }
+    return level >= low - (high - low) && level <= high + (high - low);
+}
+
+// All triangles of all elements, or of those that may reach *level; ends where `work` gives false.
+static bool each_triangle(const Block *block, const Axes *axes, const double *level,
+                          TriangleFunction work, void *context)
+{
+    Corner lattice[LATTICE_MAX];
+    bool going = true;
+    for (int32_t e = 0; going && e < block->frame.element_count; ++e) {
+        if (level && !may_reach(block, e, *level)) continue;
+        Parts chosen = choose_parts(block, axes, e);
+        int32_t parts = chosen.inside, row = parts + 1;
+        bool triangle = element_corner_count((ElementKind)block->frame.kind[e]) == 3;
+        fill_lattice(block, axes, e, &chosen, lattice);
+        for (int32_t j = 0; going && j < parts; ++j)
+            for (int32_t i = 0; going && i < (triangle ? parts - j : parts); ++i) {
+                const Corner *low = lattice + j * row + i, *high = low + row;
+                const Corner lower[3] = {low[0], low[1], high[0]};
+                going = work(context, lower);
+                if (!going || (triangle && i + j == parts - 1)) continue;
+                const Corner upper[3] = {low[1], high[1], high[0]};
+                going = work(context, upper);
+            }
+    }
+    return going;
+}
+
+// --- pixels --------------------------------------------------------------------------------------
+
+// What is drawn, and its colours.
+typedef struct Fill {
+    const Box *box;
+    double low, range;   // the quantity at colour 0, and up to colour 1
+    GlCorner *corners;   // [3 * count] owned
+    int32_t count, room;
+    Error *err;
+} Fill;
+
+// false: no memory. What has no place or no number is left out.
+static bool fill_add(void *context, const Corner corner[3])
+{
+    Fill *fill = context;
+    for (int32_t k = 0; k < 3; ++k)
+        if (!isfinite(corner[k].at.x + corner[k].at.y + corner[k].value)) return true;
+    GlCorner *longer =
+        memory_grow(fill->corners, fill->count, &fill->room, 3 * sizeof(GlCorner), fill->err);
+    if (!longer) return false;
+    fill->corners = longer;
+    GlCorner *to = longer + 3 * (int64_t)fill->count++;
+    for (int32_t k = 0; k < 3; ++k)
+        to[k] = (GlCorner){(float)(corner[k].at.x - fill->box->left),
+                           (float)(corner[k].at.y - fill->box->top),
+                           (float)((corner[k].value - fill->low) / fill->range)};
+    return true;
+}
+
+bool block_colors_draw(Canvas *canvas, const Block *block, const Axes *axes, double low,
+                       double high, Error *err)
+{
+    Fill fill = {.box = &axes->box, .low = low, .range = high - low, .err = err};
+    if (each_triangle(block, axes, NULL, fill_add, &fill))
+        canvas_heat_triangles(canvas, &axes->box, fill.corners, 3 * (int64_t)fill.count);
+    memory_free(fill.corners);
+    return error_is_clean(err);
+}
+
+// --- lines ---------------------------------------------------------------------------------------
+
+// Pieces of lines, three points each, the third one not finite: it ends the piece.
+typedef struct Pieces {
+    double level;
+    Point *points;   // [3 * count] owned
+    int32_t count, room;
+    Error *err;
+} Pieces;
+
+static bool pieces_add(Pieces *pieces, Point from, Point to)
+{
+    Point *longer =
+        memory_grow(pieces->points, pieces->count, &pieces->room, 3 * sizeof(Point), pieces->err);
+    if (!longer) return false;
+    pieces->points = longer;
+    Point *piece = longer + 3 * (int64_t)pieces->count++;
+    piece[0] = from;
+    piece[1] = to;
+    piece[2] = (Point){NAN, NAN};
+    return true;
+}
+
+// The straight piece of a contour in a triangle whose corners lie on both sides of the level.
+static bool cut_triangle(void *context, const Corner corner[3])
+{
+    Pieces *pieces = context;
+    Point crossing[3];
+    int32_t found = 0;
+    for (int32_t k = 0; k < 3; ++k) {
+        const Corner *a = &corner[k], *b = &corner[(k + 1) % 3];
+        if ((a->value < pieces->level) == (b->value < pieces->level)) continue;
+        double part = (pieces->level - a->value) / (b->value - a->value);
+        crossing[found++] =
+            (Point){a->at.x + part * (b->at.x - a->at.x), a->at.y + part * (b->at.y - a->at.y)};
+    }
+    return found != 2 || pieces_add(pieces, crossing[0], crossing[1]);
+}
+
+bool block_contour_draw(const Page *page, const Block *block, const Axes *axes, double level,
+                        const Stroke *stroke, Error *err)
+{
+    Pieces pieces = {.level = level, .err = err};
+    if (each_triangle(block, axes, &level, cut_triangle, &pieces))
+        draw_line(page->canvas, stroke, pieces.points, 3 * (int64_t)pieces.count);
+    memory_free(pieces.points);
+    return error_is_clean(err);
+}
+
+// A side of an element, its lower corner first; through: the node in its middle, or -1.
+typedef struct Side {
+    int32_t low, high, through;
+} Side;
+
+static Side element_side(const FieldFrame *frame, int32_t e, int32_t k)
+{
+    const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+    int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
+    int32_t a = nodes[k], b = nodes[(k + 1) % corners];
+    bool curved = frame->first_node[e + 1] - frame->first_node[e] >= 2 * corners;
+    return (Side){a < b ? a : b, a < b ? b : a, curved ? nodes[corners + k] : -1};
+}
+
+static int compare_sides(const void *left, const void *right)
+{
+    const Side *a = left, *b = right;
+    if (a->low != b->low) return a->low < b->low ? -1 : 1;
+    return a->high < b->high ? -1 : a->high > b->high;
+}
+
+static void side_draw(const Page *page, const Block *block, const Axes *axes, const Side *side,
+                      const Stroke *stroke)
+{
+    Point line[3] = {node_place(block, axes, side->low)};
+    int32_t count = 1;
+    if (side->through >= 0) line[count++] = node_place(block, axes, side->through);
+    line[count++] = node_place(block, axes, side->high);
+    draw_line(page->canvas, stroke, line, count);
+}
+
+// What belongs to one element alone.
+bool block_outline_draw(const Page *page, const Block *block, const Axes *axes,
+                        const Stroke *stroke, Error *err)
+{
+    const FieldFrame *frame = &block->frame;
+    int64_t count = 0;
+    Side *sides = NEW_ARRAY(Side, 4 * (int64_t)frame->element_count, err);
+    if (!sides) return false;
+    for (int32_t e = 0; e < frame->element_count; ++e)
+        for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k)
+            sides[count++] = element_side(frame, e, k);
+    qsort(sides, (size_t)count, sizeof *sides, compare_sides);
+    for (int64_t k = 0; k < count; ++k) {
+        bool before = k > 0 && compare_sides(&sides[k - 1], &sides[k]) == 0;
+        bool after = k + 1 < count && compare_sides(&sides[k], &sides[k + 1]) == 0;
+        if (!before && !after) side_draw(page, block, axes, &sides[k], stroke);
+    }
+    memory_free(sides);
+    return true;
+}
+
+// Inner sides twice: not worth a search.
+void block_edges_draw(const Page *page, const Block *block, const Axes *axes, const Stroke *stroke)
+{
+    const FieldFrame *frame = &block->frame;
+    for (int32_t e = 0; e < frame->element_count; ++e)
+        for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k) {
+            Side side = element_side(frame, e, k);
+            side_draw(page, block, axes, &side, stroke);
+        }
+}

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/figures/block_page.h"
+
+#include "base/memory.h"
+#include "render/figures/rod_mark.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { ARROWS = 9, STATUSES = 4 };
+
+static const double ROOM_LEFT = 15, ROOM_RIGHT = 5;   // points: rod and its arrow; paper
+static const double ROOM_ABOVE = 13, ROOM_BELOW = 10;   // points: load; contact
+static const double CONTACT_GAP = 2.5,
+                    CONTACT_HEIGHT = 4;   // points: block to the band, its height
+static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
+static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
+static const double LEFT_OUT = 0.005;   // of the nodes at each end of the range
+static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
+
+static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
+static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
+// By the history's status: open, sticks, slips where friction weakens, slips where it does not.
+static const struct {
+    Color color;
+    const char *name;
+} STATUS[STATUSES] = {{{0.30f, 0.62f, 0.85f, 1}, "open"},
+                      {{0.84f, 0.85f, 0.87f, 1}, "sticks"},
+                      {{0.93f, 0.58f, 0.08f, 1}, "slips, weakening"},
+                      {{0.55f, 0.08f, 0.30f, 1}, "slips"}};
+
+void block_extent(const Block *block, double extent[4])
+{
+    extent[0] = extent[2] = INFINITY;
+    extent[1] = extent[3] = -INFINITY;
+    for (int32_t i = 0; i < block->frame.node_count; ++i)
+        for (int32_t d = 0; d < 2; ++d) {
+            extent[2 * d] = fmin(extent[2 * d], block->place[i][d]);
+            extent[2 * d + 1] = fmax(extent[2 * d + 1], block->place[i][d]);
+        }
+}
+
+double block_page_scale(const double extent[4], double width, double share)
+{
+    return (width - share * (ROOM_LEFT + ROOM_RIGHT)) / (extent[1] - extent[0]);
+}
+
+double block_page_height(const double extent[4], double scale, double share)
+{
+    return scale * (extent[3] - extent[2]) + share * (ROOM_ABOVE + ROOM_BELOW);
+}
+
+void block_page_ranges(const double extent[4], double scale, double share, Axes *axes)
+{
+    axes->x.low = extent[0] - share * ROOM_LEFT / scale;
+    axes->x.high = extent[1] + share * ROOM_RIGHT / scale;
+    axes->y.low = extent[2] - share * ROOM_BELOW / scale;
+    axes->y.high = extent[3] + share * ROOM_ABOVE / scale;
+}
+
+// --- range of the colours ------------------------------------------------------------------------
+
+static int compare_numbers(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return a < b ? -1 : a > b;
+}
+
+// range: where all but LEFT_OUT of the values lie at each end; whole: where all of them do.
+static bool find_range(const Block *blocks, int32_t count, double range[2], double whole[2],
+                       Error *err)
+{
+    int64_t total = 0, kept = 0;
+    double *sorted = NULL;
+    for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
+    TRY(sorted = NEW_ARRAY(double, total, err));
+    for (int32_t k = 0; k < count; ++k)
+        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
+            if (isfinite(blocks[k].value[i])) sorted[kept++] = blocks[k].value[i];
+    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
+    int64_t out = (int64_t)(LEFT_OUT * (double)kept);
+    if (kept == 0) FAIL(err, ERROR_FILE, "the field holds no number");
+    whole[0] = sorted[0];
+    whole[1] = sorted[kept - 1];
+    range[0] = sorted[out];
+    range[1] = sorted[kept - 1 - out];
+cleanup:
+    memory_free(sorted);
+    return error_is_clean(err);
+}
+
+bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
+                    Error *err)
+{
+    double range[2] = {0, 0}, whole[2] = {0, 0};
+    BlockWords words = block_words(quantity);
+    TRY(find_range(blocks, count, range, whole, err));
+    Axis axis = {.low = range[0], .high = range[1], .factor = 1};
+    if (map->view->si)
+        axis_set_unit(&axis, words.words, words.si);
+    else
+        snprintf(axis.label, sizeof axis.label, "%s / %s", words.words, words.normalised);
+    map->factor = axis.factor;
+    map->bar = (Colorbar){.label = map->label};
+    colorbar_fit(&map->bar, (double[]){range[0] * axis.factor, range[1] * axis.factor});
+    map->bar.clipped = whole[0] * axis.factor < map->bar.low;
+    map->bar.clipped_above = whole[1] * axis.factor > map->bar.high;
+    snprintf(map->label, sizeof map->label, "%s", axis.label);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- the block -----------------------------------------------------------------------------------
+
+// At the numbers of the bar.
+static bool draw_contours(const Page *page, const BlockPage *map, const Block *block,
+                          const Axes *axes, Error *err)
+{
+    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * map->share * page->point};
+    Ticks ticks = colorbar_ticks(&map->bar);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        double level = tick_value(&ticks, k);
+        if (level > map->bar.low && level < map->bar.high)
+            TRY(block_contour_draw(page, block, axes, level / map->factor, &stroke, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Below the floor's line, a colour for each contact node; where there is none, none.
+void block_page_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes)
+{
+    const ResultView *view = map->view;
+    const double *status = view->status + row * view->nodes;
+    double unit = map->share * page->point, floor_y = axes_place(axes, 0, 0).y;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        bool before = i > 0 && view->pad[i - 1] == view->pad[i];
+        bool after = i + 1 < view->nodes && view->pad[i + 1] == view->pad[i];
+        double from = before ? (view->x[i - 1] + view->x[i]) / 2 : view->x[i];
+        double to = after ? (view->x[i] + view->x[i + 1]) / 2 : view->x[i];
+        int32_t kind = (int32_t)status[i];
+        Box box = {axes_place(axes, from, 0).x, floor_y + CONTACT_GAP * unit,
+                   axes_place(axes, to, 0).x, floor_y + (CONTACT_GAP + CONTACT_HEIGHT) * unit};
+        box.left = round(box.left);
+        box.right = fmax(round(box.right), box.left + 1);
+        if (kind >= 0 && kind < STATUSES) draw_fill(page->canvas, STATUS[kind].color, &box);
+    }
+}
+
+// Arrows along what was the top before anything moved.
+static void draw_load(const Page *page, const BlockPage *map, const Block *block, const Axes *axes)
+{
+    const FieldFrame *frame = &block->frame;
+    double unit = map->share * page->point, low = INFINITY, high = -INFINITY, top = -INFINITY;
+    double bottom = INFINITY, z = -INFINITY;
+    Stroke stroke = {.color = LOAD_COLOR, .width = 0.6 * unit};
+    if (!(map->view->number[NUMBER_PRESSURE] > 0)) return;
+    for (int32_t i = 0; i < frame->node_count; ++i) {
+        top = fmax(top, frame->position[3 * i + 1]);
+        bottom = fmin(bottom, frame->position[3 * i + 1]);
+    }
+    for (int32_t i = 0; i < frame->node_count; ++i) {
+        if (frame->position[3 * i + 1] < top - TOP_SHARE * (top - bottom)) continue;
+        low = fmin(low, block->place[i][0]);
+        high = fmax(high, block->place[i][0]);
+        z = fmax(z, block->place[i][1]);
+    }
+    for (int32_t k = 0; k < ARROWS; ++k) {
+        Point tip = axes_place(axes, low + (high - low) * (k + 0.5) / ARROWS, z);
+        tip.y -= LOAD_GAP * unit;
+        arrow_draw(page, &stroke, (Point){tip.x, tip.y - LOAD_LENGTH * unit}, tip,
+                   LOAD_HEAD * unit);
+    }
+}
+
+// The face that the rod pushes is where x was least, at the strip's height.
+static double rod_face(const Block *block, double low, double high)
+{
+    const FieldFrame *frame = &block->frame;
+    double face = INFINITY;
+    for (int32_t i = 0; i < frame->node_count; ++i)
+        if (frame->position[3 * i + 1] >= low && frame->position[3 * i + 1] <= high)
+            face = fmin(face, block->place[i][0]);
+    return face;
+}
+
+bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
+                     Error *err)
+{
+    double unit = map->share * page->point;
+    double low = map->view->number[NUMBER_ROD_LOW], high = map->view->number[NUMBER_ROD_HIGH];
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
+    Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
+    Stroke ground = {.color = INK, .width = OUTLINE_WIDTH * unit};
+    TRY(block_colors_draw(page->canvas, block, axes, map->bar.low / map->factor,
+                          map->bar.high / map->factor, err));
+    if (map->edges) block_edges_draw(page, block, axes, &edge);
+    TRY(draw_contours(page, map, block, axes, err));
+    TRY(block_outline_draw(page, block, axes, &outline, err));
+    block_page_contact(page, map, block->row, axes);
+    Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
+    left.y = right.y += CONTACT_GAP * unit;
+    draw_segment(page->canvas, &ground, left, right);
+    draw_load(page, map, block, axes);
+    RodMark rod = {rod_face(block, low, high), low, high, map->share};
+    rod_mark_draw(page, axes, &rod);
+cleanup:
+    return error_is_clean(err);
+}
+
+void block_page_legend(const Page *page, Point place)
+{
+    double point = page->point;
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
+    text_draw(page->text, &style, place, "contact");
+    place.x += text_width(page->text, style.size, "contact") + 5 * point;
+    for (int32_t k = STATUSES - 1; k >= 0; --k) {
+        Box patch = {place.x, place.y - 2 * point, place.x + 6 * point, place.y + 2 * point};
+        draw_fill(page->canvas, STATUS[k].color, &patch);
+        text_draw(page->text, &style, (Point){patch.right + 2 * point, place.y}, STATUS[k].name);
+        place.x = patch.right + 7 * point + text_width(page->text, style.size, STATUS[k].name);
+    }
+}

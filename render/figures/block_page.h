@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A block at one time on a page: its field in colours, what holds, drives and presses it. Called by
+// figure_field and figure_field_strip.
+#ifndef AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
+#define AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
+
+#include "render/canvas/colorbar.h"
+#include "render/figures/block_mesh.h"
+
+typedef struct BlockPage {
+    const ResultView *view;   // its statuses have been read
+    bool edges;   // of elements are drawn
+    double share;   // of the sizes of marks: 1, or less on a small picture
+    Colorbar bar;   // block_page_fit sets it, and what follows
+    char label[AXIS_LABEL_SIZE];   // of the bar
+    double factor;   // the bar's numbers are the block's values times this
+} BlockPage;
+
+// Least and largest x and z of the block as drawn: low and high of x, then of z.
+void block_extent(const Block *block, double extent[4]);
+
+// Width in points, of the block and what stands beside it, becomes the scale: points a length.
+double block_page_scale(const double extent[4], double width, double share);
+// Points of height that the block then takes, with load and contact.
+double block_page_height(const double extent[4], double scale, double share);
+// Ranges of the axes whose box has such a width and height.
+void block_page_ranges(const double extent[4], double scale, double share, Axes *axes);
+
+// Fits low, high and ticks of the bar to the values of all blocks, but for the outermost of them,
+// which singular corners have.
+bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
+                    Error *err);
+
+// Draws into axes->box; colours and lines.
+bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
+                     Error *err);
+
+// What the contact does at a step of the history, in its place below the block; part of
+// block_page_draw.
+void block_page_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes);
+
+// What the colours of the contact mean, from `place` to the right.
+void block_page_legend(const Page *page, Point place);
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/figures/field_page.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double LEFT = 30, RIGHT = 60;   // points beside the frame: numbers; the colour bar
+static const double WORDS_HEIGHT = 11;   // points above the frame
+static const double LEGEND_HEIGHT = 10;   // points below the names of the axes
+static const double BAR_GAP = 6;   // points: frame to colour bar
+static const double SHAPE_MAX = 1.1;   // of the frame's height over the room for its width
+
+enum { WORDS_SIZE = 160 };
+
+double field_page_lay_out(FieldPage *field, double page_width)
+{
+    double room = page_width - LEFT - RIGHT;
+    Axes axes = {.x.label = "x", .number_size = NUMBER_SIZE};
+    field->width = room;
+    field->scale = block_page_scale(field->extent, room, 1);
+    field->height = block_page_height(field->extent, field->scale, 1);
+    if (field->height > SHAPE_MAX * room) {
+        field->scale *= SHAPE_MAX * room / field->height;
+        field->height = block_page_height(field->extent, field->scale, 1);
+        block_page_ranges(field->extent, field->scale, 1, &axes);
+        field->width = field->scale * (axes.x.high - axes.x.low);
+    }
+    return (WORDS_HEIGHT + field->height + axes_bottom_margin(&axes) + LEGEND_HEIGHT) / page_width;
+}
+
+// "U / L_0 = 0.0117   deformation x 50".
+static void draw_words(const Page *page, const FieldPage *field, const BlockPage *map,
+                       const Block *block, const Axes *axes)
+{
+    char words[WORDS_SIZE];
+    Axis U = figure_length_axis(map->view, "U", block->U, block->U);
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
+    snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
+             block->U * U.factor, field->magnification);
+    text_draw(page->text, &style, (Point){axes->box.left, axes->box.top - 3.5 * page->point},
+              words);
+}
+
+bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
+                     const Block *block, Error *err)
+{
+    double point = page->point, low = field->extent[0], high = field->extent[1];
+    uint8_t colors[3 * MAP_SIZE];
+    Axes axes = {.x = figure_length_axis(map->view, "x", low, high),
+                 .number_size = NUMBER_SIZE,
+                 .color = INK};
+    axes.y = axes.x;
+    snprintf(axes.y.label, sizeof axes.y.label, "~{z}%.80s", axes.x.label + 4);   // behind "~{x}"
+    block_page_ranges(field->extent, field->scale, 1, &axes);
+    axes.box.left = round(LEFT * point);
+    axes.box.top = page->head + round(WORDS_HEIGHT * point);
+    axes.box.right = axes.box.left + round(field->width * point);
+    axes.box.bottom = axes.box.top + round(field->height * point);
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, PAPER);
+    TRY(block_page_draw(page, map, block, &axes, err));
+    axes_draw(page, &axes);
+    draw_words(page, field, map, block, &axes);
+    Box beside = axes.box;
+    beside.left = round(axes.box.right + BAR_GAP * point);
+    colorbar_draw(page, &map->bar, &beside);
+    double below = axes.box.bottom + (axes_bottom_margin(&axes) + 0.5 * LEGEND_HEIGHT) * point;
+    block_page_legend(page, (Point){axes.box.left, below});
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A page with one field of the block: its size, and what is drawn on it. Called by figure_field and
+// frame_images.
+#ifndef AMONTONS_RENDER_FIGURES_FIELD_PAGE_H
+#define AMONTONS_RENDER_FIGURES_FIELD_PAGE_H
+
+#include "render/figures/block_page.h"
+#include "render/figures/figures.h"
+
+typedef struct FieldPage {
+    double magnification;   // of the deformation
+    double extent[4];   // of the block as drawn
+    double scale, width, height;   // of the frame, points; set by lay_out
+} FieldPage;
+
+// To scale on a page so many points wide, or less where it would be too high. The page's height
+// over its width.
+double field_page_lay_out(FieldPage *field, double page_width);
+
+// map: fitted; block: deformed.
+bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
+                     const Block *block, Error *err);
+
+#endif

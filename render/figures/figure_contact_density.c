@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Figure 1(d): the normalised density of the real contact area, phi = max(0, 1 - |slip rate| / v_c)
+// (the paper's Methods), in the last precursors before sliding. Where the block has lifted off it
+// is 0 for another reason, which has its own colour.
+#include "render/figures/figures.h"
+
+#include "render/figures/map_page.h"
+#include "render/figures/zoom.h"
+
+#include <math.h>
+
+enum { RANGES = 5 };
+
+static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
+static const double NAME_GAP = 2.5;   // points: frame to the line above it
+static const double NAME_ABOVE = 9.5;   // points above the frame that it takes
+static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
+
+typedef struct Precursors {
+    double density_min;   // the least phi before sliding starts, where in contact
+    bool open;   // some node has lifted off
+} Precursors;
+
+static Precursors precursors_look(const ResultView *view, const Zoom *zoom, double critical)
+{
+    Precursors seen = {.density_min = 1};
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (!(view->U[row] >= zoom->U_low && view->U[row] <= zoom->U_high)) continue;
+        for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
+            bool open = view->status[k] == 0;
+            seen.open = seen.open || open;
+            if (!open && view->U[row] < zoom->U_slide)
+                seen.density_min = fmin(seen.density_min, 1 - fabs(view->slip_rate[k]) / critical);
+        }
+    }
+    return seen;
+}
+
+// The precursors fill the scale: far below v_c they would hardly show between 0 and 1. In sliding
+// phi is below the scale, which the scale says.
+static double range_low(double density_min)
+{
+    int32_t k = 0;
+    while (k < RANGES - 1 && RANGE_LOW[k] > density_min) ++k;
+    return RANGE_LOW[k];
+}
+
+// From slip rates to what is lost of phi, over what the scale spans. Open is infinitely fast here.
+static void grid_to_levels(PixelGrid *grid, double critical, double low)
+{
+    int64_t count = (int64_t)grid->rows * grid->columns;
+    for (int64_t k = 0; k < count; ++k) {
+        double rate = (double)grid->values[k];
+        if (isnan(rate))
+            grid->values[k] = HEAT_MISSING;
+        else if (isinf(rate))
+            grid->values[k] = HEAT_BELOW;
+        else
+            grid->values[k] = (float)fmin(rate / critical / (1 - low), 1);
+    }
+}
+
+// In the blue of the slip map's bar.
+static void name_draw(const Page *page, const Axes *axes)
+{
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = ZOOM_DENSITY, .across = 1};
+    Point place = {axes->box.right, axes->box.top - NAME_GAP * page->point};
+    text_draw(page->text, &style, place, "what is marked blue in slip-map");
+}
+
+bool figure_contact_density(const Page *page, ResultView *view, Error *err)
+{
+    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
+    Zoom zoom = zoom_choose(view);
+    MapPage map = {.bar = {.high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
+    if (!(critical > 0))
+        FAIL(err, ERROR_INPUT,
+             "the result has no critical velocity, which the contact density "
+             "is defined by");
+    if (!zoom.found) {
+        result_view_range(view, &zoom.U_low, &zoom.U_high);
+        zoom.U_slide = INFINITY;
+    }
+    TRY(result_view_read_slip_rate(view, err));
+    TRY(result_view_read_status(view, err));
+    Precursors seen = precursors_look(view, &zoom, critical);
+    map.bar.low = range_low(seen.density_min);
+    map.bar.clipped = map.bar.low > 0;
+    map.bar.neutral = seen.open ? "open" : NULL;
+    map.bar.neutral_color = OPEN;
+    if (zoom.found) map.above = NAME_ABOVE;
+    map_page_layout(page, view, zoom.U_low, zoom.U_high, &map);
+    TRY(map_page_fill(view, view->status, &map, err));
+    grid_to_levels(&map.grid, critical, map.bar.low);
+    map_page_draw_field(page, view, &map);
+    TRY(map_page_draw_front(page, view, &map, err));
+    if (zoom.found) {
+        map.axes.color = ZOOM_DENSITY;
+        name_draw(page, &map.axes);
+    }
+    map_page_draw_frame(page, view, &map);
+cleanup:
+    map_page_destroy(&map);
+    return error_is_clean(err);
+}

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Frames of one sliding on one page, in the same colours. Of the stored times those are taken
+// between which the slip of the contact goes on by equal parts: what moves, moves evenly.
+#include "render/figures/figures.h"
+
+#include "base/memory.h"
+#include "render/figures/block_page.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { FRAMES_MAX = 6, FRAMES_MIN = 2, COLUMNS = 2, WORDS_SIZE = 160 };
+
+static const double SHARE = 0.55;   // of marks, letters aside
+static const double RIGHT = 58;   // points: the colour bar
+static const double LEFT = 4, GAP = 5;   // points: beside and between frames
+static const double WORDS_HEIGHT = 9;   // points above each frame
+static const double LEGEND_HEIGHT = 12;   // points below all
+static const double BOTTOM = 4;   // points
+static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
+
+typedef struct Strip {
+    Block blocks[FRAMES_MAX];   // [count] owned
+    double extent[4];   // of all
+    int32_t count;
+    double scale, width, height;   // of a frame, points
+    double magnification;
+} Strip;
+
+// The sliding that lies nearest to the asked time; without one the last that has ended.
+static bool find_event(const FigureInput *input, const BlockTimes *times, const ViewEvent **event,
+                       Error *err)
+{
+    const ResultView *view = input->view;
+    int32_t index = -1;
+    double least = INFINITY;
+    *event = NULL;
+    if (input->field->at) TRY(block_time_find(times, view, input->field->at, &index, err));
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *seen = &view->events[k];
+        if (seen->kind != VIEW_LEADING || !isfinite(seen->U_start + seen->U_stop)) continue;
+        double away = index >= 0 ? fabs(view->U[times->row[index]] - seen->U_start) : 0;
+        if (!(away <= least)) continue;
+        least = away;
+        *event = seen;
+    }
+    if (!*event)
+        FAIL(err, ERROR_INPUT, "no sliding of the whole block has been seen from start to end");
+cleanup:
+    return error_is_clean(err);
+}
+
+// How much of the slip of an event is done at a step: the mean over the contact nodes, 0 to 1.
+static double slip_done(const ResultView *view, int64_t row, int64_t first, int64_t last)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        double start = view->slip[first * view->nodes + i];
+        double way = view->slip[last * view->nodes + i] - start;
+        double part = way > 0 ? (view->slip[row * view->nodes + i] - start) / way : 0;
+        sum += fmin(fmax(part, 0), 1);
+    }
+    return sum / view->nodes;
+}
+
+// chosen: indices of the times nearest to equal parts of the slip, each once; returns how many.
+static int32_t choose_times(const ResultView *view, const BlockTimes *times, const ViewEvent *event,
+                            int32_t chosen[FRAMES_MAX])
+{
+    double slack = SLACK * fabs(event->U_stop);
+    int32_t from = 0, to = times->count - 1, count = 0;
+    while (from < times->count && view->U[times->row[from]] < event->U_start - slack) ++from;
+    while (to >= from && view->U[times->row[to]] > event->U_stop + slack) --to;
+    for (int32_t k = 0; k < FRAMES_MAX && from <= to; ++k) {
+        int32_t best = from;
+        double least = INFINITY, wanted = (double)k / (FRAMES_MAX - 1);
+        for (int32_t at = from; at <= to; ++at) {
+            double done = slip_done(view, times->row[at], times->row[from], times->row[to]);
+            if (fabs(done - wanted) < least) best = at;
+            least = fmin(least, fabs(done - wanted));
+        }
+        if (count == 0 || chosen[count - 1] < best) chosen[count++] = best;
+    }
+    return count;
+}
+
+static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity quantity, Error *err)
+{
+    BlockTimes times = {0};
+    const ViewEvent *event = NULL;
+    int32_t chosen[FRAMES_MAX];
+    TRY(block_times_read(input->folder, input->view, &times, err));
+    TRY(find_event(input, &times, &event, err));
+    TRY(result_view_read_status(input->view, err));
+    TRY(result_view_read_slip(input->view, err));
+    int32_t count = choose_times(input->view, &times, event, chosen);
+    if (count < FRAMES_MIN)
+        FAIL(err, ERROR_INPUT,
+             "of the sliding at U = %.5g only %d time%s stored: output.fields takes more with "
+             "at_events: true, or a smaller every_t",
+             event->U_start, count, count == 1 ? " is" : "s are");
+    for (; strip->count < count; ++strip->count) {
+        Block *block = &strip->blocks[strip->count];
+        TRY(block_read(input->folder, input->view, &times, chosen[strip->count], block, err));
+        TRY(block_take(block, quantity, err));
+    }
+cleanup:
+    block_times_destroy(&times);
+    return error_is_clean(err);
+}
+
+// One magnification and one scale for all.
+static void lay_out(const FigureInput *input, Strip *strip)
+{
+    double room = page_width(input->def.style) - LEFT - RIGHT;
+    strip->magnification = INFINITY;
+    for (int32_t k = 0; k < strip->count; ++k)
+        strip->magnification = fmin(strip->magnification, block_magnification(&strip->blocks[k]));
+    for (int32_t k = 0; k < strip->count; ++k) {
+        double extent[4];
+        block_deform(&strip->blocks[k], strip->magnification);
+        block_extent(&strip->blocks[k], extent);
+        for (int32_t d = 0; d < 4; ++d) {
+            double both = d % 2 ? fmax(extent[d], strip->extent[d])
+                                : fmin(extent[d], strip->extent[d]);
+            strip->extent[d] = k == 0 ? extent[d] : both;
+        }
+    }
+    strip->width = (room - (COLUMNS - 1) * GAP) / COLUMNS;
+    strip->scale = block_page_scale(strip->extent, strip->width, SHARE);
+    strip->height = block_page_height(strip->extent, strip->scale, SHARE);
+}
+
+// "(a) U / L_0 = 0.011491", the part of the page that frame k takes.
+static Axes frame_axes(const Page *page, const FigureInput *input, const Strip *strip, int32_t k)
+{
+    char words[WORDS_SIZE];
+    double point = page->point;
+    const Block *block = &strip->blocks[k];
+    Axis U = figure_length_axis(input->view, "U", block->U, block->U);
+    Axes axes = {0};
+    int32_t line = k / COLUMNS;
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
+    block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
+    axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
+    axes.box.right = axes.box.left + round(strip->width * point);
+    axes.box.top = page->head +
+                   round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
+    axes.box.bottom = axes.box.top + round(strip->height * point);
+    snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
+    text_draw(page->text, &style, (Point){axes.box.left, axes.box.top - 1.5 * point}, words);
+    return axes;
+}
+
+static bool draw_strip(const Page *page, const FigureInput *input, const Strip *strip,
+                       BlockQuantity quantity, Error *err)
+{
+    char words[WORDS_SIZE];
+    double point = page->point;
+    uint8_t colors[3 * MAP_SIZE];
+    BlockPage map = {.view = input->view, .edges = input->field->edges, .share = SHARE};
+    Box all = {0};
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
+    TRY(block_page_fit(&map, strip->blocks, strip->count, quantity, err));
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, PAPER);
+    for (int32_t k = 0; k < strip->count; ++k) {
+        Axes axes = frame_axes(page, input, strip, k);
+        TRY(block_page_draw(page, &map, &strip->blocks[k], &axes, err));
+        if (k == 0) all = axes.box;
+        all.right = fmax(all.right, axes.box.right);
+        all.bottom = axes.box.bottom;
+    }
+    Box beside = {.left = all.right + GAP * point, .top = all.top, .bottom = all.bottom};
+    colorbar_draw(page, &map.bar, &beside);
+    Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
+    block_page_legend(page, place);
+    snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
+    style.across = 1;
+    place.x = canvas_width(page->canvas) - 2 * LEFT * point;
+    text_draw(page->text, &style, place, words);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_strip(Page *page, const FigureInput *input, Error *err)
+{
+    PageDef def = input->def;
+    BlockQuantity quantity = BLOCK_VELOCITY;
+    Strip *strip = NEW_ARRAY(Strip, 1, err);
+    TRY(strip);
+    if (input->field->of) TRY(block_quantity_find(input->field->of, &quantity, err));
+    TRY(read_strip(input, strip, quantity, err));
+    lay_out(input, strip);
+    int32_t rows = (strip->count + COLUMNS - 1) / COLUMNS;
+    def.height = (rows * (strip->height + WORDS_HEIGHT) + LEGEND_HEIGHT + BOTTOM) /
+                 page_width(def.style);
+    TRY(page_begin(page, &def, err));
+    TRY(draw_strip(page, input, strip, quantity, err));
+cleanup:
+    for (int32_t k = 0; strip && k < FRAMES_MAX; ++k) block_destroy(&strip->blocks[k]);
+    memory_free(strip);
+    return error_is_clean(err);
+}

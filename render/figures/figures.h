@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The figures: three after figure 1(b), (c) and (d) of the paper, drawn on a page of known height,
+// and the block, whose height its page takes. Called by render.c.
+#ifndef AMONTONS_RENDER_FIGURES_FIGURES_H
+#define AMONTONS_RENDER_FIGURES_FIGURES_H
+
+#include "render/canvas/axes.h"
+#include "render/figures/result_view.h"
+
+// The view may read more of the result, hence not const.
+typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
+
+// What a figure begins its page by itself with.
+typedef struct FigureInput {
+    ResultView *view;
+    const char *folder;   // of the result
+    const FieldChoice *field;
+    PageDef def;   // but its height
+} FigureInput;
+typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error *err);
+
+// One field of the block at one time.
+bool figure_field(Page *page, const FigureInput *input, Error *err);
+// The same, the velocity where none is named, in up to six frames of one sliding.
+bool figure_strip(Page *page, const FigureInput *input, Error *err);
+
+// F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and an inset of the precursors.
+bool figure_force(const Page *page, ResultView *view, Error *err);
+// Slip rate over V, logarithmic, against U and x.
+bool figure_slip_map(const Page *page, ResultView *view, Error *err);
+// Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.
+bool figure_contact_density(const Page *page, ResultView *view, Error *err);
+
+// The figure called `name`, one of the history alone, on a fresh page. In render.c.
+bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
+                 Error *err);
+
+// An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
+Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
+
+double figure_trailing_end(const ResultView *view);   // x, length
+// The block where its length is known, all contact nodes in any case.
+void figure_x_extent(const ResultView *view, double *low, double *high);
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the pictures over (U, x) share: frame, axes, pads, the grid of pixels, the front.
+#include "render/figures/map_page.h"
+
+#include "base/memory.h"
+#include "render/figures/pad_marks.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double BAR_GAP = 6;   // points: frame to colour bar
+static const double HATCH_SPACING = 4;   // points
+static const double FRONT_WIDTH = 0.6;   // points
+static const double COLUMN_WIDTH = 0.4;   // points: what is thinner would not be seen in print
+
+static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
+
+Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
+{
+    char name[16];
+    Axis axis = {.low = low, .high = high, .factor = 1};
+    snprintf(name, sizeof name, "~{%.8s}", symbol);
+    if (view->si)
+        axis_set_unit(&axis, name, "m");
+    else
+        snprintf(axis.label, sizeof axis.label, "%s / ~{L}_{0}", name);
+    return axis;
+}
+
+// 0 in results that do not say it, which are older.
+double figure_trailing_end(const ResultView *view)
+{
+    double x = view->number[NUMBER_TRAILING];
+    return isfinite(x) ? x : 0;
+}
+
+void figure_x_extent(const ResultView *view, double *low, double *high)
+{
+    double begin = figure_trailing_end(view), length = view->number[NUMBER_LENGTH];
+    double end = isfinite(length) && length > 0 ? begin + length : begin;
+    *low = fmin(begin, view->x[0]);
+    *high = fmax(end, view->x[view->nodes - 1]);
+    if (!(*high > *low)) *high = *low + 1;   // one node at 0
+}
+
+void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
+                     MapPage *map)
+{
+    double x_low = 0, x_high = 0, point = page->point;
+    uint8_t colors[3 * MAP_SIZE];
+    Axes *axes = &map->axes;
+    figure_x_extent(view, &x_low, &x_high);
+    axes->x = figure_length_axis(view, "U", U_low, U_high);
+    axes->y = figure_length_axis(view, "x", x_low, x_high);
+    axes->number_size = NUMBER_SIZE;
+    axes->color = INK;
+    axes->box.top = page->head + round(fmax(axes_top_margin(axes), map->above) * point);
+    axes->box.bottom =
+        round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(axes) * point);
+    axes->box.left = round(axes_left_margin(page, axes) * point);
+    map->pads_width = pad_marks_width(page, view);
+    double beside = BAR_GAP + map->pads_width + map->mark_width + colorbar_width(page, &map->bar);
+    axes->box.right = round(canvas_width(page->canvas) - beside * point);
+    int32_t column = (int32_t)fmax(1, round(COLUMN_WIDTH * point));   // pixels
+    int32_t columns = (int32_t)(axes->box.right - axes->box.left) / column;
+    axes->box.right = axes->box.left + columns * column;
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, map->bar.neutral_color);
+    map->grid = (PixelGrid){.U_low = U_low,
+                            .U_high = U_high,
+                            .x_low = x_low,
+                            .x_high = x_high,
+                            .columns = columns,
+                            .rows = (int32_t)(axes->box.bottom - axes->box.top)};
+}
+
+// What space_time needs of a result; the statuses only where a figure asks for them.
+static SpaceTime view_space_time(const ResultView *view)
+{
+    return (SpaceTime){.rows = view->rows,
+                       .U = view->U,
+                       .nodes = view->nodes,
+                       .x = view->x,
+                       .pad = view->pad,
+                       .slip_rate = view->slip_rate,
+                       .event_count = view->rapid_count,
+                       .events = (const double(*)[2])view->rapid};
+}
+
+bool map_page_fill(const ResultView *view, const double *status, MapPage *map, Error *err)
+{
+    SpaceTime data = view_space_time(view);
+    data.status = status;
+    if (map->grid.columns < 2 || map->grid.rows < 2)
+        FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
+    TRY(space_time_to_pixels(&data, &map->grid, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Hatches [low, high] of x over all U.
+static void gap_draw(const Page *page, const Axes *axes, double low, double high)
+{
+    Stroke hatch = {.color = HATCH_COLOR, .width = 0.4 * page->point};
+    Point from = axes_place(axes, axes->x.low, high), to = axes_place(axes, axes->x.high, low);
+    Box box = {from.x, from.y, to.x, to.y};
+    if (box.bottom - box.top < 1) return;
+    draw_hatch(page->canvas, &hatch, &box, HATCH_SPACING * page->point);
+}
+
+// Gaps are what no node stands for, found on a walk over the nodes along x.
+void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map)
+{
+    const Axes *axes = &map->axes;
+    SpaceTime data = view_space_time(view);
+    double covered = axes->y.low, from = 0, to = 0;
+    canvas_heat(page->canvas, &axes->box, map->grid.values, map->grid.columns, map->grid.rows);
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        node_extent(&data, i, &from, &to);
+        if (from > covered) gap_draw(page, axes, covered, from);
+        covered = fmax(covered, to);
+    }
+    if (axes->y.high > covered) gap_draw(page, axes, covered, axes->y.high);
+}
+
+// The x up to which the nodes of one pad, from its trailing end on, do not stick.
+static double pad_front(const ResultView *view, int64_t row, int32_t first, int32_t last)
+{
+    static const double stick = 1;
+    const double *status = view->status + row * view->nodes;
+    double front = view->x[first];
+    for (int32_t i = first; i <= last && status[i] != stick; ++i) front = view->x[i];
+    return front;
+}
+
+// A front a pad: one line over all of them would leap over gaps, and would not see what goes on
+// ahead of the first node that sticks.
+bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err)
+{
+    Stroke stroke = {.color = INK, .width = FRONT_WIDTH * page->point};
+    Point *line = NULL;
+    TRY(line = NEW_ARRAY(Point, view->rows, err));
+    canvas_clip(page->canvas, &map->axes.box);
+    for (int32_t first = 0, last = 0; first < view->nodes; first = ++last) {
+        while (last + 1 < view->nodes && view->pad[last + 1] == view->pad[first]) ++last;
+        for (int64_t row = 0; row < view->rows; ++row)
+            line[row] = axes_place(&map->axes, view->U[row], pad_front(view, row, first, last));
+        draw_line(page->canvas, &stroke, line, view->rows);
+    }
+    canvas_clip(page->canvas, NULL);
+cleanup:
+    memory_free(line);
+    return error_is_clean(err);
+}
+
+void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage *map)
+{
+    Box bar = map->axes.box;
+    bar.left = round(bar.right + (BAR_GAP + map->pads_width + map->mark_width) * page->point);
+    axes_draw(page, &map->axes);
+    pad_marks_draw(page, view, &map->axes, map->mark_width);
+    colorbar_draw(page, &map->bar, &bar);
+}
+
+void map_page_destroy(MapPage *map)
+{
+    pixel_grid_destroy(&map->grid);
+}

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A mesh as it is before anything is computed: its elements, the named curves in colours with their
+// names, the strip the rod pushes. Drawn to scale from the arrays handed in.
+#include "render/render.h"
+
+#include "render/figures/rod_mark.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double MARGIN = 0.09;   // of the mesh's larger extent, kept around it for names
+static const double EDGE_WIDTH = 0.22;   // points: edges of elements
+static const double CURVE_WIDTH_NAMED = 1.6;   // points: named curves
+static const double NAME_GAP = 3.0;   // points: curve to its name
+static const double HEAD_HEIGHT = 11;   // points: the lines above the frame, each
+static const double LEFT = 32, RIGHT = 4;   // points: beside the frame
+static const double SIDE_MAX = 1.4;   // the picture's height over its width, at most
+
+static const Color FILL = {0.93f, 0.94f, 0.96f, 1}, EDGE = {0.55f, 0.58f, 0.63f, 1};
+static const Color TOP = {0.10f, 0.32f, 0.66f, 1};
+static const Color CONTACT[2] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f, 0.10f, 1}};
+static const Color OTHER = {0.45f, 0.25f, 0.55f, 1};
+
+typedef struct MeshPage {
+    const RenderMesh *mesh;
+    const Page *page;
+    Axes axes;
+} MeshPage;
+
+static Point node_place(const MeshPage *map, int32_t node)
+{
+    const double *at = map->mesh->position + 2 * (int64_t)node;
+    return axes_place(&map->axes, at[0], at[1]);
+}
+
+// --- layout -------------------------------------------------------------------------------------
+
+static void name_axis(Axis *axis, const char *name, const char *unit)
+{
+    if (unit && strcmp(unit, "m") == 0)
+        axis_set_unit(axis, name, unit);
+    else
+        snprintf(axis->label, sizeof axis->label, "%s%s%.40s", name, unit ? " / " : "",
+                 unit ? unit : " (the mesh's unit)");
+}
+
+// Ranges of both axes, margins included, and the picture's size that draws them to scale.
+static void choose_ranges(const RenderMesh *mesh, Axes *axes)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 2 * (int64_t)mesh->node_count; ++k) {
+        low[k % 2] = fmin(low[k % 2], mesh->position[k]);
+        high[k % 2] = fmax(high[k % 2], mesh->position[k]);
+    }
+    double margin = MARGIN * fmax(high[0] - low[0], high[1] - low[1]);
+    axes->x = (Axis){.low = low[0] - margin, .high = high[0] + margin, .factor = 1};
+    axes->y = (Axis){.low = low[1] - margin, .high = high[1] + margin, .factor = 1};
+    name_axis(&axes->x, "~{x}", mesh->unit);
+    name_axis(&axes->y, "~{z}", mesh->unit);
+    if (axes->y.factor != axes->x.factor) {   // one unit for both
+        Axis *finer = axes->y.factor > axes->x.factor ? &axes->y : &axes->x;
+        const Axis *coarser = finer == &axes->y ? &axes->x : &axes->y;
+        finer->factor = coarser->factor;
+        snprintf(finer->label, sizeof finer->label, "%s%s", finer == &axes->y ? "~{z}" : "~{x}",
+                 coarser->label + 4);
+    }
+    axes->number_size = NUMBER_SIZE;
+    axes->color = INK;
+}
+
+// The frame's height over its width.
+static double frame_shape(const Axes *axes)
+{
+    return (axes->y.high - axes->y.low) / (axes->x.high - axes->x.low);
+}
+
+// Room above the frame for title and note, points.
+static double head_points(const RenderMesh *mesh)
+{
+    return 4 + HEAD_HEIGHT * ((mesh->title && mesh->title[0]) + (mesh->note && mesh->note[0]));
+}
+
+// The picture's height over its width: to scale, but no more than SIDE_MAX.
+static double picture_shape(const RenderMesh *mesh)
+{
+    Axes axes = {0};
+    choose_ranges(mesh, &axes);
+    double width = page_width(&mesh->style);
+    double frame = (width - LEFT - RIGHT) * frame_shape(&axes);
+    return fmin((frame + head_points(mesh) + axes_bottom_margin(&axes)) / width, SIDE_MAX);
+}
+
+// The largest frame of the block's shape that fits, in the middle.
+static void place_frame(MeshPage *map)
+{
+    const Page *page = map->page;
+    double point = page->point;
+    Axes *axes = &map->axes;
+    choose_ranges(map->mesh, axes);
+    double width = canvas_width(page->canvas) - (LEFT + RIGHT) * point;
+    double height = canvas_height(page->canvas) -
+                    (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
+    double shape = frame_shape(axes), narrow = fmin(width, height / shape);
+    axes->box.left = round(LEFT * point + (width - narrow) / 2);
+    axes->box.right = axes->box.left + round(narrow);
+    axes->box.top = round(head_points(map->mesh) * point);
+    axes->box.bottom = axes->box.top + round(narrow * shape);
+}
+
+// --- elements -----------------------------------------------------------------------------------
+
+// The outline [n] of an element, through the middles of its sides where it has them.
+static int32_t element_outline(const MeshPage *map, int32_t e, Point *outline)
+{
+    const RenderMesh *mesh = map->mesh;
+    const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
+    int32_t corners = element_corner_count((ElementKind)mesh->kind[e]), count = 0;
+    bool curved = mesh->first_node[e + 1] - mesh->first_node[e] >= 2 * corners;
+    for (int32_t k = 0; k < corners; ++k) {
+        outline[count++] = node_place(map, nodes[k]);
+        if (curved) outline[count++] = node_place(map, nodes[corners + k]);
+    }
+    return count;
+}
+
+// Fine meshes get thinner edges: a tenth of the typical element at most.
+static double edge_width(const MeshPage *map)
+{
+    const Box *box = &map->axes.box;
+    double area = (box->right - box->left) * (box->bottom - box->top);
+    return fmin(EDGE_WIDTH * map->page->point, 0.1 * sqrt(area / map->mesh->element_count));
+}
+
+static void draw_elements(const MeshPage *map)
+{
+    Point outline[9];
+    Canvas *canvas = map->page->canvas;
+    Stroke stroke = {.color = EDGE, .width = edge_width(map)};
+    for (int32_t e = 0; e < map->mesh->element_count; ++e)
+        draw_polygon(canvas, FILL, outline, element_outline(map, e, outline));
+    for (int32_t e = 0; e < map->mesh->element_count; ++e) {
+        int32_t count = element_outline(map, e, outline);
+        for (int32_t k = 0; k < count; ++k)
+            draw_segment(canvas, &stroke, outline[k], outline[(k + 1) % count]);
+    }
+}
+
+// --- named curves -------------------------------------------------------------------------------
+
+static bool is_contact(const MeshGroup *group)
+{
+    return strncmp(group->name, "contact", 7) == 0;
+}
+
+// Neighbouring pads differ, so that their ends are seen.
+static Color group_color(const MeshGroup *group, int32_t contact)
+{
+    if (is_contact(group)) return CONTACT[contact % 2];
+    if (strcmp(group->name, "top") == 0) return TOP;
+    if (strcmp(group->name, "rod") == 0) return ROD_COLOR;
+    return OTHER;
+}
+
+static Box curve_extent(const MeshPage *map, const MeshGroup *group)
+{
+    Box extent = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (int32_t k = 0; k < group->nodes_per_edge * group->edge_count; ++k) {
+        Point place = node_place(map, group->edge_nodes[k]);
+        extent.left = fmin(extent.left, place.x);
+        extent.right = fmax(extent.right, place.x);
+        extent.top = fmin(extent.top, place.y);
+        extent.bottom = fmax(extent.bottom, place.y);
+    }
+    return extent;
+}
+
+static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color)
+{
+    Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
+    for (int32_t k = 0; k < group->edge_count; ++k) {
+        const int32_t *nodes = group->edge_nodes + (int64_t)k * group->nodes_per_edge;
+        Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
+        Point through = group->nodes_per_edge == 3 ? node_place(map, nodes[2]) : to;
+        const Point line[3] = {from, through, to};
+        draw_line(map->page->canvas, &stroke, line, 3);
+    }
+}
+
+// What a curve is called: "contact_3" as it is, "pad 3" or "3", by `form` 0, 1, 2.
+static const char *group_name(const MeshGroup *group, int32_t form, char name[GROUP_NAME_SIZE + 4])
+{
+    bool numbered = is_contact(group) && strncmp(group->name, "contact_", 8) == 0;
+    if (form == 0 || !numbered || !group->name[8]) return group->name;
+    snprintf(name, GROUP_NAME_SIZE + 4, "%s%s", form == 1 ? "pad " : "", group->name + 8);
+    return name;
+}
+
+// The longest form that fits below every contact: all are called alike.
+static int32_t choose_form(const MeshPage *map)
+{
+    const Page *page = map->page;
+    char name[GROUP_NAME_SIZE + 4];
+    int32_t form = 0;
+    for (int32_t g = 0; g < map->mesh->group_count; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        if (group->dimension != 1 || group->edge_count == 0 || !is_contact(group)) continue;
+        Box extent = curve_extent(map, group);
+        while (form < 2 && text_width(page->text, NUMBER_SIZE * page->point,
+                                      group_name(group, form, name)) > extent.right - extent.left)
+            ++form;
+    }
+    return form;
+}
+
+// Outside the mesh, beside the middle of the curve: below or above a level one, left or right of an
+// upright one.
+static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, int32_t form)
+{
+    const Page *page = map->page;
+    const Box *box = &map->axes.box;
+    Box extent = curve_extent(map, group);
+    double gap = NAME_GAP * page->point, middle = (box->left + box->right) / 2;
+    double x = (extent.left + extent.right) / 2, y = (extent.top + extent.bottom) / 2;
+    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = color, .across = 0.5};
+    char buffer[GROUP_NAME_SIZE + 4];
+    const char *name = group_name(group, form, buffer);
+    if (extent.right - extent.left >= extent.bottom - extent.top) {
+        bool below = y > (box->top + box->bottom) / 2;
+        style.up = below ? 1 : 0;
+        text_draw(page->text, &style, (Point){x, y + (below ? gap : -gap)}, name);
+        return;
+    }
+    style.rising = true;
+    if (isfinite(map->mesh->rod_low)) y = (extent.top + y) / 2;   // the middle is the arrow's
+    double right = text_digit_height() * style.size + gap;   // the baseline is on the right
+    text_draw(page->text, &style, (Point){x < middle ? x - gap : x + right, y}, name);
+}
+
+static void draw_groups(const MeshPage *map)
+{
+    int32_t contact = 0, form = choose_form(map);
+    for (int32_t g = 0; g < map->mesh->group_count; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        if (group->dimension != 1 || group->edge_count == 0) continue;
+        Color color = group_color(group, contact);
+        contact += is_contact(group);
+        draw_curve(map, group, color);
+        draw_name(map, group, color, form);
+    }
+}
+
+static void draw_rod(const MeshPage *map)
+{
+    const RenderMesh *mesh = map->mesh;
+    double face = INFINITY;
+    for (int32_t node = 0; node < mesh->node_count; ++node)
+        face = fmin(face, mesh->position[2 * (int64_t)node]);
+    RodMark rod = {face, mesh->rod_low, mesh->rod_high, 1};
+    rod_mark_draw(map->page, &map->axes, &rod);
+}
+
+static void draw_head(const MeshPage *map)
+{
+    const char *lines[2] = {map->mesh->title, map->mesh->note};
+    double point = map->page->point, y = map->axes.box.top - 4 * point;
+    double room = canvas_width(map->page->canvas) - map->axes.box.left - RIGHT * point;
+    TextStyle style = {.color = INK};
+    for (int32_t k = 1; k >= 0; --k) {
+        if (!lines[k] || !lines[k][0]) continue;
+        style.size = (k == 0 ? LABEL_SIZE : SMALL_SIZE) * point;
+        style.size *= fmin(1, room / text_width(map->page->text, style.size, lines[k]));
+        text_draw(map->page->text, &style, (Point){map->axes.box.left, y}, lines[k]);
+        y -= HEAD_HEIGHT * point;
+    }
+}
+
+// --- the module's third entry -------------------------------------------------------------------
+
+static void draw_page(const RenderMesh *mesh, const Page *page)
+{
+    MeshPage map = {.mesh = mesh, .page = page};
+    place_frame(&map);
+    canvas_clip(page->canvas, &map.axes.box);
+    draw_elements(&map);
+    draw_groups(&map);
+    draw_rod(&map);
+    canvas_clip(page->canvas, NULL);
+    draw_head(&map);
+    axes_draw(page, &map.axes);
+}
+
+__attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMesh *mesh,
+                                                                 const char *path, Error *err)
+{
+    Page page = {0};
+    PictureStyle style = mesh->style;
+    TRY(page_style_of_name(path, &style, err));
+    PageDef def = {.style = &style, .height = picture_shape(mesh)};
+    TRY(page_begin(&page, &def, err));
+    draw_page(mesh, &page);
+    TRY(page_finish(&page, path, mesh->title ? mesh->title : "mesh", err));
+cleanup:
+    error_context(err, "picture %s", path);
+    page_destroy(&page);
+    return error_is_clean(err);
+}

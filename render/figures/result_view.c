@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read is checked here once; the figures trust it.
+#include "render/figures/result_view.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { UNITS_SIZE = 32, LINES_SIZE = 1 << 16 };   // bytes
+
+// One value a row; `rows` shrinks to the shortest series: a killed run may have flushed some only.
+static bool scalar_read(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
+    if (width != 1)
+        FAIL(err, ERROR_FILE, "%s has %d columns, not 1", result_series_name(series), width);
+    if (rows < view->rows) view->rows = rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+void result_view_range(const ResultView *view, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (!isfinite(view->U[row])) continue;
+        *low = fmin(*low, view->U[row]);
+        *high = fmax(*high, view->U[row]);
+    }
+}
+
+// A picture needs two steps between which the rod has moved.
+static bool range_check(const ResultView *view, Error *err)
+{
+    double low = 0, high = 0;
+    if (view->rows < 2)
+        FAIL(err, ERROR_INPUT, "the history holds %lld step%s: a picture needs two at least",
+             (long long)view->rows, view->rows == 1 ? "" : "s");
+    result_view_range(view, &low, &high);
+    if (!(high > low))
+        FAIL(err, ERROR_INPUT,
+             "the rod does not move in this history: pictures are drawn against "
+             "its displacement U");
+cleanup:
+    return error_is_clean(err);
+}
+
+// One value a row and node; `rows` shrinks likewise.
+static bool interface_read(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
+    if (width != view->nodes)
+        FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
+             result_series_name(series), width, view->nodes);
+    if (rows < view->rows) view->rows = rows;
+    TRY(range_check(view, err));
+cleanup:
+    if (!error_is_clean(err)) {
+        memory_free(*values);
+        *values = NULL;
+    }
+    return error_is_clean(err);
+}
+
+// Positions and pads of the contact nodes.
+static bool nodes_read(ResultView *view, Error *err)
+{
+    int32_t pads = 0;
+    TRY(result_file_read_nodes(view->file, NODES_X, &view->x, &view->nodes, err));
+    TRY(result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err));
+    if (view->nodes < 1 || pads != view->nodes)
+        FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
+cleanup:
+    return error_is_clean(err);
+}
+
+// A text of several lines; "" where the history has none: no error.
+static bool lines_read(ResultView *view, const char *name, char **lines, Error *err)
+{
+    Error absent = {0};
+    TRY(*lines = NEW_ARRAY(char, LINES_SIZE, err));
+    if (!result_file_text(view->file, name, *lines, LINES_SIZE, &absent)) (*lines)[0] = '\0';
+cleanup:
+    return error_is_clean(err);
+}
+
+// Three columns of the file into a list of peaks.
+static bool peaks_read(ResultView *view, Error *err)
+{
+    static const ResultTable tables[3] = {PEAKS_U, PEAKS_MU, PEAKS_COUNTS};
+    double *column[3] = {0};
+    int32_t count = 0;
+    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
+    TRY(view->peaks = NEW_ARRAY(ViewPeak, count, err));
+    for (int32_t k = 0; k < count; ++k)
+        view->peaks[k] = (ViewPeak){column[0][k], column[1][k], column[2][k] > 0.5};
+    view->peak_count = count;
+cleanup:
+    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    return error_is_clean(err);
+}
+
+// As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
+static bool events_read(ResultView *view, Error *err)
+{
+    static const ResultTable tables[3] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP};
+    double *column[3] = {0};
+    int32_t count = 0;
+    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
+    TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
+    for (int32_t k = 0; k < count; ++k) {
+        double kind = column[0][k];
+        bool known = kind >= 0 && kind <= VIEW_LEADING;
+        view->events[k] = (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k]};
+    }
+    view->event_count = count;
+    TRY(view->rapid = memory_array(count, sizeof *view->rapid, err));
+    for (int32_t k = 0; k < count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind <= VIEW_QUASI_STATIC || !isfinite(event->U_start + event->U_stop)) continue;
+        view->rapid[view->rapid_count][0] = event->U_start;
+        view->rapid[view->rapid_count++][1] = event->U_stop;
+    }
+cleanup:
+    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    return error_is_clean(err);
+}
+
+// Series of one number a step are read at once, those over the nodes on demand: they are the most
+// of the file.
+bool result_view_open(const char *folder, ResultView *view, Error *err)
+{
+    char units[UNITS_SIZE] = "";
+    *view = (ResultView){.rows = INT64_MAX};
+    TRY(view->file = result_file_open(folder, err));
+    TRY(result_file_text(view->file, "units", units, sizeof units, err));
+    view->si = strcmp(units, "si") == 0;
+    TRY(scalar_read(view, SERIES_TIME, &view->t, err));
+    TRY(scalar_read(view, SERIES_ROD, &view->U, err));
+    TRY(scalar_read(view, SERIES_MU, &view->mu, err));
+    TRY(range_check(view, err));
+    TRY(nodes_read(view, err));
+    TRY(lines_read(view, "title", &view->title, err));
+    TRY(lines_read(view, "pads", &view->pad_names, err));
+    TRY(lines_read(view, "warnings", &view->warnings, err));
+    TRY(events_read(view, err));
+    TRY(peaks_read(view, err));
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
+        view->number[k] = result_file_number(view->file, (ResultNumber)k);
+cleanup:
+    if (!error_is_clean(err)) {
+        error_context(err, "while reading the result in %s", folder);
+        result_view_close(view);
+    }
+    return error_is_clean(err);
+}
+
+bool result_view_read_slip_rate(ResultView *view, Error *err)
+{
+    return view->slip_rate || interface_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
+}
+
+bool result_view_read_status(ResultView *view, Error *err)
+{
+    return view->status || interface_read(view, SERIES_STATUS, &view->status, err);
+}
+
+bool result_view_read_slip(ResultView *view, Error *err)
+{
+    return view->slip || interface_read(view, SERIES_SLIP, &view->slip, err);
+}
+
+void result_view_close(ResultView *view)
+{
+    Error ignored = {0};   // nothing was written: closing has nothing to lose
+    array_file_close(view->file, &ignored);
+    memory_free(view->t);
+    memory_free(view->U);
+    memory_free(view->mu);
+    memory_free(view->x);
+    memory_free(view->pad);
+    memory_free(view->title);
+    memory_free(view->pad_names);
+    memory_free(view->warnings);
+    memory_free(view->slip_rate);
+    memory_free(view->slip);
+    memory_free(view->status);
+    memory_free(view->events);
+    memory_free(view->rapid);
+    memory_free(view->peaks);
+    *view = (ResultView){0};
+}

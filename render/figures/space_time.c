@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From values at (step, node) to pixels in two moves: steps to columns, then nodes to rows. A pixel
+// shows the largest value that falls into it, because what matters in these maps is short and
+// narrow: a mean would hide it. Steps are far from equal: some columns hold hundreds of them,
+// others lie inside one.
+#include "render/figures/space_time.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double ONE_COLUMN = 1.5;   // columns: what is shorter rounds to one
+
+// Half way to the neighbours on the same pad; the last node of a pad has nothing beyond it, so that
+// gaps stay gaps.
+void node_extent(const SpaceTime *data, int32_t i, double *from, double *to)
+{
+    bool joined_before = i > 0 && data->pad[i - 1] == data->pad[i];
+    bool joined_after = i + 1 < data->nodes && data->pad[i + 1] == data->pad[i];
+    *from = joined_before ? (data->x[i - 1] + data->x[i]) / 2 : data->x[i];
+    *to = joined_after ? (data->x[i] + data->x[i + 1]) / 2 : data->x[i];
+}
+
+// The larger of two, where NaN means none.
+static float larger(float a, float b)
+{
+    return isnan(b) || a >= b ? a : b;
+}
+
+// Column of a step, -1 before the first, `columns` behind the last.
+static int32_t column_of(const PixelGrid *grid, double U)
+{
+    double place = (U - grid->U_low) / (grid->U_high - grid->U_low) * grid->columns;
+    if (place < 0) return -1;
+    if (U == grid->U_high) return grid->columns - 1;
+    return place >= grid->columns ? grid->columns : (int32_t)place;
+}
+
+// The same for a step of a rapid event: all of a short one are in one column.
+static int32_t column_of_step(const SpaceTime *data, const PixelGrid *grid, double U)
+{
+    double width = (grid->U_high - grid->U_low) / grid->columns;
+    for (int32_t k = 0; k < data->event_count; ++k) {
+        const double *event = data->events[k];
+        if (U >= event[0] && U <= event[1] && event[1] - event[0] < ONE_COLUMN * width)
+            return column_of(grid, (event[0] + event[1]) / 2);
+    }
+    return column_of(grid, U);
+}
+
+// by_column: [columns * nodes]; an open node counts as more than any rate.
+static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
+{
+    const double *rate = data->slip_rate + row * data->nodes;
+    const double *status = data->status ? data->status + row * data->nodes : NULL;
+    float *cell = by_column + (int64_t)column * data->nodes;
+    for (int32_t i = 0; i < data->nodes; ++i) {
+        bool open = status && status[i] == 0;
+        cell[i] = larger(cell[i], open ? INFINITY : (float)fabs(rate[i]));
+    }
+}
+
+// The largest value at each column and node, [columns * nodes]; `next[column]`: -1 where steps lie
+// inside, else the step that ends behind it (data->rows: none).
+static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *by_column,
+                           int64_t *next)
+{
+    int32_t reached = 0;   // columns before this one are settled, but for the steps inside
+    for (int32_t column = 0; column < grid->columns; ++column) next[column] = data->rows;
+    for (int64_t k = 0; k < (int64_t)data->nodes * grid->columns; ++k) by_column[k] = NAN;
+    for (int64_t row = 0; row < data->rows; ++row) {
+        if (!isfinite(data->U[row])) continue;
+        int32_t column = column_of_step(data, grid, data->U[row]);
+        if (column < 0) continue;
+        for (; reached < column; ++reached)
+            if (next[reached] == data->rows) next[reached] = row;
+        if (column == grid->columns) break;
+        next[column] = -1;
+        step_add(data, row, column, by_column);
+    }
+}
+
+// Before the first step of the history there is nothing; in a long step there is its end.
+static void columns_hold(const SpaceTime *data, const PixelGrid *grid, const int64_t *next,
+                         float *by_column)
+{
+    int64_t first = 0;
+    while (first < data->rows && !isfinite(data->U[first])) ++first;
+    for (int32_t column = 0; column < grid->columns; ++column)
+        if (next[column] > first && next[column] < data->rows)
+            step_add(data, next[column], column, by_column);
+}
+
+// Whether node i is seen in the pixels of height `pixel` around x.
+static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
+{
+    double from = 0, to = 0;
+    node_extent(data, i, &from, &to);
+    return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
+}
+
+// Row 0 is at the top, x_high. Several nodes in a pixel: the largest of them; none: NaN.
+static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_column)
+{
+    double pixel = (grid->x_high - grid->x_low) / grid->rows;
+    for (int32_t row = 0; row < grid->rows; ++row) {
+        float *line = grid->values + (int64_t)row * grid->columns;
+        double x = grid->x_high - (row + 0.5) * pixel;
+        for (int32_t column = 0; column < grid->columns; ++column) line[column] = NAN;
+        for (int32_t i = 0; i < data->nodes; ++i) {
+            if (!node_is_at(data, i, x, pixel)) continue;
+            for (int32_t column = 0; column < grid->columns; ++column)
+                line[column] = larger(line[column], by_column[(int64_t)column * data->nodes + i]);
+        }
+    }
+}
+
+// grid->values: [rows * columns], made here; pixel_grid_destroy.
+bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
+{
+    float *by_column = NULL;
+    int64_t *next = NULL;
+    TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
+    TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
+    TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->rows * grid->columns, err));
+    columns_gather(data, grid, by_column, next);
+    columns_hold(data, grid, next, by_column);
+    rows_fill(data, grid, by_column);
+cleanup:
+    memory_free(by_column);
+    memory_free(next);
+    return error_is_clean(err);
+}
+
+void pixel_grid_destroy(PixelGrid *grid)
+{
+    memory_free(grid->values);
+    grid->values = NULL;
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A film of a result, frame by frame: which part of the run, how fast its time goes, the page, and
+// the file it goes into.
+#include "render/film/film_page.h"
+#include "render/film/film_sink.h"
+#include "render/render.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static const double SECONDS = 20, SECONDS_MAX = 3600;
+static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of it, at most
+
+enum {
+    RATE = 30,
+    RATE_MAX = 240,
+    WIDTH = 1920,
+    HEIGHT = 1080,
+    WIDTH_LEAST = 640,
+    HEIGHT_LEAST = 360,
+    GIF_RATE = 20,
+    GIF_WIDTH = 800,
+    GIF_HEIGHT = 450,
+    FRAMES_MAX = 100000
+};
+
+static bool check_size(const FilmRequest *film, Error *err)
+{
+    bool fits = film->width >= WIDTH_LEAST && film->width <= CANVAS_SIZE_MAX &&
+                film->height >= HEIGHT_LEAST && film->height <= CANVAS_SIZE_MAX;
+    if (!fits || film->width % 2 || film->height % 2)
+        FAIL(err, ERROR_INPUT,
+             "a film of %d by %d pixels: even numbers from %d by %d to %d by %d are allowed",
+             film->width, film->height, WIDTH_LEAST, HEIGHT_LEAST, CANVAS_SIZE_MAX,
+             CANVAS_SIZE_MAX);
+cleanup:
+    return error_is_clean(err);
+}
+
+// What was left open is filled in.
+static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames, Error *err)
+{
+    *film = *request;
+    if (!film->path || !film->path[0]) FAIL(err, ERROR_INPUT, "the film needs a name");
+    TRY(film_sink_check(film->path, err));
+    bool gif = film_sink_is_gif(film->path);
+    if (film->seconds == 0) film->seconds = SECONDS;
+    if (film->rate == 0) film->rate = gif ? GIF_RATE : RATE;
+    if (film->width == 0 && film->height == 0) {
+        film->width = gif ? GIF_WIDTH : WIDTH;
+        film->height = gif ? GIF_HEIGHT : HEIGHT;
+    }
+    TRY(check_size(film, err));
+    if (film->rate < 1 || film->rate > RATE_MAX)
+        FAIL(err, ERROR_INPUT, "%d frames a second: from 1 to %d are allowed", film->rate,
+             RATE_MAX);
+    double count = film->seconds * film->rate;
+    if (!(film->seconds > 0 && film->seconds <= SECONDS_MAX && count >= 2 && count <= FRAMES_MAX))
+        FAIL(err, ERROR_INPUT,
+             "a film of %g s at %d frames a second: it must have from 2 to %d frames",
+             film->seconds, film->rate, FRAMES_MAX);
+    if (!(film->magnification >= 0) || !isfinite(film->magnification))
+        FAIL(err, ERROR_INPUT, "a magnification of %g: it must be above 0", film->magnification);
+    *frames = (int32_t)lround(count);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The largest |slip rate| at each step, of nodes in contact: one that has lifted off does not slip.
+static bool find_fastest(const ResultView *view, double **fastest, Error *err)
+{
+    TRY(*fastest = NEW_ARRAY(double, view->rows, err));
+    for (int64_t row = 0; row < view->rows; ++row)
+        for (int64_t i = row * view->nodes; i < (row + 1) * view->nodes; ++i)
+            if (view->status[i] != 0)
+                (*fastest)[row] = fmax((*fastest)[row], fabs(view->slip_rate[i]));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_clock(const FilmRequest *film, const ResultView *view, int32_t frames,
+                      FilmClock *clock, Error *err)
+{
+    double *fastest = NULL, t[2] = {0, 0};
+    FilmSpan span = {film->begin, film->end, film->last_cycle};
+    TRY(film_span_find(view, &span, t, err));
+    TRY(find_fastest(view, &fastest, err));
+    FilmClockDef def = {.rows = view->rows,
+                        .t = view->t,
+                        .fastest = fastest,
+                        .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
+                        .low = t[0],
+                        .high = t[1],
+                        .frames = frames,
+                        .rate = film->rate,
+                        .ease = fmin(EASE, EASE_SHARE * film->seconds)};
+    TRY(film_clock_create(&def, clock, err));
+cleanup:
+    memory_free(fastest);
+    return error_is_clean(err);
+}
+
+static bool shoot(const FilmRequest *film, FilmPage *page, FilmSink *sink, int32_t frames,
+                  Error *err)
+{
+    for (int32_t k = 0; k < frames; ++k) {
+        const uint8_t *pixels = NULL;
+        int32_t stride = 0;
+        if (film->stop && *film->stop)
+            FAIL(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
+                 frames);
+        TRY(film_page_show(page, k, &pixels, &stride, err));
+        TRY(film_sink_add(sink, pixels, stride, err));
+        if (film->on_frame) film->on_frame(k + 1, frames, film->context);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_view(const char *folder, ResultView *view, Error *err)
+{
+    TRY(result_view_open(folder, view, err));
+    TRY(result_view_read_slip_rate(view, err));
+    TRY(result_view_read_status(view, err));
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
+cleanup:
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool
+amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
+{
+    FilmRequest film;
+    FilmClock clock = {0};
+    ResultView view = {0};
+    FilmPage *page = NULL;
+    FilmSink *sink = NULL;
+    int32_t frames = 0;
+    TRY(complete(request, &film, &frames, err));
+    TRY(read_view(folder, &view, err));
+    TRY(set_clock(&film, &view, frames, &clock, err));
+    FilmPageDef def = {
+        folder, &view, &clock, film.width, film.height, film.of, film.magnification, film.dark};
+    TRY(page = film_page_create(&def, err));
+    FilmSinkDef file = {film.path, film.width, film.height, film.rate, view.title, film.overwrite};
+    TRY(sink = film_sink_create(&file, err));
+    TRY(shoot(&film, page, sink, frames, err));
+    TRY(film_sink_finish(sink, err));
+cleanup:
+    film_sink_destroy(sink);
+    film_page_destroy(page);
+    film_clock_destroy(&clock);
+    result_view_close(&view);
+    return error_is_clean(err);
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The way there: speed-up of each step; the power; the film's time as a sum over steps; then the
+// ease, on places evenly spaced in that time. The speed-up belongs to times of the run, so easing
+// moves nothing: the film's time is summed anew.
+#include "render/film/film_clock.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static const double RAPID = 2;   // V: what record/events calls rapid
+static const double POWER_MAX = 2;
+static const double EXTRA = 1;   // film time that rapid slip adds, over that of the rest
+
+enum { HALVINGS = 60, PLACES_A_FRAME = 64, PLACES_MAX = 1 << 20 };
+
+// Times of the run, rising, and at each the logarithm of the speed-up to the power 1.
+typedef struct Course {
+    int64_t count;
+    double *t, *log_fast;   // [count] owned
+} Course;
+
+static void course_destroy(Course *course)
+{
+    memory_free(course->t);
+    memory_free(course->log_fast);
+    *course = (Course){0};
+}
+
+static double log_fast_at(const FilmClockDef *def, int64_t row)
+{
+    double part = def->fastest[row] / (RAPID * def->V);
+    return def->V > 0 && part > 1 && isfinite(part) ? log(part) : 0;
+}
+
+// Between two steps the logarithm is linear.
+static double log_fast_between(const FilmClockDef *def, int64_t row, double t)
+{
+    double length = def->t[row] - def->t[row - 1];
+    double part = length > 0 ? fmin(fmax((t - def->t[row - 1]) / length, 0), 1) : 1;
+    double before = log_fast_at(def, row - 1);
+    return before + part * (log_fast_at(def, row) - before);
+}
+
+// The steps from low to high; both ends lie on steps or between two.
+static bool course_create(const FilmClockDef *def, Course *course, Error *err)
+{
+    int64_t n = 1, last = 1;
+    TRY(course->t = NEW_ARRAY(double, def->rows + 2, err));
+    TRY(course->log_fast = NEW_ARRAY(double, def->rows + 2, err));
+    course->t[0] = def->low;
+    for (int64_t row = 1; row < def->rows; ++row) {
+        double t = def->t[row];
+        if (def->t[row - 1] <= def->low) course->log_fast[0] = log_fast_between(def, row, def->low);
+        if (def->t[row - 1] < def->high) last = row;
+        if (!(t > course->t[n - 1] && t < def->high)) continue;
+        course->t[n] = t;
+        course->log_fast[n++] = log_fast_at(def, row);
+    }
+    course->t[n] = def->high;
+    course->log_fast[n] = log_fast_between(def, last, def->high);
+    course->count = n + 1;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long one
+// that only begins or ends fast shows nothing that slow motion would be for.
+static double log_fast_of(const Course *course, int64_t k)
+{
+    return fmin(course->log_fast[k - 1], course->log_fast[k]);
+}
+
+static double stretched(const Course *course, int64_t k, double power)
+{
+    return (course->t[k] - course->t[k - 1]) * exp(power * log_fast_of(course, k));
+}
+
+static double length_of(const Course *course, double power)
+{
+    double sum = 0;
+    for (int64_t k = 1; k < course->count; ++k) sum += stretched(course, k, power);
+    return sum;
+}
+
+static double choose_power(const Course *course)
+{
+    double low = 0, high = POWER_MAX;
+    double wanted = (1 + EXTRA) * (course->t[course->count - 1] - course->t[0]);
+    if (length_of(course, high) <= wanted) return high;
+    for (int32_t k = 0; k < HALVINGS; ++k) {
+        double middle = (low + high) / 2;
+        if (length_of(course, middle) < wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    return (low + high) / 2;
+}
+
+// The same course at `count` places, evenly spaced in the film's time.
+static bool course_even(const Course *course, double power, int64_t count, Course *even, Error *err)
+{
+    double step = length_of(course, power) / (double)(count - 1), before = 0;
+    int64_t k = 1;
+    TRY(even->t = NEW_ARRAY(double, count, err));
+    TRY(even->log_fast = NEW_ARRAY(double, count, err));
+    even->count = count;
+    for (int64_t i = 0; i < count; ++i) {
+        double at = (double)i * step, own = stretched(course, k, power);
+        while (before + own < at && k + 1 < course->count) {
+            before += own;
+            own = stretched(course, ++k, power);
+        }
+        double part = own > 0 ? fmin((at - before) / own, 1) : 0;
+        even->t[i] = course->t[k - 1] + part * (course->t[k] - course->t[k - 1]);
+        even->log_fast[i] = log_fast_of(course, k);
+    }
+    even->t[count - 1] = course->t[course->count - 1];
+cleanup:
+    return error_is_clean(err);
+}
+
+// Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before and
+// behind rapid slip: its logarithm then changes evenly in the film's time. It can only fall, so
+// that nothing rapid is shown faster than without.
+static void course_ease(Course *even, double power, double slope)
+{
+    double *log_fast = even->log_fast;
+    for (int32_t back = 0; back < 2; ++back)
+        for (int64_t i = 1; i < even->count; ++i) {
+            int64_t k = back ? even->count - 1 - i : i, from = back ? k + 1 : k - 1;
+            double most = exp(-power * log_fast[from]) + slope * fabs(even->t[k] - even->t[from]);
+            if (exp(-power * log_fast[k]) > most) log_fast[k] = -log(most) / power;
+        }
+}
+
+// The slope with which the way from the slowest to the fastest takes `ease` seconds.
+static double ease_slope(const FilmClockDef *def, const Course *even, double power)
+{
+    double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
+    for (int64_t i = 0; i < even->count; ++i) largest = fmax(largest, even->log_fast[i]);
+    return seconds / length_of(even, power) * power * largest / def->ease;
+}
+
+// Frames evenly spaced in the film's time, the first at low, the last at high.
+static bool frames_place(const FilmClockDef *def, const Course *even, double power,
+                         FilmClock *clock, Error *err)
+{
+    TRY(clock->t = NEW_ARRAY(double, def->frames, err));
+    TRY(clock->speed = NEW_ARRAY(double, def->frames, err));
+    double seconds = (double)(def->frames - 1) / def->rate, whole = length_of(even, power);
+    double before = 0, own = stretched(even, 1, power);
+    int64_t k = 1;
+    for (int32_t i = 0; i < def->frames; ++i) {
+        double at = whole * i / (def->frames - 1);
+        while (before + own < at && k + 1 < even->count) {
+            before += own;
+            own = stretched(even, ++k, power);
+        }
+        double part = own > 0 ? fmin((at - before) / own, 1) : 0;
+        double log_fast = even->log_fast[k - 1] +
+                          part * (even->log_fast[k] - even->log_fast[k - 1]);
+        clock->t[i] = even->t[k - 1] + part * (even->t[k] - even->t[k - 1]);
+        clock->speed[i] = whole / seconds * exp(-power * log_fast);
+    }
+    clock->t[def->frames - 1] = def->high;
+    clock->frames = def->frames;
+    clock->rate = def->rate;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
+{
+    Course course = {0}, even = {0};
+    int64_t places = (int64_t)PLACES_A_FRAME * def->frames;
+    *clock = (FilmClock){0};
+    if (places > PLACES_MAX) places = PLACES_MAX;
+    if (!(def->high > def->low)) FAIL(err, ERROR_INPUT, "the film would show no time");
+    TRY(course_create(def, &course, err));
+    double power = choose_power(&course);
+    TRY(course_even(&course, power, places, &even, err));
+    if (def->ease > 0) course_ease(&even, power, ease_slope(def, &even, power));
+    TRY(frames_place(def, &even, power, clock, err));
+cleanup:
+    course_destroy(&course);
+    course_destroy(&even);
+    if (!error_is_clean(err)) film_clock_destroy(clock);
+    return error_is_clean(err);
+}
+
+void film_clock_destroy(FilmClock *clock)
+{
+    memory_free(clock->t);
+    memory_free(clock->speed);
+    *clock = (FilmClock){0};
+}
+
+double film_clock_seconds(const FilmClock *clock, double t)
+{
+    int32_t low = 0, high = clock->frames - 1;
+    if (!(t > clock->t[0])) return 0;
+    if (t >= clock->t[high]) return (double)high / clock->rate;
+    while (high - low > 1) {
+        int32_t middle = low + (high - low) / 2;
+        if (clock->t[middle] <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    double part = (t - clock->t[low]) / (clock->t[high] - clock->t[low]);
+    return (low + part) / clock->rate;
+}

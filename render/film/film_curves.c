@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/film/film_curves.h"
+
+#include "base/memory.h"
+#include "render/figures/figures.h"
+#include "render/figures/slip_scale.h"
+#include "render/figures/space_time.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double ABOVE = 0.08;   // of the range of mu: room over and below the curve
+static const double RIGHT = 6;   // points: frame to the cell's right end
+static const double DOT = 2.6, RING = 1.0;   // points: radius, white around it
+static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
+static const float STICK_SHARE = 0.02f;   // of the height: the foot where the contact sticks
+static const double PAST_WIDTH = 1.2, LATER_WIDTH = 0.8;   // points
+
+static const Color PAST = {0.05f, 0.27f, 0.55f, 1};
+static const Color LATER = {0.78f, 0.81f, 0.85f, 1};
+static const Color DOT_COLOR = {0.75f, 0.12f, 0.12f, 1};
+
+// The frame in its cell, less numbers and names.
+static void place_in(const Page *page, const Box *cell, Axes *axes)
+{
+    double point = page->point;
+    axes->number_size = NUMBER_SIZE;
+    axes->color = INK;
+    axes->box.top = round(cell->top + axes_top_margin(axes) * point);
+    axes->box.bottom = round(cell->bottom - axes_bottom_margin(axes) * point);
+    axes->box.right = round(cell->right - RIGHT * point);
+    axes->box.left = round(cell->left);   // the margin depends on the height alone
+    axes->box.left = round(cell->left + axes_left_margin(page, axes) * point);
+}
+
+// --- force ---------------------------------------------------------------------------------------
+
+void film_force_place(const Page *page, const Box *cell, const double t[2], FilmForce *force)
+{
+    const ResultView *view = force->view;
+    FilmMoment from = film_moment(view, t[0]), to = film_moment(view, t[1]);
+    double low = fmin(from.mu, to.mu), high = fmax(from.mu, to.mu);
+    double U[2] = {fmin(from.U, to.U), fmax(from.U, to.U)};
+    force->first = from.row + 1;
+    force->last = to.row;
+    for (int64_t row = force->first; row <= force->last; ++row) {
+        low = fmin(low, view->mu[row]);
+        high = fmax(high, view->mu[row]);
+        U[0] = fmin(U[0], view->U[row]);
+        U[1] = fmax(U[1], view->U[row]);
+    }
+    if (!(high > low)) high = low + 1;
+    if (!(U[1] > U[0])) U[1] = U[0] + 1;   // the rod stands all the time
+    force->axes.x = figure_length_axis(view, "U", U[0], U[1]);
+    force->axes.y = (Axis){.low = low - ABOVE * (high - low), .high = high, .factor = 1};
+    force->axes.y.high += ABOVE * (high - low);
+    snprintf(force->axes.y.label, sizeof force->axes.y.label, "~{F}_{T} / ~{F}_{N}");
+    force->drawn = from.row;
+    place_in(page, cell, &force->axes);
+}
+
+// Rows from `first` to `last`, then `end` where it is not NULL.
+static void curve_draw(const Page *page, const FilmForce *force, const Stroke *stroke,
+                       const int64_t rows[2], const Point *end, Point *line)
+{
+    const ResultView *view = force->view;
+    int64_t count = 0;
+    for (int64_t row = rows[0]; row <= rows[1]; ++row) {
+        Point place = axes_place(&force->axes, view->U[row], view->mu[row]);
+        bool near = count > 0 && row < rows[1] &&
+                    hypot(place.x - line[count - 1].x, place.y - line[count - 1].y) < THIN_DISTANCE;
+        if (!near) line[count++] = place;
+    }
+    if (end) line[count++] = *end;
+    canvas_clip(page->canvas, &force->axes.box);
+    draw_line(page->canvas, stroke, line, count);
+    canvas_clip(page->canvas, NULL);
+}
+
+bool film_force_draw(const Page *page, const FilmForce *force, Error *err)
+{
+    Stroke stroke = {.color = LATER, .width = LATER_WIDTH * page->point};
+    const int64_t rows[2] = {force->first - 1, force->last};
+    Point *line = NEW_ARRAY(Point, force->last - force->first + 3, err);
+    if (!line) return false;
+    curve_draw(page, force, &stroke, rows, NULL, line);
+    memory_free(line);
+    axes_draw(page, &force->axes);
+    return true;
+}
+
+enum { STEPS_AT_ONCE = 64 };
+
+// In pieces of some steps; of the last one film_force_now draws the rest.
+void film_force_pass(const Page *page, FilmForce *force, const FilmMoment *now)
+{
+    Stroke stroke = {.color = PAST, .width = PAST_WIDTH * page->point};
+    Point line[STEPS_AT_ONCE + 2];
+    while (force->drawn < now->row) {
+        int64_t last = force->drawn + STEPS_AT_ONCE;
+        if (last > now->row) last = now->row;
+        const int64_t rows[2] = {force->drawn, last};
+        curve_draw(page, force, &stroke, rows, NULL, line);
+        force->drawn = last;
+    }
+}
+
+void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *now)
+{
+    double point = page->point;
+    Stroke stroke = {.color = PAST, .width = PAST_WIDTH * point};
+    Point place = axes_place(&force->axes, now->U, now->mu), line[2];
+    const int64_t rows[2] = {now->row, now->row};
+    curve_draw(page, force, &stroke, rows, &place, line);
+    draw_disc(page->canvas, PAPER, place, (DOT + RING) * point);
+    draw_disc(page->canvas, DOT_COLOR, place, DOT * point);
+}
+
+// --- slip rate -----------------------------------------------------------------------------------
+
+void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
+{
+    const ResultView *view = profile->view;
+    Axes *axes = &profile->axes;
+    double low = 0, high = 0;
+    figure_x_extent(view, &low, &high);
+    axes->x = figure_length_axis(view, "x", low, high);
+    axes->y = (Axis){.low = pow(10, profile->bar.low),
+                     .high = pow(10, profile->bar.high),
+                     .factor = 1,
+                     .is_log = true};
+    snprintf(axes->y.label, sizeof axes->y.label, "%s", profile->bar.label);
+    place_in(page, cell, axes);
+}
+
+void film_profile_draw(const Page *page, const FilmProfile *profile)
+{
+    axes_draw(page, &profile->axes);
+}
+
+// Columns from `left` to `right` of the image up to where its level stands, or a foot.
+static void fill_bar(const PixelGrid *image, const int32_t columns[2], float level)
+{
+    float share = level < 0 ? STICK_SHARE : fmaxf(level, STICK_SHARE);
+    int32_t top = image->rows - (int32_t)lroundf(share * (float)image->rows);
+    for (int32_t row = top; row < image->rows; ++row)
+        for (int32_t column = columns[0]; column < columns[1]; ++column)
+            image->values[(int64_t)row * image->columns + column] = level;
+}
+
+// A bar a node, as wide as the part of the contact it stands for, in the colours of the map; what
+// is slower than the scale is a grey foot.
+bool film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now,
+                      Error *err)
+{
+    const ResultView *view = profile->view;
+    const Axes *axes = &profile->axes;
+    SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    uint8_t colors[3 * MAP_SIZE];
+    PixelGrid image = {.columns = (int32_t)(axes->box.right - axes->box.left),
+                       .rows = (int32_t)(axes->box.bottom - axes->box.top)};
+    int64_t count = (int64_t)image.columns * image.rows;
+    TRY(image.values = NEW_ARRAY(float, count, err));
+    for (int64_t k = 0; k < count; ++k) image.values[k] = HEAT_MISSING;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        double from = 0, to = 0;
+        node_extent(&data, i, &from, &to);
+        float level = slip_scale_level(&profile->bar, V, fabs(film_slip_rate(view, now, i)));
+        double left = axes_place(axes, from, 1).x - axes->box.left;
+        double right = fmax(axes_place(axes, to, 1).x - axes->box.left, left + 1);
+        const int32_t columns[2] = {(int32_t)lround(fmin(fmax(left, 0), image.columns)),
+                                    (int32_t)lround(fmin(fmax(right, 0), image.columns))};
+        if (level > (float)HEAT_MISSING) fill_bar(&image, columns, level);
+    }
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, profile->bar.neutral_color);
+    canvas_heat(page->canvas, &axes->box, image.values, image.columns, image.rows);
+    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
+    draw_outline(page->canvas, &stroke, &axes->box);
+cleanup:
+    pixel_grid_destroy(&image);
+    return error_is_clean(err);
+}

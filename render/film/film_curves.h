@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two parts of a film's page: F_T/F_N against U with a dot that runs along, and the slip rate along
+// the contact as it is now. Called by film_page.
+#ifndef AMONTONS_RENDER_FILM_FILM_CURVES_H
+#define AMONTONS_RENDER_FILM_FILM_CURVES_H
+
+#include "render/canvas/colorbar.h"
+#include "render/canvas/page.h"
+#include "render/film/film_times.h"
+
+typedef struct FilmForce {
+    const ResultView *view;
+    Axes axes;
+    int64_t first, last;   // rows of the history inside the film
+    int64_t drawn;   // the row up to which the curve is drawn in full colour
+} FilmForce;
+
+// In `cell`, pixels, for times from t[0] to t[1].
+void film_force_place(const Page *page, const Box *cell, const double t[2], FilmForce *force);
+bool film_force_draw(const Page *page, const FilmForce *force, Error *err);   // what stands
+// What the film has passed stays: drawn on the page that stands.
+void film_force_pass(const Page *page, FilmForce *force, const FilmMoment *now);
+void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *now);
+
+typedef struct FilmProfile {
+    const ResultView *view;   // slip rates have been read
+    Colorbar bar;   // slip_scale
+    Axes axes;
+} FilmProfile;
+
+void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile);
+void film_profile_draw(const Page *page, const FilmProfile *profile);   // what stands
+bool film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now,
+                      Error *err);
+
+#endif

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/film/film_page.h"
+
+#include "base/memory.h"
+#include "render/figures/slip_scale.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+enum { SAMPLES_MAX = 24, WORDS_SIZE = 200, RANGE_PARTS = 500, DECIMALS_MAX = 7 };
+
+static const double HEIGHT = 308,
+                    WIDTH = 440;   // points of a page at least: letters are seen from afar
+static const double POINT_LEAST = 1.4;   // pixels: a small film has fewer points
+static const double INCH = 25.4, POINTS_AN_INCH = 72;   // mm; of a page
+static const double HEAD = 17, BASELINE = 12;   // points: title and clock; their baseline
+static const double MARGIN = 5;   // points
+static const double BAND_SHARE = 0.27, BAND_LEAST = 62, BAND_MOST = 95;   // of the height; points
+static const double LEFT_SHARE = 0.60;   // of the width: the block, or the slip rate
+static const double BAR_GAP = 5, BAR_ROOM = 58;   // points: block to colour bar; what that takes
+static const double WORDS_HEIGHT = 11, LEGEND_HEIGHT = 11;   // points: over and below the block
+static const double TITLE_SIZE = 8.5;   // points
+static const double LEGEND_LEFT = 12;   // points: block's frame to the words over and below it
+static const double GAP = 10;   // points between the columns
+static const double BAR_LONGEST = 130;   // points
+
+struct FilmPage {
+    FilmPageDef def;
+    Page base, frame;   // what stands; what is seen. Owned
+    FilmBand band;
+    FilmForce force;
+    FilmProfile profile;
+    BlockTimes times;   // owned
+    int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
+    int32_t shown;   // the one that stands on the base; -1: none
+    BlockPage map;
+    Axes block;
+    BlockQuantity quantity;
+    double magnification;
+    int32_t U_decimals, t_decimals;
+};
+
+// --- fields --------------------------------------------------------------------------------------
+
+static bool has_fields(const char *folder)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/fields.pvd", folder);
+    return access(path, R_OK) == 0;
+}
+
+// For each frame the field stored nearest to it in time; none where all are outside of the film.
+static bool choose_fields(FilmPage *page, Error *err)
+{
+    const FilmClock *clock = page->def.clock;
+    const BlockTimes *times = &page->times;
+    bool inside = false;
+    if (!has_fields(page->def.folder)) return true;
+    TRY(block_times_read(page->def.folder, page->def.view, &page->times, err));
+    for (int32_t k = 0; k < times->count; ++k)
+        inside = inside || (times->times[k].t >= clock->t[0] &&
+                            times->times[k].t <= clock->t[clock->frames - 1]);
+    if (!inside) return true;
+    TRY(page->stored = NEW_ARRAY(int32_t, clock->frames, err));
+    int32_t at = 0;
+    for (int32_t k = 0; k < clock->frames; ++k) {
+        while (at + 1 < times->count &&
+               fabs(times->times[at + 1].t - clock->t[k]) <= fabs(times->times[at].t - clock->t[k]))
+            ++at;
+        page->stored[k] = at;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_stored(const FilmPage *page, int32_t index, Block *block, Error *err)
+{
+    TRY(block_read(page->def.folder, page->def.view, &page->times, index, block, err));
+    TRY(block_take(block, page->quantity, err));
+    block_deform(block, page->magnification);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Colours and size hold for the whole film: they are those of some of its fields, evenly spaced in
+// its time.
+static bool fit_fields(FilmPage *page, double extent[4], Error *err)
+{
+    Block sample[SAMPLES_MAX] = {0};
+    int32_t count = 0, frames = page->def.clock->frames;
+    for (int32_t k = 0; k < SAMPLES_MAX; ++k) {
+        int32_t index = page->stored[(int64_t)k * (frames - 1) / (SAMPLES_MAX - 1)];
+        if (k > 0 && index == page->stored[(int64_t)(k - 1) * (frames - 1) / (SAMPLES_MAX - 1)])
+            continue;
+        TRY(read_stored(page, index, &sample[count++], err));
+    }
+    page->magnification = page->def.magnification;
+    for (int32_t k = 0; k < count && !(page->def.magnification > 0); ++k) {
+        double own = block_magnification(&sample[k]);
+        if (k == 0 || own < page->magnification) page->magnification = own;
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        double own[4];
+        block_deform(&sample[k], page->magnification);
+        block_extent(&sample[k], own);
+        for (int32_t d = 0; d < 4; ++d)
+            extent[d] = k == 0 ? own[d] : d % 2 ? fmax(extent[d], own[d]) : fmin(extent[d], own[d]);
+    }
+    TRY(block_page_fit(&page->map, sample, count, page->quantity, err));
+cleanup:
+    for (int32_t k = 0; k < SAMPLES_MAX; ++k) block_destroy(&sample[k]);
+    return error_is_clean(err);
+}
+
+// --- layout --------------------------------------------------------------------------------------
+
+static bool page_open(const FilmPage *self, Page *page, Error *err)
+{
+    double point = fmax(fmin(self->def.height / HEIGHT, self->def.width / WIDTH), POINT_LEAST);
+    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.dark};
+    style.width = self->def.width / style.dpi * INCH;
+    PageDef def = {.style = &style, .height = (double)self->def.height / self->def.width};
+    return page_begin(page, &def, err);
+}
+
+// The block in the middle of `cell`, to scale, with its colour bar at its right.
+static void place_block(FilmPage *page, const Box *cell, const double extent[4])
+{
+    double point = page->base.point, words = WORDS_HEIGHT + LEGEND_HEIGHT;
+    double width = (cell->right - cell->left) / point - BAR_ROOM;
+    double height = (cell->bottom - cell->top) / point - words;
+    double scale = block_page_scale(extent, width, 1);
+    double needed = block_page_height(extent, scale, 1);
+    if (needed > height) {
+        scale *= (height - (needed - scale * (extent[3] - extent[2]))) /
+                 (scale * (extent[3] - extent[2]));
+        needed = block_page_height(extent, scale, 1);
+    }
+    block_page_ranges(extent, scale, 1, &page->block);
+    width = scale * (page->block.x.high - page->block.x.low);
+    double left = cell->left,
+           top = cell->top + (cell->bottom - cell->top - (needed + words) * point) / 2;
+    page->block.box.left = round(left);
+    page->block.box.right = page->block.box.left + round(width * point);
+    page->block.box.top = round(top + WORDS_HEIGHT * point);
+    page->block.box.bottom = page->block.box.top + round(needed * point);
+}
+
+static bool lay_out(FilmPage *page, Error *err)
+{
+    double point = page->base.point, extent[4] = {0};
+    double width = page->def.width, height = page->def.height;
+    const FilmClock *clock = page->def.clock;
+    const double t[2] = {clock->t[0], clock->t[clock->frames - 1]};
+    double band = fmin(fmax(BAND_SHARE * height, BAND_LEAST * point), BAND_MOST * point);
+    Box main = {MARGIN * point, HEAD * point, width - MARGIN * point, height - band};
+    Box left = main, right = main;
+    Box foot = {main.left, main.bottom + 2 * point, main.right, height - 1 * point};
+    left.right = round(main.left + LEFT_SHARE * (main.right - main.left));
+    right.left = left.right + GAP * point;
+    if (!(main.bottom - main.top > 60 * point) || !(right.right - right.left > 90 * point))
+        FAIL(err, ERROR_INPUT, "%d by %d pixels are too few for a film", page->def.width,
+             page->def.height);
+    if (page->stored) {
+        Box lower = right;
+        lower.top = right.bottom = (right.top + right.bottom) / 2;
+        TRY(fit_fields(page, extent, err));
+        place_block(page, &left, extent);
+        film_profile_place(&page->base, &lower, &page->profile);
+    } else {
+        film_profile_place(&page->base, &left, &page->profile);
+    }
+    film_force_place(&page->base, &right, t, &page->force);
+    if (page->stored)   // one above the other: frames begin at one line
+        page->force.axes.box.left = page->profile.axes.box.left =
+            fmax(page->force.axes.box.left, page->profile.axes.box.left);
+    TRY(film_band_create(&page->base, &foot, &page->band, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Digits behind the point, so that the clock is seen to go on where it is slowest.
+static int32_t decimals_of(double step, double range)
+{
+    double least = fmin(step, range / RANGE_PARTS);
+    return least > 0 ? (int32_t)fmin(fmax(ceil(-log10(least)), 0), DECIMALS_MAX) : 0;
+}
+
+static void choose_decimals(FilmPage *page)
+{
+    const FilmClock *clock = page->def.clock;
+    const ResultView *view = page->def.view;
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    double step = page->band.speed_low / clock->rate;
+    double range = clock->t[clock->frames - 1] - clock->t[0];
+    double last = film_moment(view, clock->t[clock->frames - 1]).U;
+    double factor = figure_length_axis(view, "U", 0, last).factor;
+    page->t_decimals = decimals_of(step, range);
+    page->U_decimals = decimals_of(step * V * factor, range * V * factor);
+}
+
+// --- what stands ---------------------------------------------------------------------------------
+
+static void draw_title(const FilmPage *page)
+{
+    double point = page->base.point;
+    TextStyle style = {.size = TITLE_SIZE * point, .color = INK};
+    if (page->def.view->title && page->def.view->title[0])
+        text_draw(page->base.text, &style, (Point){2 * MARGIN * point, BASELINE * point},
+                  page->def.view->title);
+}
+
+static void draw_bar(const FilmPage *page)
+{
+    const Box *box = &page->block.box;
+    double point = page->base.point, middle = (box->top + box->bottom) / 2;
+    double half = fmin(BAR_LONGEST * point, box->bottom - box->top - 8 * point) / 2;
+    Box beside = {.left = round(box->right + BAR_GAP * point),
+                  .top = round(middle - half),
+                  .bottom = round(middle + half)};
+    colorbar_draw(&page->base, &page->map.bar, &beside);
+    block_page_legend(&page->base, (Point){box->left + LEGEND_LEFT * point,
+                                           box->bottom + 0.5 * LEGEND_HEIGHT * point});
+}
+
+static void set_block_map(const FilmPage *page)
+{
+    uint8_t colors[3 * MAP_SIZE];
+    color_map_fill(colors);
+    canvas_set_map(page->base.canvas, colors, PAPER);
+}
+
+static bool draw_standing(FilmPage *page, Error *err)
+{
+    draw_title(page);
+    film_band_draw(&page->base, &page->band);
+    film_profile_draw(&page->base, &page->profile);
+    TRY(film_force_draw(&page->base, &page->force, err));
+    if (page->stored) {
+        set_block_map(page);
+        draw_bar(page);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Over the block: when its field was stored, and how much the deformation is enlarged.
+static void draw_block_words(const FilmPage *page, const Block *block)
+{
+    char words[WORDS_SIZE];
+    double point = page->base.point;
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
+    Axis U = figure_length_axis(page->def.view, "U", 0, block->U);
+    Box line = {page->block.box.left, page->block.box.top - WORDS_HEIGHT * point,
+                page->block.box.right, page->block.box.top};
+    draw_fill(page->base.canvas, PAPER, &line);
+    snprintf(words, sizeof words, "stored at %s = %.*f,  deformation \u00d7 %g", U.label,
+             page->U_decimals, block->U * U.factor, page->magnification);
+    style.size *= fmin(1, (line.right - line.left - LEGEND_LEFT * point) /
+                              text_width(page->base.text, style.size, words));
+    text_draw(page->base.text, &style,
+              (Point){line.left + LEGEND_LEFT * point, line.bottom - 3 * point}, words);
+}
+
+// Only where a frame shows another stored field than the one before.
+static bool draw_block(FilmPage *page, int32_t index, Error *err)
+{
+    Block block = {0};
+    if (index == page->shown) return true;
+    TRY(read_stored(page, index, &block, err));
+    set_block_map(page);
+    draw_fill(page->base.canvas, PAPER, &page->block.box);
+    TRY(block_page_draw(&page->base, &page->map, &block, &page->block, err));
+    draw_block_words(page, &block);
+    page->shown = index;
+cleanup:
+    block_destroy(&block);
+    return error_is_clean(err);
+}
+
+// --- what moves ----------------------------------------------------------------------------------
+
+// "t = 1148.12 t_0", or in SI "t = 12.345 s", and U.
+static void draw_clock(const FilmPage *page, const FilmMoment *now)
+{
+    char words[WORDS_SIZE];
+    double point = page->frame.point;
+    const ResultView *view = page->def.view;
+    TextStyle style = {.size = TITLE_SIZE * point, .color = INK, .across = 1};
+    const FilmClock *clock = page->def.clock;
+    Axis U = figure_length_axis(view, "U", 0, film_moment(view, clock->t[clock->frames - 1]).U);
+    snprintf(words, sizeof words, "%s = %.*f     ~{t} %s = %.*f", U.label, page->U_decimals,
+             now->U * U.factor, view->si ? "(s)" : "/ ~{t}_{0}", page->t_decimals, now->t);
+    text_draw(page->frame.text, &style,
+              (Point){page->def.width - 2 * MARGIN * point, BASELINE * point}, words);
+}
+
+bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err)
+{
+    FilmMoment now = film_moment(page->def.view, page->def.clock->t[k]);
+    if (page->stored) TRY(draw_block(page, page->stored[k], err));
+    film_force_pass(&page->base, &page->force, &now);
+    canvas_copy(page->frame.canvas, page->base.canvas);
+    draw_clock(page, &now);
+    film_band_now(&page->frame, &page->band, k);
+    film_force_now(&page->frame, &page->force, &now);
+    TRY(film_profile_now(&page->frame, &page->profile, &now, err));
+    if (page->stored)
+        block_page_contact(&page->frame, &page->map, film_nearest_row(&now), &page->block);
+    *pixels = canvas_pixels(page->frame.canvas, stride, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- begin and end -------------------------------------------------------------------------------
+
+FilmPage *film_page_create(const FilmPageDef *def, Error *err)
+{
+    double V = fabs(def->view->number[NUMBER_ROD_VELOCITY]);
+    FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
+    TRY(page);
+    page->def = *def;
+    page->shown = -1;
+    page->map = (BlockPage){.view = def->view, .share = 1};
+    page->force.view = page->profile.view = page->band.view = def->view;
+    page->band.clock = def->clock;
+    page->band.map.bar = page->profile.bar = slip_scale(def->view, V);
+    TRY(block_quantity_find(def->of, &page->quantity, err));
+    TRY(page_open(page, &page->base, err));
+    TRY(page_open(page, &page->frame, err));
+    TRY(choose_fields(page, err));
+    TRY(lay_out(page, err));
+    choose_decimals(page);
+    TRY(draw_standing(page, err));
+    return page;
+cleanup:
+    film_page_destroy(page);
+    return NULL;
+}
+
+void film_page_destroy(FilmPage *page)
+{
+    if (!page) return;
+    page_destroy(&page->base);
+    page_destroy(&page->frame);
+    film_band_destroy(&page->band);
+    block_times_destroy(&page->times);
+    memory_free(page->stored);
+    memory_free(page);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/film/film_times.h"
+
+#include "render/figures/block.h"
+
+#include <math.h>
+
+static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
+
+FilmMoment film_moment(const ResultView *view, double t)
+{
+    int64_t low = 0, high = view->rows - 1;
+    while (high - low > 1) {
+        int64_t middle = low + (high - low) / 2;
+        if (view->t[middle] <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    double length = view->t[high] - view->t[low];
+    double part = length > 0 ? fmin(fmax((t - view->t[low]) / length, 0), 1) : 1;
+    return (FilmMoment){.t = t,
+                        .U = view->U[low] + part * (view->U[high] - view->U[low]),
+                        .mu = view->mu[low] + part * (view->mu[high] - view->mu[low]),
+                        .row = low,
+                        .part = part};
+}
+
+double film_slip_rate(const ResultView *view, const FilmMoment *moment, int32_t node)
+{
+    const double *before = view->slip_rate + moment->row * view->nodes + node;
+    return before[0] + moment->part * (before[view->nodes] - before[0]);
+}
+
+int64_t film_nearest_row(const FilmMoment *moment)
+{
+    return moment->part < 0.5 ? moment->row : moment->row + 1;
+}
+
+// The time at which the rod first comes to U.
+static double time_of_U(const ResultView *view, double U)
+{
+    if (view->U[0] >= U) return view->t[0];
+    for (int64_t row = 1; row < view->rows; ++row) {
+        double before = view->U[row - 1], after = view->U[row];
+        if (!(after >= U) || !(after > before)) continue;
+        double part = fmin(fmax((U - before) / (after - before), 0), 1);
+        return view->t[row - 1] + part * (view->t[row] - view->t[row - 1]);
+    }
+    return view->t[view->rows - 1];
+}
+
+static bool time_read(const ResultView *view, const char *at, double *t, Error *err)
+{
+    bool is_U = false;
+    double value = 0;
+    TRY(block_moment_read(at, &is_U, &value, err));
+    *t = is_U ? time_of_U(view, value) : value;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool find_cycle(const ResultView *view, double t[2], Error *err)
+{
+    const ViewEvent *last = NULL, *before = NULL;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind != VIEW_LEADING || !isfinite(event->U_start + event->U_stop)) continue;
+        before = last;
+        last = event;
+    }
+    if (!last)
+        FAIL(err, ERROR_INPUT, "no bulk sliding is in this history, so there is no last cycle");
+    double low = before ? before->U_stop : view->U[0];
+    t[0] = time_of_U(view, low);
+    t[1] = time_of_U(view, last->U_stop + BEHIND * (last->U_stop - low));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool film_span_find(const ResultView *view, const FilmSpan *span, double t[2], Error *err)
+{
+    double first = view->t[0], end = view->t[view->rows - 1];
+    t[0] = first;
+    t[1] = end;
+    if (span->last_cycle) TRY(find_cycle(view, t, err));
+    if (span->from) TRY(time_read(view, span->from, &t[0], err));
+    if (span->to) TRY(time_read(view, span->to, &t[1], err));
+    t[0] = fmax(t[0], first);
+    t[1] = fmin(t[1], end);
+    if (!(t[1] > t[0]))
+        FAIL(err, ERROR_INPUT,
+             "nothing lies between the film's start and end: the history goes from U = %g, t = %g "
+             "to U = %g, t = %g",
+             view->U[0], first, view->U[view->rows - 1], end);
+cleanup:
+    return error_is_clean(err);
+}

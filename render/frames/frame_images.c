@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/frames/frame_images.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+// Of a picture for a screen: 600 pixels wide, letters 14 pixels high.
+static const double WIDTH = 95, DPI = 160;   // mm
+
+enum { LOOKED_AT = 6 };   // of the times; memory for so many blocks
+
+// Extent of all blocks as drawn, with one magnification.
+static void take_extent(FieldPage *field, Block *blocks, int32_t count)
+{
+    field->magnification = INFINITY;
+    for (int32_t k = 0; k < count; ++k)
+        field->magnification = fmin(field->magnification, block_magnification(&blocks[k]));
+    for (int32_t k = 0; k < count; ++k) {
+        double extent[4];
+        block_deform(&blocks[k], field->magnification);
+        block_extent(&blocks[k], extent);
+        for (int32_t d = 0; d < 4; ++d) {
+            double both = d % 2 ? fmax(extent[d], field->extent[d])
+                                : fmin(extent[d], field->extent[d]);
+            field->extent[d] = k == 0 ? extent[d] : both;
+        }
+    }
+}
+
+bool frame_images_fit(FrameImages *images, const int32_t *chosen, int32_t count, Error *err)
+{
+    Block blocks[LOOKED_AT] = {0};
+    int32_t looked = count < LOOKED_AT ? count : LOOKED_AT;
+    for (int32_t k = 0; k < looked; ++k) {
+        int32_t at = looked > 1 ? (int32_t)((int64_t)k * (count - 1) / (looked - 1)) : 0;
+        TRY(block_read(images->folder, images->view, images->times, chosen[at], &blocks[k], err));
+        TRY(block_take(&blocks[k], images->quantity, err));
+    }
+    take_extent(&images->field, blocks, looked);
+    images->style = (PictureStyle){.format = "png", .width = WIDTH, .dpi = DPI};
+    images->map = (BlockPage){.view = images->view, .share = 1};
+    TRY(block_page_fit(&images->map, blocks, looked, images->quantity, err));
+    images->shape = field_page_lay_out(&images->field, page_width(&images->style));
+cleanup:
+    for (int32_t k = 0; k < LOOKED_AT; ++k) block_destroy(&blocks[k]);
+    return error_is_clean(err);
+}
+
+bool frame_images_html(const FrameImages *images, int32_t index, HtmlWriter *html, Error *err)
+{
+    Block block = {0};
+    Page page = {0};
+    PictureBytes picture = {0};
+    PageDef def = {.style = &images->style, .height = images->shape};
+    BlockWords words = block_words(images->quantity);
+    TRY(block_read(images->folder, images->view, images->times, index, &block, err));
+    TRY(block_take(&block, images->quantity, err));
+    block_deform(&block, images->field.magnification);
+    TRY(page_begin(&page, &def, err));
+    TRY(field_page_draw(&page, &images->field, &images->map, &block, err));
+    TRY(canvas_finish(page.canvas, words.name, true, &picture, err));
+    html_markup(html,
+                "<img class='paper' width='%d' height='%d' alt='The deformed block, %s in "
+                "colours, and which parts of its contact stick, slip or are open, at U = %.6g' "
+                "src='",
+                canvas_width(page.canvas), canvas_height(page.canvas), words.name, block.U);
+    html_data(html, "image/png", picture.bytes, picture.size);
+    html_markup(html, "'>");
+cleanup:
+    page_destroy(&page);
+    block_destroy(&block);
+    return error_is_clean(err);
+}

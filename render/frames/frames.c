@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The row of frames that a page's slider goes through: the block where fields are stored, pressure,
+// friction and slip rate along the contact, and the force curve with a mark. Each frame is a figure
+// of its own, so that all are there without a script, too.
+#include "render/render.h"
+
+#include "base/memory.h"
+#include "render/canvas/svg_chart.h"
+#include "render/frames/frame_choice.h"
+#include "render/frames/frame_images.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { STRIPS = 3, PRINTED = 6, STATUSES = 4 };
+enum { FIELDS_LEAST = 4 };   // stored times: fewer tell no story, the steps of the history do
+
+// Units of the drawing; a page shows it some 500 pixels wide.
+enum { WIDTH = 560, LEFT = 70, RIGHT = 505, TOP = 26, STRIP = 72, STRIP_GAP = 16 };
+enum { FORCE_TOP = TOP + STRIPS * (STRIP + STRIP_GAP) + 48, FORCE_HEIGHT = 96 };
+enum { HEIGHT = FORCE_TOP + FORCE_HEIGHT + 44, BAND_TOP = 6, BAND_HEIGHT = 9 };
+
+static const double RATE_LEAST = 1e-2, RATE_MOST = 1e6;   // over V: as the slip map has it; drawn
+static const double PRESSURE_LEAST = 1e-3;   // over P_ext: of less, friction over it means nothing
+static const double LEFT_OUT = 0.01;   // of the pressures: those of singular corners
+static const double HEADROOM = 1.12;
+
+typedef enum StripId { STRIP_PRESSURE, STRIP_RATIO, STRIP_RATE } StripId;
+
+typedef struct Frames {
+    ResultView view;
+    bool fields;   // of the block are stored
+    BlockTimes times;   // with fields
+    int64_t *rows;   // [stored] of the history, of which there are frames; owned
+    int32_t stored, count;
+    int32_t chosen[RENDER_FRAMES_MAX];   // [count] indices into rows
+    int32_t points;   // along the contact: nodes, and a gap after each pad but the last
+    double *x;   // [points] NaN in gaps; owned
+    double *y[STRIPS];   // [count * points] owned
+    uint8_t *status;   // [count * nodes] owned
+    Axes strip[STRIPS], force;
+} Frames;
+
+static void frames_destroy(Frames *frames)
+{
+    result_view_close(&frames->view);
+    block_times_destroy(&frames->times);
+    memory_free(frames->rows);
+    memory_free(frames->x);
+    for (int32_t s = 0; s < STRIPS; ++s) memory_free(frames->y[s]);
+    memory_free(frames->status);
+    *frames = (Frames){0};
+}
+
+// --- which times ---------------------------------------------------------------------------------
+
+// With some fields their times, else all steps.
+static bool choose(const char *folder, Frames *frames, Error *err)
+{
+    char path[PATH_MAX];
+    ResultView *view = &frames->view;
+    snprintf(path, sizeof path, "%s/fields.pvd", folder);
+    frames->fields = access(path, R_OK) == 0;
+    if (frames->fields) TRY(block_times_read(folder, view, &frames->times, err));
+    frames->fields = frames->times.count >= FIELDS_LEAST;
+    int64_t stored = frames->fields ? frames->times.count : view->rows;
+    if (stored > INT32_MAX) FAIL(err, ERROR_INPUT, "the history has too many steps for a page");
+    frames->stored = (int32_t)stored;
+    TRY(frames->rows = NEW_ARRAY(int64_t, stored, err));
+    for (int32_t k = 0; k < frames->stored; ++k)
+        frames->rows[k] = frames->fields ? frames->times.row[k] : k;
+    frames->count =
+        frames_choose(view, frames->rows, frames->stored, RENDER_FRAMES_MAX, frames->chosen);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- along the contact ---------------------------------------------------------------------------
+
+// One quantity at the chosen steps, [count * nodes]; the whole series is in memory only meanwhile.
+static bool read_rows(const Frames *frames, ResultSeries series, double **values, Error *err)
+{
+    double *all = NULL;
+    int64_t rows = 0;
+    int32_t width = 0, nodes = frames->view.nodes;
+    TRY(result_file_read_series(frames->view.file, series, &all, &rows, &width, err));
+    TRY(*values = NEW_ARRAY(double, (int64_t)frames->count *nodes, err));
+    for (int32_t k = 0; k < frames->count; ++k) {
+        int64_t row = frames->rows[frames->chosen[k]];
+        if (width != nodes || row >= rows)
+            FAIL(err, ERROR_FILE, "%s has %lld rows of %d columns, but there are %d contact nodes",
+                 result_series_name(series), (long long)rows, width, nodes);
+        for (int32_t i = 0; i < nodes; ++i) (*values)[k * nodes + i] = all[row * nodes + i];
+    }
+cleanup:
+    memory_free(all);
+    return error_is_clean(err);
+}
+
+// A point for each node, and one that is not there between two pads.
+static bool place_points(Frames *frames, Error *err)
+{
+    const ResultView *view = &frames->view;
+    TRY(frames->x = NEW_ARRAY(double, 2 * (int64_t)view->nodes, err));
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        if (i > 0 && view->pad[i] != view->pad[i - 1]) frames->x[frames->points++] = NAN;
+        frames->x[frames->points++] = view->x[i];
+    }
+    for (int32_t s = 0; s < STRIPS; ++s)
+        TRY(frames->y[s] = NEW_ARRAY(double, (int64_t)frames->count * frames->points, err));
+    TRY(frames->status = NEW_ARRAY(uint8_t, (int64_t)frames->count * view->nodes, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_contact(Frames *frames, Error *err)
+{
+    const ResultView *view = &frames->view;
+    double *pressure = NULL, *shear = NULL, *rate = NULL, *status = NULL;
+    TRY(read_rows(frames, SERIES_PRESSURE, &pressure, err));
+    TRY(read_rows(frames, SERIES_SHEAR, &shear, err));
+    TRY(read_rows(frames, SERIES_SLIP_RATE, &rate, err));
+    TRY(read_rows(frames, SERIES_STATUS, &status, err));
+    TRY(place_points(frames, err));
+    for (int32_t k = 0; k < frames->count; ++k)
+        for (int32_t p = 0, i = 0; p < frames->points; ++p) {
+            int64_t to = (int64_t)k * frames->points + p, from = (int64_t)k * view->nodes + i;
+            bool gap = isnan(frames->x[p]);
+            double part = gap ? NAN : pressure[from] / view->number[NUMBER_PRESSURE];
+            double speed = gap ? NAN : fabs(rate[from]) / view->number[NUMBER_ROD_VELOCITY];
+            frames->y[STRIP_PRESSURE][to] = part;
+            frames->y[STRIP_RATIO][to] = part > PRESSURE_LEAST ? shear[from] / pressure[from] : NAN;
+            frames->y[STRIP_RATE][to] = fmax(speed, gap ? NAN : RATE_LEAST);
+            if (gap) continue;
+            frames->status[from] = (uint8_t)fmin(fmax(status[from], 0), STATUSES - 1);
+            ++i;
+        }
+cleanup:
+    memory_free(pressure);
+    memory_free(shear);
+    memory_free(rate);
+    memory_free(status);
+    return error_is_clean(err);
+}
+
+// --- axes ----------------------------------------------------------------------------------------
+
+static int compare_numbers(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return a < b ? -1 : a > b;
+}
+
+// The value that all but `left_out` of the finite ones of a strip stay below; `least` or more.
+static bool find_high(const Frames *frames, StripId strip, double left_out, double least,
+                      double *high, Error *err)
+{
+    int64_t count = (int64_t)frames->count * frames->points, kept = 0;
+    double *sorted = NEW_ARRAY(double, count, err);
+    TRY(sorted);
+    for (int64_t k = 0; k < count; ++k)
+        if (isfinite(frames->y[strip][k])) sorted[kept++] = frames->y[strip][k];
+    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
+    *high = least;
+    if (kept > 0) *high = fmax(least, sorted[kept - 1 - (int64_t)(left_out * (double)kept)]);
+cleanup:
+    memory_free(sorted);
+    return error_is_clean(err);
+}
+
+static Box strip_box(int32_t strip)
+{
+    double top = TOP + strip * (STRIP + STRIP_GAP);
+    return (Box){.left = LEFT, .right = RIGHT, .top = top, .bottom = top + STRIP};
+}
+
+static bool fit_strips(Frames *frames, Error *err)
+{
+    const ResultView *view = &frames->view;
+    static const char *const names[STRIPS] = {"~{p} / ~{P}_{ext}", "~{\u03c4} / ~{p}",
+                                              "|~{v}| / ~{V}"};
+    double high[STRIPS], mu = view->number[NUMBER_MU_STATIC];
+    TRY(find_high(frames, STRIP_PRESSURE, LEFT_OUT, 1, &high[STRIP_PRESSURE], err));
+    TRY(find_high(frames, STRIP_RATIO, LEFT_OUT, mu > 0 ? mu : 0.1, &high[STRIP_RATIO], err));
+    TRY(find_high(frames, STRIP_RATE, 0, 10, &high[STRIP_RATE], err));
+    high[STRIP_RATE] = fmin(pow(10, ceil(log10(high[STRIP_RATE]))), RATE_MOST);
+    double first = view->x[0], last = view->x[view->nodes - 1];
+    if (!(last > first)) last = first + 1;
+    for (int32_t s = 0; s < STRIPS; ++s) {
+        Axes *axes = &frames->strip[s];
+        *axes = (Axes){.box = strip_box(s), .x = figure_length_axis(view, "x", first, last)};
+        axes->y = (Axis){.high = high[s] * HEADROOM, .factor = 1};
+        snprintf(axes->y.label, sizeof axes->y.label, "%s", names[s]);
+    }
+    Axis *rate = &frames->strip[STRIP_RATE].y;
+    rate->is_log = true;
+    rate->low = RATE_LEAST;
+    rate->high = high[STRIP_RATE];
+cleanup:
+    return error_is_clean(err);
+}
+
+static void fit_force(Frames *frames)
+{
+    const ResultView *view = &frames->view;
+    double low = 0, high = 0, U_low = 0, U_high = 0;
+    result_view_range(view, &U_low, &U_high);
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (!isfinite(view->mu[row])) continue;
+        low = fmin(low, view->mu[row]);
+        high = fmax(high, view->mu[row]);
+    }
+    if (!(high > low)) high = low + 1;
+    frames->force = (Axes){.box = {LEFT, FORCE_TOP, RIGHT, FORCE_TOP + FORCE_HEIGHT},
+                           .x = figure_length_axis(view, "U", U_low, U_high),
+                           .y = {.low = low * HEADROOM, .high = high * HEADROOM, .factor = 1}};
+    snprintf(frames->force.y.label, AXIS_LABEL_SIZE, "~{F}_{T} / ~{F}_{N}");
+}
+
+// What all frames have in common, drawn once and used in each of them.
+static void write_common(const Frames *frames, HtmlWriter *html)
+{
+    const ResultView *view = &frames->view;
+    html_markup(html, "<svg class='common' width='0' height='0' aria-hidden='true'><defs>"
+                      "<g id='common-axes'>");
+    for (int32_t s = 0; s < STRIPS; ++s) svg_axes(html, &frames->strip[s], s == STRIPS - 1);
+    svg_level(html, &frames->strip[STRIP_RATIO], view->number[NUMBER_MU_STATIC], "~{\u03bc}_{S}");
+    svg_level(html, &frames->strip[STRIP_RATIO], view->number[NUMBER_MU_KINETIC], "~{\u03bc}_{K}");
+    svg_level(html, &frames->strip[STRIP_RATE], 1, "~{V}");
+    svg_axes(html, &frames->force, true);
+    svg_level(html, &frames->force, view->number[NUMBER_MU_M], "~{\u03bc}_{M}");
+    svg_curve(html, &frames->force, "curve0", view->U, view->mu, view->rows);
+    html_markup(html, "</g></defs></svg>\n");
+}
+
+// --- a frame -------------------------------------------------------------------------------------
+
+// Above the strips, a colour for each part of the contact that is of one status.
+static void write_band(const Frames *frames, int32_t k, HtmlWriter *html)
+{
+    const ResultView *view = &frames->view;
+    const uint8_t *status = frames->status + (int64_t)k * view->nodes;
+    const Axes *axes = &frames->strip[0];
+    for (int32_t i = 0; i < view->nodes;) {
+        int32_t end = i;
+        while (end + 1 < view->nodes && view->pad[end + 1] == view->pad[i] &&
+               status[end + 1] == status[i])
+            ++end;
+        bool before = i > 0 && view->pad[i - 1] == view->pad[i];
+        bool after = end + 1 < view->nodes && view->pad[end + 1] == view->pad[i];
+        double from = before ? (view->x[i - 1] + view->x[i]) / 2 : view->x[i];
+        double to = after ? (view->x[end] + view->x[end + 1]) / 2 : view->x[end];
+        double left = axes_place(axes, from, 0).x, right = axes_place(axes, to, 0).x;
+        html_markup(html, "<rect class='status%d' x='%.1f' y='%d' width='%.1f' height='%d'/>",
+                    status[i], left, BAND_TOP, right - left, BAND_HEIGHT);
+        i = end + 1;
+    }
+}
+
+static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
+{
+    const ResultView *view = &frames->view;
+    int64_t row = frames->rows[frames->chosen[k]];
+    html_markup(html,
+                "<svg class='chart' viewBox='0 0 %d %d' role='img' aria-label='Pressure, friction "
+                "over pressure and slip rate along the contact, and the force curve, at U = "
+                "%.6g'><use href='#common-axes'/>",
+                WIDTH, HEIGHT, view->U[row]);
+    write_band(frames, k, html);
+    for (int32_t s = 0; s < STRIPS; ++s)
+        svg_curve(html, &frames->strip[s], "curve1", frames->x,
+                  frames->y[s] + (int64_t)k * frames->points, frames->points);
+    Point at = axes_place(&frames->force, view->U[row], view->mu[row]);
+    if (isfinite(at.x + at.y))
+        html_markup(html,
+                    "<path class='cursor' d='M%.1f %dv%d'/><circle class='cursor' cx='%.1f' "
+                    "cy='%.1f' r='4'/>",
+                    at.x, FORCE_TOP, FORCE_HEIGHT, at.x, at.y);
+    html_markup(html, "</svg>");
+}
+
+static void write_caption(const Frames *frames, int32_t k, HtmlWriter *html)
+{
+    const ResultView *view = &frames->view;
+    int64_t row = frames->rows[frames->chosen[k]];
+    html_markup(html, "<figcaption>Frame %d of %d: ", k + 1, frames->count);
+    html_words(html, frames->force.x.label);
+    html_markup(html,
+                " = %.6g, <i>t</i> = %.6g%s, <i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> = "
+                "%.4f</figcaption>",
+                view->U[row] * frames->force.x.factor, view->t[row],
+                view->si ? "\u202fs" : " <i>t</i><sub>0</sub>", view->mu[row]);
+}
+
+// Some frames, evenly spread, are for paper, too.
+static bool is_printed(const Frames *frames, int32_t k)
+{
+    int32_t every = (frames->count + PRINTED - 1) / PRINTED;
+    return k % every == every / 2;
+}
+
+// What a reader wants to see first: the last sliding, where there is one.
+static int32_t first_shown(const Frames *frames)
+{
+    const ResultView *view = &frames->view;
+    double U = INFINITY;
+    for (int32_t e = 0; e < view->event_count; ++e)
+        if (view->events[e].kind == VIEW_LEADING) U = view->events[e].U_start;
+    for (int32_t k = 0; k < frames->count; ++k)
+        if (view->U[frames->rows[frames->chosen[k]]] >= U) return k + 1;
+    return 1;
+}
+
+// A figure is whole also where its picture fails.
+static bool write_frame(const Frames *frames, const FrameImages *images, int32_t k,
+                        HtmlWriter *html, Error *err)
+{
+    html_markup(html, "<figure class='frame%s' id='frame-%d' tabindex='-1'>",
+                is_printed(frames, k) ? " printed" : "", k + 1);
+    if (frames->fields) frame_images_html(images, frames->chosen[k], html, err);
+    write_chart(frames, k, html);
+    write_caption(frames, k, html);
+    html_markup(html, "</figure>\n");
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool
+amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err)
+{
+    Frames frames = {0};
+    FrameImages images = {.folder = folder, .view = &frames.view, .times = &frames.times};
+    TRY(result_view_open(folder, &frames.view, err));
+    TRY(choose(folder, &frames, err));
+    TRY(read_contact(&frames, err));
+    TRY(fit_strips(&frames, err));
+    fit_force(&frames);
+    if (frames.fields) TRY(result_view_read_status(&frames.view, err));
+    if (frames.fields) TRY(frame_images_fit(&images, frames.chosen, frames.count, err));
+    write_common(&frames, html);
+    html_markup(html, "<div class='frames' id='frames' data-first='%d'>\n", first_shown(&frames));
+    for (int32_t k = 0; k < frames.count && error_is_clean(err); ++k) {
+        write_frame(&frames, &images, k, html, err);
+        found->U[k] = frames.view.U[frames.rows[frames.chosen[k]]];
+        found->count = k + 1;
+    }
+    html_markup(html, "</div>\n");
+    found->stored = frames.stored;
+    found->fields = frames.fields;
+cleanup:
+    frames_destroy(&frames);
+    return error_is_clean(err);
+}

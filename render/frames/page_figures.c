@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Figures inside of a page: pictures in light and in dark, of which the browser shows the one that
+// suits; and force curves over each other.
+#include "render/render.h"
+
+#include "base/memory.h"
+#include "render/canvas/svg_chart.h"
+#include "render/figures/figures.h"
+#include "render/plot/figure_curves.h"
+#include "render/plot/plot_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Of the pictures; a page shows them as wide as its column.
+static const double WIDTH = 140, DPI = 240;   // mm; of maps
+
+// Units of the drawing of several curves.
+enum { CURVES_WIDTH = 760, CURVES_HEIGHT = 400, CURVES_LEFT = 70, CURVES_RIGHT = 740 };
+enum { CURVES_TOP = 24, CURVES_BOTTOM = 350 };
+
+static const double HEADROOM = 1.05;
+
+static const struct {
+    const char *name, *format, *alt, *caption;
+} FIGURES[] = {
+    {"force", "svg", "Line: friction force over load against the displacement of the rod.",
+     "<i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s displacement <i>U</i>. "
+     "Circles: the peaks before the block slides as a whole, filled if they count for "
+     "<i>\u03bc</i><sub>M</sub>. The inset enlarges the last precursors before a sliding."},
+    {"slip-map", "png", "Map: slip rate along the contact against the displacement of the rod.",
+     "Slip rate over the rod\u2019s velocity, against <i>U</i> and the place <i>x</i> along the "
+     "contact. Grey: stick."},
+    {"contact-density", "png",
+     "Map: contact density before a sliding, along the contact and against the displacement of "
+     "the rod.",
+     "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
+     "before a sliding. Black line: the front of slip."},
+};
+
+// --- pictures ------------------------------------------------------------------------------------
+
+// What is drawn on a fresh page, and the words with it: ours, caption is markup.
+typedef struct Drawing {
+    bool (*draw)(void *context, const PictureStyle *style, Page *page, Error *err);
+    void *context;
+    const char *format, *alt, *caption;
+} Drawing;
+
+static bool make_picture(const Drawing *drawing, bool dark, Page *page, PictureBytes *picture,
+                         Error *err)
+{
+    const PictureStyle style = {
+        .format = drawing->format, .width = WIDTH, .dpi = DPI, .dark = dark};
+    return drawing->draw(drawing->context, &style, page, err) &&
+           canvas_finish(page->canvas, "", true, picture, err);
+}
+
+// Both are drawn before anything is written: a failure leaves no half markup.
+static bool write_figure(HtmlWriter *html, const Drawing *drawing, Error *err)
+{
+    Page pages[2] = {0};
+    PictureBytes pictures[2];
+    const char *type = strcmp(drawing->format, "svg") == 0 ? "image/svg+xml" : "image/png";
+    for (int32_t dark = 0; dark < 2; ++dark)
+        TRY(make_picture(drawing, dark, &pages[dark], &pictures[dark], err));
+    html_markup(html, "<figure><picture><source media='screen and (prefers-color-scheme: dark)' "
+                      "srcset='");
+    html_data(html, type, pictures[1].bytes, pictures[1].size);
+    html_markup(html, "'><img src='");
+    html_data(html, type, pictures[0].bytes, pictures[0].size);
+    html_markup(html, "' alt='%s'></picture><figcaption>%s</figcaption></figure>\n", drawing->alt,
+                drawing->caption);
+cleanup:
+    for (int32_t dark = 0; dark < 2; ++dark) page_destroy(&pages[dark]);
+    return error_is_clean(err);
+}
+
+typedef struct HistoryFigure {
+    ResultView *view;
+    const char *name;
+} HistoryFigure;
+
+static bool draw_history(void *context, const PictureStyle *style, Page *page, Error *err)
+{
+    const HistoryFigure *figure = context;
+    return figure_draw(figure->name, figure->view, style, page, err);
+}
+
+// Title and warnings stand on the page already.
+__attribute__((visibility("default"))) bool amontons_render_figures(const char *folder,
+                                                                    HtmlWriter *html, Error *err)
+{
+    ResultView view = {0};
+    TRY(result_view_open(folder, &view, err));
+    view.title[0] = view.warnings[0] = '\0';
+    for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
+        HistoryFigure figure = {&view, FIGURES[k].name};
+        const Drawing drawing = {draw_history, &figure, FIGURES[k].format, FIGURES[k].alt,
+                                 FIGURES[k].caption};
+        TRY(write_figure(html, &drawing, err));
+    }
+cleanup:
+    result_view_close(&view);
+    return error_is_clean(err);
+}
+
+static bool draw_plot(void *context, const PictureStyle *style, Page *page, Error *err)
+{
+    return figure_plot(page, context, style, NULL, err);
+}
+
+__attribute__((visibility("default"))) bool
+amontons_render_plot_html(const char *path, const char *caption, HtmlWriter *html, Error *err)
+{
+    Plot *plot = NEW_ARRAY(Plot, 1, err);
+    TRY(plot);
+    TRY(plot_file_read(path, plot, err));
+    const Drawing drawing = {draw_plot, plot, "svg", caption, caption};
+    TRY(write_figure(html, &drawing, err));
+cleanup:
+    if (plot) plot_destroy(plot);
+    memory_free(plot);
+    return error_is_clean(err);
+}
+
+// --- several force curves ------------------------------------------------------------------------
+
+typedef struct Curves {
+    ResultView views[RENDER_CURVES_MAX];   // [count] owned
+    const char *names[RENDER_CURVES_MAX];   // [count]
+    int32_t count;
+} Curves;
+
+// A history that cannot be drawn is left out, and the page says why.
+static bool add_curve(Curves *curves, const char *folder, const char *name, HtmlWriter *html,
+                      Error *err)
+{
+    ResultView *view = &curves->views[curves->count];
+    if (result_view_open(folder, view, err)) {
+        curves->names[curves->count++] = name;
+        return true;
+    }
+    if (err->code == ERROR_MEMORY || err->code == ERROR_LIBRARY) return false;
+    html_markup(html, "<p class='note'>");
+    html_text(html, name);
+    html_markup(html, " has no curve here: ");
+    html_text(html, err->message);
+    html_markup(html, "</p>\n");
+    error_clear(err);
+    return true;
+}
+
+// The range of all curves.
+static Axes fit_curves(const ResultView *views, int32_t count)
+{
+    double U[2] = {INFINITY, -INFINITY}, mu[2] = {0, 0};
+    for (int32_t k = 0; k < count; ++k) {
+        double low = 0, high = 0;
+        result_view_range(&views[k], &low, &high);
+        U[0] = fmin(U[0], low);
+        U[1] = fmax(U[1], high);
+        for (int64_t row = 0; row < views[k].rows; ++row) {
+            if (!isfinite(views[k].mu[row])) continue;
+            mu[0] = fmin(mu[0], views[k].mu[row]);
+            mu[1] = fmax(mu[1], views[k].mu[row]);
+        }
+    }
+    if (!(mu[1] > mu[0])) mu[1] = mu[0] + 1;
+    Axes axes = {.box = {CURVES_LEFT, CURVES_TOP, CURVES_RIGHT, CURVES_BOTTOM},
+                 .x = figure_length_axis(&views[0], "U", U[0], U[1]),
+                 .y = {.low = mu[0] * HEADROOM, .high = mu[1] * HEADROOM, .factor = 1}};
+    snprintf(axes.y.label, sizeof axes.y.label, "~{F}_{T} / ~{F}_{N}");
+    return axes;
+}
+
+static void write_legend(HtmlWriter *html, const char *const *names, int32_t count)
+{
+    html_markup(html, "<ul class='legend'>");
+    for (int32_t k = 0; k < count; ++k) {
+        html_markup(html,
+                    "<li><svg width='34' height='12' aria-hidden='true'><path class='curve%d' "
+                    "d='M2 6h30'/></svg> ",
+                    k + 1);
+        html_text(html, names[k]);
+        html_markup(html, "</li>");
+    }
+    html_markup(html, "</ul>");
+}
+
+__attribute__((visibility("default"))) bool amontons_render_curves(const char *const *folders,
+                                                                   const char *const *names,
+                                                                   int32_t count, HtmlWriter *html,
+                                                                   bool *drawn, Error *err)
+{
+    Curves curves = {0};
+    const ResultView *views = curves.views;
+    *drawn = true;
+    for (int32_t k = 0; k < count; ++k) TRY(add_curve(&curves, folders[k], names[k], html, err));
+    for (int32_t k = 1; k < curves.count; ++k) *drawn = *drawn && views[k].si == views[0].si;
+    if (!*drawn || curves.count == 0) goto cleanup;
+    Axes axes = fit_curves(views, curves.count);
+    html_markup(html,
+                "<figure id='figure-force'><svg class='chart' viewBox='0 0 %d %d' role='img' "
+                "aria-label='Friction force over load against the displacement of the rod, a "
+                "curve for each run'>",
+                CURVES_WIDTH, CURVES_HEIGHT);
+    svg_axes(html, &axes, true);
+    for (int32_t k = 0; k < curves.count; ++k) {
+        char class[16];
+        snprintf(class, sizeof class, "curve%d", k + 1);
+        svg_curve(html, &axes, class, views[k].U, views[k].mu, views[k].rows);
+    }
+    html_markup(html, "</svg>");
+    write_legend(html, curves.names, curves.count);
+    html_markup(html,
+                "<figcaption><i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s "
+                "displacement <i>U</i></figcaption></figure>\n");
+cleanup:
+    for (int32_t k = 0; k < curves.count; ++k) result_view_close(&curves.views[k]);
+    return error_is_clean(err);
+}

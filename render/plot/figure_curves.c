@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One frame, perhaps with an inset, or a page of frames (plot_grid); the legend where the file or
+// legend_place puts it.
+#include "render/plot/figure_curves.h"
+
+#include "render/plot/legend.h"
+#include "render/plot/panel.h"
+#include "render/plot/plot_grid.h"
+
+#include <math.h>
+
+static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
+static const double BELOW_MARGIN = 6;   // points beside a legend below
+static const double BAR_GAP = 6;   // points: frame to colour bar
+static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
+
+// From parts of the frame to pixels.
+static Box inset_place(const Plot *plot, const Box *frame)
+{
+    double width = frame->right - frame->left, height = frame->bottom - frame->top;
+    return (Box){.left = frame->left + plot->place[0] * width,
+                 .top = frame->top + plot->place[1] * height,
+                 .right = frame->left + plot->place[2] * width,
+                 .bottom = frame->top + plot->place[3] * height};
+}
+
+// The inset's frame is what is left of its place when its numbers and names have their room.
+static Axes inset_axes(const Page *page, const Plot *plot, const Box *frame)
+{
+    Axes axes = {.box = inset_place(plot, frame),
+                 .x = plot->inset.x,
+                 .y = plot->inset.y,
+                 .number_size = SMALL_SIZE,
+                 .color = INK};
+    axes.box.left = round(axes.box.left + axes_left_margin(page, &axes) * page->point);
+    axes.box.bottom = round(axes.box.bottom - axes_bottom_margin(&axes) * page->point);
+    axes.box.right = round(axes.box.right);
+    axes.box.top = round(axes.box.top);
+    return axes;
+}
+
+// The inset covers what lies below it: its place is cleared to paper first.
+static bool inset_draw(const Page *page, const Plot *plot, const MapScale *scale, const Box *frame,
+                       Error *err)
+{
+    Axes axes = inset_axes(page, plot, frame);
+    Box place = inset_place(plot, frame);
+    PanelDef def = {.panel = &plot->inset, .scale = scale, .share = INSET_SHARE};
+    draw_fill(page->canvas, PAPER, &place);
+    Box legend = legend_settle(page, &plot->inset, INSET_SHARE, NULL, &axes);
+    TRY(panel_draw(page, &def, &axes, err));
+    legend_draw(page, &axes, &plot->inset, &legend, INSET_SHARE);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The frame above `bottom`, with room for what stands beside it.
+static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale, double bottom)
+{
+    double point = page->point, right = plot->main.x.is_log ? POWER_MARGIN : RIGHT_MARGIN;
+    Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE, .color = INK};
+    if (plot->main.has_map) right = BAR_GAP + colorbar_width(page, &scale->bar);
+    axes.box.top = page->head + round(axes_top_margin(&axes) * point);
+    axes.box.bottom = round(bottom - axes_bottom_margin(&axes) * point);
+    axes.box.left = round(axes_left_margin(page, &axes) * point);
+    axes.box.right = round(canvas_width(page->canvas) - right * point);
+    return axes;
+}
+
+// axes: from frame_axes, narrowed by a legend beside them.
+static bool one_frame(const Page *page, const Plot *plot, Axes *axes, bool legend_is_elsewhere,
+                      Error *err)
+{
+    MapScale scale = map_scale_fit(plot);
+    PanelDef def = {.panel = &plot->main, .scale = &scale, .share = 1};
+    Box place = inset_place(plot, &axes->box), legend = {0};
+    if (!legend_is_elsewhere)
+        legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, axes);
+    TRY(panel_draw(page, &def, axes, err));
+    legend_draw(page, axes, &plot->main, &legend, 1);
+    if (plot->main.has_map) map_bar_draw(page, &scale, &axes->box);
+    if (plot->has_inset) TRY(inset_draw(page, plot, &scale, &axes->box, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_curves(const Page *page, const Plot *plot, Error *err)
+{
+    double margin = BELOW_MARGIN * page->point, bottom = canvas_height(page->canvas);
+    MapScale scale = map_scale_fit(plot);
+    Axes axes = frame_axes(page, plot, &scale, bottom);
+    Box below = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
+    bool is_below = legend_is_below(page, plot, &axes);
+    if (is_below) {
+        below.top -= round(legend_below_height(page, &plot->main, &below));
+        axes = frame_axes(page, plot, &scale, below.top);
+    }
+    if (plot->panel_count > 0)
+        TRY(plot_grid_draw(page, plot, &below, err));
+    else
+        TRY(one_frame(page, plot, &axes, is_below, err));
+    if (is_below) legend_below_draw(page, &plot->main, &below);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_plot(Page *page, const Plot *plot, const PictureStyle *style, const char *title,
+                 Error *err)
+{
+    PictureStyle used = *style;
+    PageDef def = {.style = &used, .height = plot->height_over_width, .title = title};
+    double width = 0;
+    if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
+    if (!(used.width > 0)) used.width = width;
+    TRY(page_begin(page, &def, err));
+    TRY(figure_curves(page, plot, err));
+cleanup:
+    return error_is_clean(err);
+}

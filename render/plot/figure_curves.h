@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Draws a plot read by plot_file. Called by render_plot and
+// page_figures.
+#ifndef AMONTONS_RENDER_PLOT_FIGURE_CURVES_H
+#define AMONTONS_RENDER_PLOT_FIGURE_CURVES_H
+
+#include "render/plot/plot.h"
+
+// Begins the page, as high as the plot asks for, and draws. A style without a width gets one that
+// suits. title: NULL is fine.
+bool figure_plot(Page *page, const Plot *plot, const PictureStyle *style, const char *title,
+                 Error *err);
+
+bool figure_curves(const Page *page, const Plot *plot, Error *err);
+
+#endif

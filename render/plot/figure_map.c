@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A cell, or a triangle of three points, shows what was computed there; where a point has no value
+// or none lies near, the paper shows.
+#include "render/plot/figure_map.h"
+
+#include "base/memory.h"
+#include "render/plot/map_cells.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000 };
+
+static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
+static const double DOT_SHARE = 0.13;   // of the distance of points
+static const double DOT_MAX = 0.9, RING_MAX = 1.7;   // points: radii
+static const double DOT_RIM = 0.35, RING_INSIDE = 0.6;   // points; of the ring's radius
+static const double DISTANCE_MIN = 3;   // points: marks of points nearer than this are left out
+static const double MARKS_APART = 5;   // points: those that stand for others
+static const double BAR_GAP = 6;   // points: frame to colour bar
+static const double CROSS_ARM = 1.5, CROSS_WIDTH = 0.6;   // points
+static const double LABEL_CLEARANCE = 6, HIDING_WORTH = 0.4;   // points: number to mark
+static const double LEVEL_INSIDE = 1e-3;   // of the range: a level this near its end is no line
+static const double LABEL_DISTANCE = 9;   // points: least, of a level's number to others and frame
+
+static const Color HALO = {1, 1, 1, 0.75f};
+
+typedef struct MapDrawing {
+    const Page *page;
+    const Axes *axes;
+    const PlotMap *map;
+    const MapScale *scale;
+    MapGrid grid;   // owned, as the next two
+    Point *place;   // [map->count] on the picture, pixels; not finite: the axes cannot show it
+    MapTriangles triangles;
+} MapDrawing;
+
+MapScale map_scale_fit(const Plot *plot)
+{
+    MapScale scale = {.factor = plot->color.factor, .contours = plot->contours};
+    double range[2] = {plot->color.low * scale.factor, plot->color.high * scale.factor};
+    colorbar_fit(&scale.bar, range);
+    scale.bar.clipped = plot->found[0] * scale.factor < scale.bar.low;
+    scale.bar.clipped_above = plot->found[1] * scale.factor > scale.bar.high;
+    scale.bar.label = plot->color.label;
+    return scale;
+}
+
+static void set_colors(const Page *page)
+{
+    uint8_t colors[3 * MAP_SIZE];
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, PAPER);
+}
+
+void map_bar_draw(const Page *page, const MapScale *scale, const Box *frame)
+{
+    Box beside = *frame;
+    beside.left = round(frame->right + BAR_GAP * page->point);
+    set_colors(page);
+    colorbar_draw(page, &scale->bar, &beside);
+}
+
+// --- colours ------------------------------------------------------------------------------------
+
+static float color_value(const MapDrawing *drawing, int32_t point)
+{
+    const Colorbar *bar = &drawing->scale->bar;
+    double value = drawing->map->value[point] * drawing->scale->factor;
+    return (float)fmin(fmax((value - bar->low) / (bar->high - bar->low), 0), 1);
+}
+
+// The edges of the cells in pixels of the frame: [count] of them from `edges` on.
+static void edges_place(const Axis *axis, const double *edges, int32_t count, double length,
+                        float *placed)
+{
+    double low = axis->is_log ? log10(axis->low) : axis->low;
+    double high = axis->is_log ? log10(axis->high) : axis->high;
+    for (int32_t k = 0; k < count; k++)
+        placed[k] = (float)(length * (edges[k] - low) / (high - low));
+}
+
+// Two triangles a cell, all corners of its value. x, y: of the edges.
+static int64_t grid_corners(const MapDrawing *drawing, const float *x, const float *y,
+                            GlCorner *corners)
+{
+    static const uint8_t order[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    const MapGrid *grid = &drawing->grid;
+    int64_t count = 0;
+    for (int64_t k = 0; k < (int64_t)grid->rows * grid->columns; k++) {
+        int32_t point = grid->point[k], column = (int32_t)(k % grid->columns);
+        int32_t row = (int32_t)(k / grid->columns);
+        if (point < 0 || !isfinite(drawing->map->value[point])) continue;
+        float value = color_value(drawing, point);
+        for (int32_t i = 0; i < 6; i++)
+            corners[count++] = (GlCorner){x[column + order[i][0]], y[row + order[i][1]], value};
+    }
+    return count;
+}
+
+static bool grid_draw(const MapDrawing *drawing, Error *err)
+{
+    const MapGrid *grid = &drawing->grid;
+    const Box *box = &drawing->axes->box;
+    float *edges = NULL;
+    GlCorner *corners = NULL;
+    TRY(edges = NEW_ARRAY(float, (int64_t)grid->columns + grid->rows + 2, err));
+    TRY(corners = NEW_ARRAY(GlCorner, 6 * (int64_t)grid->rows * grid->columns, err));
+    float *y = edges + grid->columns + 1;
+    double height = box->bottom - box->top;
+    edges_place(&drawing->axes->x, grid->x, grid->columns + 1, box->right - box->left, edges);
+    edges_place(&drawing->axes->y, grid->y, grid->rows + 1, height, y);
+    for (int32_t k = 0; k <= grid->rows; k++) y[k] = (float)height - y[k];
+    int64_t count = grid_corners(drawing, edges, y, corners);
+    canvas_heat_triangles(drawing->page->canvas, box, corners, count);
+cleanup:
+    memory_free(edges);
+    memory_free(corners);
+    return error_is_clean(err);
+}
+
+// A triangle with a corner without value stays empty.
+static bool triangles_draw(const MapDrawing *drawing, Error *err)
+{
+    const MapTriangles *triangles = &drawing->triangles;
+    const Box *box = &drawing->axes->box;
+    int64_t count = 0;
+    GlCorner *corners = NEW_ARRAY(GlCorner, 3 * (int64_t)triangles->count, err);
+    if (!corners) return false;
+    for (int32_t k = 0; k < triangles->count; k++) {
+        const int32_t *point = triangles->points + 3 * k;
+        const double *value = drawing->map->value;
+        if (!isfinite(value[point[0]] + value[point[1]] + value[point[2]])) continue;
+        for (int32_t i = 0; i < 3; i++) {
+            Point at = drawing->place[point[i]];
+            corners[count++] = (GlCorner){(float)(at.x - box->left), (float)(at.y - box->top),
+                                          color_value(drawing, point[i])};
+        }
+    }
+    canvas_heat_triangles(drawing->page->canvas, box, corners, count);
+    memory_free(corners);
+    return true;
+}
+
+// --- lines --------------------------------------------------------------------------------------
+
+// Where the level crosses a triangle: 2 points, or none (false).
+static bool cross_triangle(const MapDrawing *drawing, const int32_t corner[3], double level,
+                           Point crossing[3])
+{
+    const double *value = drawing->map->contour;
+    int32_t found = 0;
+    for (int32_t k = 0; k < 3; k++) {
+        double a = value[corner[k]], b = value[corner[(k + 1) % 3]];
+        Point from = drawing->place[corner[k]], to = drawing->place[corner[(k + 1) % 3]];
+        if (!isfinite(a + b)) return false;
+        if ((a < level) == (b < level)) continue;
+        double part = (level - a) / (b - a);
+        crossing[found++] =
+            (Point){from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
+    }
+    return found == 2;
+}
+
+static double least_distance(Point at, const Point *others, int32_t count)
+{
+    double least = INFINITY;
+    for (int32_t k = 0; k < count; k++)
+        least = fmin(least, hypot(at.x - others[k].x, at.y - others[k].y));
+    return least;
+}
+
+// How well a number stands there: its distance to the frame and to other numbers; little where it
+// hides the mark of a point.
+static double label_worth(const MapDrawing *drawing, Point at, const Point *labels, int32_t count)
+{
+    const Box *frame = &drawing->axes->box;
+    double worth = fmin(fmin(at.x - frame->left, frame->right - at.x),
+                        fmin(at.y - frame->top, frame->bottom - at.y));
+    worth = fmin(worth, least_distance(at, labels, count));
+    bool hides = drawing->map->count <= MARKS_MINDED &&
+                 least_distance(at, drawing->place, drawing->map->count) <
+                     LABEL_CLEARANCE * drawing->page->point;
+    return hides ? HIDING_WORTH * worth : worth;
+}
+
+// The level's number where it is farthest from other numbers and the frame; none where all of the
+// line is near. pieces: [count] as draw_line takes them. labels: [*labelled] places of others.
+static void level_label(const MapDrawing *drawing, double level, const Point *pieces, int64_t count,
+                        Point *labels, int32_t *labelled)
+{
+    const Page *page = drawing->page;
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK, .across = 0.5, .up = 0.5};
+    double best = LABEL_DISTANCE * page->point;
+    Point place = {NAN, NAN};
+    char words[TICK_LABEL_SIZE];
+    for (int64_t k = 0; k + 1 < count; k += 3) {
+        Point at = {(pieces[k].x + pieces[k + 1].x) / 2, (pieces[k].y + pieces[k + 1].y) / 2};
+        double worth = label_worth(drawing, at, labels, *labelled);
+        if (worth > best) place = at;
+        best = fmax(best, worth);
+    }
+    if (!isfinite(place.x)) return;
+    double number = level * drawing->scale->contours.factor;
+    snprintf(words, sizeof words, "%s%.6g", number < 0 ? "\u2212" : "", fabs(number));
+    double half = text_width(page->text, style.size, words) / 2 + page->point;
+    Box box = {place.x - half, place.y - 0.6 * style.size, place.x + half,
+               place.y + 0.6 * style.size};
+    draw_fill(page->canvas, HALO, &box);
+    text_draw(page->text, &style, place, words);
+    labels[(*labelled)++] = place;
+}
+
+// Dark on a pale band, to be seen on every colour.
+static void level_draw(const MapDrawing *drawing, const Point *pieces, int64_t count)
+{
+    const Page *page = drawing->page;
+    Stroke halo = {.color = HALO, .width = HALO_WIDTH * page->point};
+    Stroke line = {.color = INK, .width = CONTOUR_WIDTH * page->point};
+    draw_line(page->canvas, &halo, pieces, count);
+    draw_line(page->canvas, &line, pieces, count);
+}
+
+static bool contours_draw(const MapDrawing *drawing, Error *err)
+{
+    const Axis *range = &drawing->scale->contours;
+    const MapTriangles *triangles = &drawing->triangles;
+    Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
+    Point labels[LEVELS_WANTED + 1];
+    int32_t labelled = 0;
+    Point *pieces = NEW_ARRAY(Point, 3 * (int64_t)triangles->count + 1, err);
+    if (!pieces) return false;
+    for (int32_t t = 0; t < ticks.count; t++) {
+        double level = tick_value(&ticks, t), slack = LEVEL_INSIDE * (range->high - range->low);
+        int64_t count = 0;
+        if (level < range->low + slack || level > range->high - slack) continue;
+        for (int32_t k = 0; k < triangles->count; k++) {
+            if (!cross_triangle(drawing, triangles->points + 3 * k, level, pieces + count))
+                continue;
+            pieces[count + 2] = (Point){NAN, NAN};
+            count += 3;
+        }
+        level_draw(drawing, pieces, count);
+        level_label(drawing, level, pieces, count, labels, &labelled);
+    }
+    memory_free(pieces);
+    return true;
+}
+
+// --- points -------------------------------------------------------------------------------------
+
+// Between points, pixels.
+static double point_distance(const MapDrawing *drawing)
+{
+    const Box *box = &drawing->axes->box;
+    double width = box->right - box->left, height = box->bottom - box->top;
+    if (drawing->grid.columns > 0)
+        return fmin(width / drawing->grid.columns, height / drawing->grid.rows);
+    return sqrt(width * height / fmax(drawing->map->count, 1));
+}
+
+static void cross_draw(const Page *page, Point at, double arm)
+{
+    Stroke stroke = {.color = INK, .width = CROSS_WIDTH * page->point};
+    draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y - arm},
+                 (Point){at.x + arm, at.y + arm});
+    draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y + arm},
+                 (Point){at.x + arm, at.y - arm});
+}
+
+// distance: to the next mark. Marks get smaller as they come nearer to each other; of very many
+// only the doubtful points and those without value have some.
+static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bool shows_all)
+{
+    const Page *page = drawing->page;
+    double point = page->point, dot = fmin(DOT_SHARE * distance, DOT_MAX * point);
+    double ring = fmin(2 * DOT_SHARE * distance, RING_MAX * point);
+    Point at = drawing->place[k];
+    if (!isfinite(at.x) || !isfinite(at.y)) return;
+    if (!isfinite(drawing->map->value[k])) {
+        cross_draw(page, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
+    } else if (drawing->map->open && drawing->map->open[k] > 0) {
+        draw_disc(page->canvas, INK, at, ring);
+        draw_disc(page->canvas, PAPER, at, RING_INSIDE * ring);
+    } else if (shows_all) {
+        draw_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
+        draw_disc(page->canvas, INK, at, dot);
+    }
+}
+
+// Where cells of a grid are smaller than marks that one can tell apart, those of some points stand
+// for the ones around them.
+static void points_draw(const MapDrawing *drawing)
+{
+    const MapGrid *grid = &drawing->grid;
+    double distance = point_distance(drawing), least = DISTANCE_MIN * drawing->page->point;
+    bool thinned = grid->columns > 0 && distance < least;
+    if (!thinned) {
+        for (int32_t k = 0; k < drawing->map->count; k++)
+            point_draw(drawing, k, distance, distance >= least);
+        return;
+    }
+    int32_t step = (int32_t)ceil(MARKS_APART * drawing->page->point / distance);
+    for (int32_t row = step / 2; row < grid->rows; row += step) {
+        for (int32_t column = step / 2; column < grid->columns; column += step) {
+            int32_t k = grid->point[row * grid->columns + column];
+            if (k >= 0) point_draw(drawing, k, least, false);
+        }
+    }
+}
+
+static bool find_shape(MapDrawing *drawing, Error *err)
+{
+    const PlotMap *map = drawing->map;
+    const Axes *axes = drawing->axes;
+    TRY(map_grid_find(map, axes->x.is_log, axes->y.is_log, &drawing->grid, err));
+    TRY(drawing->place = NEW_ARRAY(Point, map->count, err));
+    for (int32_t k = 0; k < map->count; k++)
+        drawing->place[k] = axes_place(axes, map->x[k], map->y[k]);
+    bool joined = drawing->grid.columns == 0 || map->contour;
+    if (joined)
+        TRY(map_triangles_find(&drawing->grid, drawing->place, map->count, &drawing->triangles,
+                               err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,
+                Error *err)
+{
+    MapDrawing drawing = {.page = page, .axes = axes, .map = &panel->map, .scale = scale};
+    TRY(find_shape(&drawing, err));
+    set_colors(page);
+    if (drawing.grid.columns > 0)
+        TRY(grid_draw(&drawing, err));
+    else
+        TRY(triangles_draw(&drawing, err));
+    canvas_clip(page->canvas, &axes->box);
+    if (panel->map.contour) TRY(contours_draw(&drawing, err));
+    points_draw(&drawing);
+cleanup:
+    canvas_clip(page->canvas, NULL);
+    map_grid_destroy(&drawing.grid);
+    memory_free(drawing.place);
+    map_triangles_destroy(&drawing.triangles);
+    return error_is_clean(err);
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The map of a plot's panel: values in colours, lines at equal values of something else, marks at
+// the points. Called by figure_curves, plot_grid and
+// panel.
+#ifndef AMONTONS_RENDER_PLOT_FIGURE_MAP_H
+#define AMONTONS_RENDER_PLOT_FIGURE_MAP_H
+
+#include "render/canvas/colorbar.h"
+#include "render/plot/plot.h"
+
+// The same for all panels.
+typedef struct MapScale {
+    Colorbar bar;
+    double factor;   // from values to numbers of the bar
+    Axis contours;
+} MapScale;
+
+MapScale map_scale_fit(const Plot *plot);
+// Right of `frame`; colorbar_width is what it takes there.
+void map_bar_draw(const Page *page, const MapScale *scale, const Box *frame);
+
+// axes: those of `panel`, their frame known.
+bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,
+                Error *err);
+
+#endif

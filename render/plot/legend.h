@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The legend of a plot: series that have a label, in their order, a sample and words each. In a
+// box inside or right of the frame, or in lines below it. Called by figure_curves and plot_page.
+#ifndef AMONTONS_RENDER_PLOT_LEGEND_H
+#define AMONTONS_RENDER_PLOT_LEGEND_H
+
+#include "render/plot/plot.h"
+
+// Finds the legend's place: the file's, or where it hides nothing; an outer one narrows the frame.
+// share: of the usual size of marks. taken: part of the frame that something else covers, NULL:
+// none. A box without height: no legend here.
+Box legend_settle(const Page *page, const PlotPanel *panel, double share, const Box *taken,
+                  Axes *axes);
+void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, const Box *box,
+                 double share);
+
+// Whether the legend stands in lines below all: the file says so, the plot has maps or panels, or
+// beside or in `frame` it would take too much room.
+bool legend_is_below(const Page *page, const Plot *plot, const Axes *frame);
+// Pixels that these lines take over the room's width.
+double legend_below_height(const Page *page, const PlotPanel *panel, const Box *room);
+void legend_below_draw(const Page *page, const PlotPanel *panel, const Box *room);
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Marks and lines of a plot's series. Called by figure_curves, figure_map and legend.
+#ifndef AMONTONS_RENDER_PLOT_MARKS_H
+#define AMONTONS_RENDER_PLOT_MARKS_H
+
+#include "render/plot/plot.h"
+
+static const double MARKER_RADIUS = 1.9;   // points
+
+// share: of the usual size and width, less in an inset.
+void mark_draw(const Page *page, const PlotSeries *series, Point at, double share);
+Color mark_color(const PlotSeries *series);
+Stroke mark_stroke(const Page *page, const PlotSeries *series, double share);
+
+#endif

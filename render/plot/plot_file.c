@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The file is read key by key; what is given twice, unknown or of the wrong kind is refused with
+// its place. Ends of the axes that the file leaves open are found last, from all series.
+#include "render/plot/plot_file.h"
+
+#include "base/memory.h"
+#include "render/plot/plot_fit.h"
+#include "render/plot/plot_reader.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { UNIT_SIZE = 16 };
+
+static const double HEIGHT_STANDARD = 0.75;
+
+static const char *const MARKERS[] = {"none", "circle", "square", "triangle",
+                                      "down", "cross",  NULL};
+static const char *const LINES[] = {"none", "solid", "thin", "dashed", NULL};
+static const char *const CORNERS[] = {"auto",       "none",       "upper-right",
+                                      "upper-left", "lower-left", "lower-right",
+                                      "outside",    "below",      NULL};
+static const char *const SCALES[] = {"linear", "log", NULL};
+
+// Its length is that of `x`; `y`, `low` and `high` must have the same.
+static bool read_series(const PlotReader *reader, YamlNode map, PlotSeries *series)
+{
+    int32_t marker = MARKER_NONE, line = LINE_SOLID;
+    double color = 0;
+    if (!plot_check_keys(reader, map, "series", "label x y low high color marker filled line "))
+        return false;
+    YamlNode x = plot_child(reader, map, "x"), node = plot_child(reader, map, "color");
+    if (x == YAML_NO_NODE || plot_child(reader, map, "y") == YAML_NO_NODE) {
+        yaml_error(reader->file, map, reader->err, "a series needs its `x` and its `y`");
+        return false;
+    }
+    series->count = -1;
+    if (!plot_read_text(reader, map, "label", series->label, sizeof series->label) ||
+        !plot_read_array(reader, map, "x", &series->count, &series->x) ||
+        !plot_read_array(reader, map, "y", &series->count, &series->y) ||
+        !plot_read_array(reader, map, "low", &series->count, &series->low) ||
+        !plot_read_array(reader, map, "high", &series->count, &series->high) ||
+        !plot_read_choice(reader, map, "marker", MARKERS, &marker) ||
+        !plot_read_choice(reader, map, "line", LINES, &line))
+        return false;
+    if (node != YAML_NO_NODE && !plot_read_number(reader, node, "color", &color)) return false;
+    if (!(color >= 0 && color < PLOT_COLORS && color == floor(color)))
+        return plot_refuse(reader, node, "color", "a whole number from 0 to 7");
+    node = plot_child(reader, map, "filled");
+    series->filled = node == YAML_NO_NODE || strcmp(yaml_text(reader->file, node), "false") != 0;
+    series->color = (int32_t)color;
+    series->marker = (PlotMarker)marker;
+    series->line = (PlotLine)line;
+    return true;
+}
+
+// What stands at y = 1, 2, ...
+static bool read_names(const PlotReader *reader, YamlNode list, PlotPanel *panel)
+{
+    int32_t count = yaml_count(reader->file, list), k = 0;
+    if (yaml_kind(reader->file, list) != YAML_LIST || count == 0 || count > PLOT_NAMES_MAX)
+        return plot_refuse(reader, list, "names", "a list of at most 100 texts");
+    panel->names = memory_array(count, sizeof *panel->names, reader->err);
+    if (!panel->names) return false;
+    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
+         item = yaml_next(reader->file, item))
+        snprintf(panel->names[k++], AXIS_LABEL_SIZE, "%s", yaml_text(reader->file, item));
+    panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
+    panel->y.name_count = count;
+    return true;
+}
+
+// known: as in check_keys.
+static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name, const char *known,
+                      Axis *axis)
+{
+    int32_t scale = 0;
+    YamlNode map = plot_child(reader, panel, name);
+    *axis = (Axis){.low = NAN, .high = NAN, .factor = 1};
+    if (map == YAML_NO_NODE) return true;
+    if (!plot_check_keys(reader, map, name, known) ||
+        !plot_read_text(reader, map, "label", axis->label, sizeof axis->label) ||
+        !plot_read_choice(reader, map, "scale", SCALES, &scale))
+        return false;
+    axis->is_log = scale == 1;
+    YamlNode range = plot_child(reader, map, "range");
+    if (range == YAML_NO_NODE) return true;
+    double ends[2];
+    if (!plot_read_numbers(reader, range, "range", 2, ends)) return false;
+    axis->low = ends[0];
+    axis->high = ends[1];
+    bool good = axis->high > axis->low && (!axis->is_log || axis->low > 0);
+    return good || plot_refuse(reader, range, "range",
+                               "[low, high], rising, and above 0 on a logarithmic axis");
+}
+
+// --- the whole ----------------------------------------------------------------------------------
+
+// An axis with a unit of its own has its prefix; its ends are known.
+static bool read_unit(const PlotReader *reader, YamlNode panel, const char *name, Axis *axis)
+{
+    char unit[UNIT_SIZE] = "", label[AXIS_LABEL_SIZE];
+    YamlNode map = plot_child(reader, panel, name);
+    if (map == YAML_NO_NODE) return true;
+    if (!plot_read_text(reader, map, "unit", unit, sizeof unit)) return false;
+    snprintf(label, sizeof label, "%s", axis->label);
+    if (unit[0]) axis_set_unit(axis, label, unit);
+    return true;
+}
+
+static bool read_map(const PlotReader *reader, YamlNode node, PlotPanel *panel)
+{
+    PlotMap *map = &panel->map;
+    if (!plot_check_keys(reader, node, "map", "x y value contour open ")) return false;
+    panel->has_map = true;
+    map->count = -1;
+    if (!plot_read_array(reader, node, "x", &map->count, &map->x) ||
+        !plot_read_array(reader, node, "y", &map->count, &map->y) ||
+        !plot_read_array(reader, node, "value", &map->count, &map->value) ||
+        !plot_read_array(reader, node, "contour", &map->count, &map->contour) ||
+        !plot_read_array(reader, node, "open", &map->count, &map->open))
+        return false;
+    if (map->x && map->y && map->value) return true;
+    yaml_error(reader->file, node, reader->err, "a map needs its `x`, `y` and `value`");
+    return false;
+}
+
+// What a panel shows; each part may be missing.
+static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
+{
+    YamlNode list = plot_child(reader, map, "series"), colors = plot_child(reader, map, "map");
+    if (colors != YAML_NO_NODE && !read_map(reader, colors, panel)) return false;
+    if (list == YAML_NO_NODE) return true;
+    if (yaml_kind(reader->file, list) != YAML_LIST ||
+        yaml_count(reader->file, list) > PLOT_SERIES_MAX)
+        return plot_refuse(reader, list, "series", "a list of at most 32 maps");
+    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
+         item = yaml_next(reader->file, item))
+        if (!read_series(reader, item, &panel->series[panel->series_count++])) return false;
+    return true;
+}
+
+// The plot itself, or its inset: both have axes, a legend and what they show.
+static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
+{
+    int32_t corner = CORNER_AUTO;
+    if (!read_axis(reader, map, "x", "label unit scale range ", &panel->x) ||
+        !read_axis(reader, map, "y", "label unit scale range names ", &panel->y) ||
+        !plot_read_choice(reader, map, "legend", CORNERS, &corner))
+        return false;
+    YamlNode y = plot_child(reader, map, "y");
+    YamlNode names = y == YAML_NO_NODE ? y : plot_child(reader, y, "names");
+    if (names != YAML_NO_NODE && !read_names(reader, names, panel)) return false;
+    panel->legend = (PlotCorner)corner;
+    bool shows = plot_child(reader, map, "series") != YAML_NO_NODE ||
+                 plot_child(reader, map, "map") != YAML_NO_NODE ||
+                 plot_child(reader, map, "panels") != YAML_NO_NODE;
+    if (!shows) {
+        yaml_error(reader->file, map, reader->err, "a plot needs `series`, `map` or `panels`");
+        return false;
+    }
+    return read_data(reader, map, panel);
+}
+
+static bool read_panels(const PlotReader *reader, YamlNode list, Plot *plot)
+{
+    int32_t count = yaml_count(reader->file, list);
+    if (yaml_kind(reader->file, list) != YAML_LIST || count == 0 || count > PLOT_PANELS_MAX)
+        return plot_refuse(reader, list, "panels", "a list of at most 24 maps");
+    plot->panels = NEW_ARRAY(PlotPanel, count, reader->err);
+    if (!plot->panels) return false;
+    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
+         item = yaml_next(reader->file, item)) {
+        PlotPanel *panel = &plot->panels[plot->panel_count++];
+        if (!plot_check_keys(reader, item, "panels", "title series map ") ||
+            !plot_read_text(reader, item, "title", panel->title, sizeof panel->title) ||
+            !read_data(reader, item, panel))
+            return false;
+    }
+    return true;
+}
+
+// Keys are checked here, as an inset has a `place` more than a plot.
+static bool read_inset(const PlotReader *reader, YamlNode map, Plot *plot)
+{
+    YamlNode place = plot_child(reader, map, "place");
+    if (!plot_check_keys(reader, map, "inset", "place x y legend series map ")) return false;
+    if (place == YAML_NO_NODE) {
+        yaml_error(reader->file, map, reader->err, "an inset needs its `place`");
+        return false;
+    }
+    plot->has_inset = true;
+    if (!plot_read_numbers(reader, place, "place", 4, plot->place)) return false;
+    bool good = plot->place[0] >= 0 && plot->place[1] >= 0 && plot->place[2] <= 1 &&
+                plot->place[3] <= 1 && plot->place[2] > plot->place[0] &&
+                plot->place[3] > plot->place[1];
+    if (!good)
+        return plot_refuse(reader, place, "place",
+                           "[left, top, right, bottom], parts of the frame");
+    return read_panel(reader, map, &plot->inset);
+}
+
+static bool read_height(const PlotReader *reader, Plot *plot)
+{
+    YamlNode height = plot_child(reader, YAML_ROOT, "height");
+    plot->height_over_width = HEIGHT_STANDARD;
+    if (height == YAML_NO_NODE) return true;
+    if (!plot_read_number(reader, height, "height", &plot->height_over_width)) return false;
+    bool good = plot->height_over_width >= 0.3 && plot->height_over_width <= 3;
+    return good || plot_refuse(reader, height, "height", "a number from 0.3 to 3");
+}
+
+// The scale of maps: of values and of lines.
+static bool read_scales(const PlotReader *reader, Plot *plot)
+{
+    return read_axis(reader, YAML_ROOT, "color", "label unit range ", &plot->color) &&
+           read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours);
+}
+
+static bool read_plot(const PlotReader *reader, Plot *plot)
+{
+    static const char known[] = "title height x y color contours legend series map panels inset ";
+    if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
+        !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
+        !read_height(reader, plot) || !read_scales(reader, plot))
+        return false;
+    YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
+    YamlNode panels = plot_child(reader, YAML_ROOT, "panels");
+    return read_panel(reader, YAML_ROOT, &plot->main) &&
+           (panels == YAML_NO_NODE || read_panels(reader, panels, plot)) &&
+           (inset == YAML_NO_NODE || read_inset(reader, inset, plot));
+}
+
+// Units have the prefix that suits the ends, which are known now.
+static bool read_units(const PlotReader *reader, Plot *plot)
+{
+    YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
+    return read_unit(reader, YAML_ROOT, "x", &plot->main.x) &&
+           read_unit(reader, YAML_ROOT, "y", &plot->main.y) &&
+           read_unit(reader, YAML_ROOT, "color", &plot->color) &&
+           read_unit(reader, YAML_ROOT, "contours", &plot->contours) &&
+           (inset == YAML_NO_NODE || (read_unit(reader, inset, "x", &plot->inset.x) &&
+                                      read_unit(reader, inset, "y", &plot->inset.y)));
+}
+
+// plot is half filled after a failure: plot_destroy frees it.
+bool plot_file_read(const char *path, Plot *plot, Error *err)
+{
+    PlotReader reader = {.path = path, .err = err};
+    *plot = (Plot){0};
+    TRY(yaml_read(path, &reader.file, err));
+    TRY(read_plot(&reader, plot));
+    TRY(plot_fit_axes(plot, err));
+    TRY(read_units(&reader, plot));
+cleanup:
+    yaml_destroy(reader.file);
+    return error_is_clean(err);
+}

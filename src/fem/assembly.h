@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The semi-discrete bulk M u'' + C u' + K u = f: sparse K and C on one pattern, lumped M, loads.
+// Unknowns: node_dof(dim, node, d) is the displacement along axis d.
+#ifndef AMONTONS_FEM_ASSEMBLY_H
+#define AMONTONS_FEM_ASSEMBLY_H
+
+#include "base/sparse.h"
+#include "fem/material.h"
+#include "fem/mesh.h"
+
+typedef struct Bulk {
+    int32_t dim;   // unknowns of a node
+    int32_t dof_count;   // dim * nodes
+    SparsePattern pattern;   // of K and C; owned
+    double *stiffness;   // [pattern.start[dof_count]]; owned
+    double *damping;   // same; owned
+    double *mass;   // [dof_count] lumped, both directions alike; owned
+    double *load;   // [dof_count] f, force/width; starts at 0; owned
+    uint8_t *held;   // [dof_count] 1: stays at 0 (bulk_hold); owned
+    double area;
+} Bulk;
+
+// materials: one, or as many as the mesh has regions, by their numbers.
+bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
+// On the pattern of `like`, a bulk of the same elements.
+bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *materials, Bulk *bulk,
+                        Error *err);
+void bulk_destroy(Bulk *bulk);
+
+// load += int_curve N_a traction ds, traction: [dim]. A pressure P on top is (0, -P).
+void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double *traction,
+                       Bulk *bulk);
+
+// Holds an unknown at 0: its couplings in K and C and its load become 0, its mass and diagonal
+// entries stay.
+void bulk_hold(int32_t dof, Bulk *bulk);
+
+// The weights of a curve's nodes over the plane: int_curve N_a dx, added to weight[node];
+// [mesh->node_count].
+void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight);
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Isoparametric elements, full integration (Hughes, The Finite Element Method, ch. 3).
+#include "fem/element.h"
+
+#include <string.h>
+
+//     (eps_xx, eps_zz, 2 eps_xz) = B u_e,     [ N_a,x    0   ]
+//                                       B_a = [   0    N_a,z ]
+//                                             [ N_a,z  N_a,x ]
+//
+// a row for each axis, then one for each pair of axes. Returns det J, J = d(x, z)/d(xi, eta).
+double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,
+                             double b[STRAINS_MAX][ELEMENT_DOFS_MAX])
+{
+    ShapeValues shape = shape_at(kind, point);
+    MeshPlace gradient[ELEMENT_NODES_MAX];
+    double determinant = shape_gradients(kind, &shape, position, gradient);
+    int32_t dim = element_dim(kind), nodes = element_node_count(kind), row = dim;
+    memset(b, 0, STRAINS_MAX * sizeof *b);
+    for (int32_t a = 0; a < nodes; a++)
+        for (int32_t d = 0; d < dim; d++) b[d][dim * a + d] = gradient[a][d];
+    for (int32_t d = 0; d < dim; d++)
+        for (int32_t f = d + 1; f < dim; f++, row++)
+            for (int32_t a = 0; a < nodes; a++) {
+                b[row][dim * a + d] = gradient[a][f];
+                b[row][dim * a + f] = gradient[a][d];
+            }
+    return determinant;
+}
+
+// out += weight * B' D B; rows beyond the element's strains are zero.
+static void add_quadratic_form(int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
+                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
+{
+    for (int32_t j = 0; j < dofs; j++) {
+        double stress[STRAINS_MAX];
+        for (int32_t r = 0; r < STRAINS_MAX; r++) {
+            double sum = 0;
+            for (int32_t c = 0; c < STRAINS_MAX; c++) sum += d[r][c] * b[c][j];
+            stress[r] = weight * sum;
+        }
+        for (int32_t i = 0; i < dofs; i++) {
+            double sum = 0;
+            for (int32_t r = 0; r < STRAINS_MAX; r++) sum += b[r][i] * stress[r];
+            out[i][j] += sum;
+        }
+    }
+}
+
+// Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of
+// Hinton, Rock and Zienkiewicz (Earthq. Eng. Struct. Dyn. 4, 1976) keeps all positive.
+static void lump_mass(ElementKind kind, const MeshPlace *position, double density,
+                      ElementMatrices *out)
+{
+    Quadrature quadrature = shape_mass_quadrature(kind);
+    int32_t nodes = element_node_count(kind);
+    double square_sum = 0;
+    for (int32_t q = 0; q < quadrature.count; q++) {
+        const double *point = quadrature.point[q];
+        ShapeValues shape = shape_at(kind, point);
+        double weight = quadrature.weight[q] * shape_jacobian(kind, &shape, position);
+        for (int32_t a = 0; a < nodes; a++) {
+            double square = weight * shape.value[a] * shape.value[a];
+            out->mass[a] += square;
+            square_sum += square;
+        }
+    }
+    for (int32_t a = 0; a < nodes; a++) out->mass[a] *= density * out->area / square_sum;
+}
+
+// By the element's own quadrature, per unit width.
+static void integrate(ElementKind kind, const MeshPlace *position,
+                      const double elastic[STRAINS_MAX][STRAINS_MAX],
+                      const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
+{
+    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
+    int32_t dim = element_dim(kind);
+    memset(out, 0, sizeof *out);
+    out->dof_count = dim * element_node_count(kind);
+    Quadrature quadrature = shape_quadrature(kind);
+    for (int32_t q = 0; q < quadrature.count; q++) {
+        const double *point = quadrature.point[q];
+        double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
+        add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
+        add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
+        for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % dim][j];
+        out->area += weight;
+    }
+}
+
+void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
+                      ElementMatrices *out)
+{
+    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    integrate(kind, position, elastic, viscous, out);
+    lump_mass(kind, position, material->density, out);
+}
+
+// Of an isotropic material the areal part is that which xx and zz share.
+static void take_areal_part(double d[3][3])
+{
+    d[0][0] = d[1][1] = d[2][2];
+    d[0][1] = d[1][0] = -d[2][2];
+}
+
+void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
+                            ElementMatrices *out)
+{
+    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    take_areal_part(elastic);
+    take_areal_part(viscous);
+    integrate(kind, position, elastic, viscous, out);
+    lump_mass(kind, position, material->density, out);
+}

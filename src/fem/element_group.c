@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/element_group.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// --- which elements -----------------------------------------------------------------------------
+
+// One side of an edge between corners.
+typedef struct Side {
+    int32_t low, high;   // nodes
+    double length;   // squared, length^2
+    int32_t element, other;   // other: beyond the edge, -1: none in the same region
+} Side;
+
+static int by_edge(const void *left, const void *right)
+{
+    const Side *a = left, *b = right;
+    if (a->low != b->low) return a->low < b->low ? -1 : 1;
+    if (a->high != b->high) return a->high < b->high ? -1 : 1;
+    return (a->element > b->element) - (a->element < b->element);
+}
+
+static int by_length(const void *left, const void *right)
+{
+    const Side *a = left, *b = right;
+    if (a->length != b->length) return a->length > b->length ? -1 : 1;
+    return by_edge(left, right);
+}
+
+static int32_t corners_of(const Mesh *mesh, int32_t e)
+{
+    int32_t corners = element_corner_count(mesh->kind[e]);
+    return element_node_count(mesh->kind[e]) == corners ? corners : 0;
+}
+
+// Both sides of the edges between two elements of one region that may be grouped; their number.
+// sides: [4 * elements].
+static int32_t list_sides(const Mesh *mesh, const uint8_t *is_mean, Side *sides)
+{
+    int32_t count = 0, kept = 0;
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        int32_t corners = is_mean[mesh_region(mesh, e)] ? corners_of(mesh, e) : 0;
+        const int32_t *node = mesh->element_nodes + mesh->first_node[e];
+        for (int32_t a = 0; a < corners; a++) {
+            int32_t one = node[a], two = node[(a + 1) % corners];
+            double square = 0;
+            for (int32_t d = 0; d < mesh->dim; d++) {
+                double way = mesh_place(mesh, two)[d] - mesh_place(mesh, one)[d];
+                square += way * way;
+            }
+            sides[count++] = (Side){one < two ? one : two, one < two ? two : one, square, e, -1};
+        }
+    }
+    qsort(sides, (size_t)count, sizeof *sides, by_edge);
+    for (int32_t k = 0; k + 1 < count; k++) {
+        Side *one = &sides[k], *two = &sides[k + 1];
+        if (one->low != two->low || one->high != two->high ||
+            mesh_region(mesh, one->element) != mesh_region(mesh, two->element))
+            continue;
+        one->other = two->element;
+        two->other = one->element;
+    }
+    for (int32_t k = 0; k < count; k++)
+        if (sides[k].other >= 0) sides[kept++] = sides[k];
+    qsort(sides, (size_t)kept, sizeof *sides, by_length);
+    return kept;
+}
+
+static bool is_alone(const Mesh *mesh, int32_t e)
+{
+    return mesh->kind[e] == ELEMENT_T3 && mesh->mean_next[e] == e;
+}
+
+static int32_t ring_size(const Mesh *mesh, int32_t e)
+{
+    int32_t size = 1;
+    for (int32_t k = mesh->mean_next[e]; k != e; k = mesh->mean_next[k]) size++;
+    return size;
+}
+
+// Two rings become one.
+static void join(Mesh *mesh, int32_t one, int32_t other)
+{
+    int32_t next = mesh->mean_next[one];
+    mesh->mean_next[one] = mesh->mean_next[other];
+    mesh->mean_next[other] = next;
+}
+
+// No two that were left over are neighbours, or they would be a pair: so a group grows by its own
+// edges only.
+static bool take_in_the_rest(const Side *sides, int32_t count, Mesh *mesh, Error *err)
+{
+    int32_t *best = NEW_ARRAY(int32_t, mesh->element_count, err);
+    if (!best) return false;
+    for (int32_t e = 0; e < mesh->element_count; e++) best[e] = is_alone(mesh, e) ? e : -1;
+    for (int32_t k = 0; k < count; k++) {
+        int32_t e = sides[k].element, other = sides[k].other;
+        if (best[e] < 0) continue;
+        if (best[e] == e || ring_size(mesh, other) < ring_size(mesh, best[e])) best[e] = other;
+    }
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        if (best[e] >= 0 && best[e] != e) join(mesh, e, best[e]);
+    memory_free(best);
+    return true;
+}
+
+bool element_groups_find(const uint8_t *is_mean, Mesh *mesh, Error *err)
+{
+    int32_t elements = mesh->element_count, marked = 0, count;
+    Side *sides = NULL;
+    for (int32_t e = 0; e < elements; e++)
+        marked += is_mean[mesh_region(mesh, e)] && corners_of(mesh, e) > 0;
+    if (marked == 0) return true;
+    mesh->mean_next = NEW_ARRAY(int32_t, elements, err);
+    sides = memory_array(4 * (int64_t)elements, sizeof *sides, err);
+    if (!mesh->mean_next || !sides) goto cleanup;
+    for (int32_t e = 0; e < elements; e++)
+        mesh->mean_next[e] = is_mean[mesh_region(mesh, e)] && corners_of(mesh, e) > 0 ? e : -1;
+    count = list_sides(mesh, is_mean, sides);
+    for (int32_t k = 0; k < count; k++)
+        if (is_alone(mesh, sides[k].element) && is_alone(mesh, sides[k].other))
+            join(mesh, sides[k].element, sides[k].other);
+    TRY(take_in_the_rest(sides, count, mesh, err));
+cleanup:
+    memory_free(sides);
+    return error_is_clean(err);
+}
+
+// --- what they are ------------------------------------------------------------------------------
+
+// Where `node` stands among the group's nodes, at the end where it is new.
+static int32_t place_of(ElementGroup *group, int32_t node)
+{
+    for (int32_t a = 0; a < group->node_count; a++)
+        if (group->node[a] == node) return a;
+    group->node[group->node_count] = node;
+    return group->node_count++;
+}
+
+bool element_group_at(const Mesh *mesh, int32_t e, ElementGroup *group)
+{
+    int32_t next = mesh->mean_next ? mesh->mean_next[e] : -1;
+    group->count = 1;
+    group->element[0] = e;
+    group->is_mean = next >= 0;
+    group->node_count = 0;
+    for (int32_t k = next; k >= 0 && k != e; k = mesh->mean_next[k]) {
+        if (k < e) return false;
+        group->element[group->count++] = k;
+    }
+    for (int32_t m = 0; m < group->count; m++) {
+        int32_t first = mesh->first_node[group->element[m]];
+        int32_t end = mesh->first_node[group->element[m] + 1];
+        for (int32_t a = first; a < end; a++) {
+            if (group->count > 1)
+                place_of(group, mesh->element_nodes[a]);
+            else
+                group->node[group->node_count++] = mesh->element_nodes[a];
+        }
+    }
+    return true;
+}
+
+void element_group_of(const Mesh *mesh, int32_t e, ElementGroup *group)
+{
+    int32_t first = e;
+    if (mesh->mean_next && mesh->mean_next[e] >= 0)
+        for (int32_t k = mesh->mean_next[e]; k != e; k = mesh->mean_next[k])
+            if (k < first) first = k;
+    element_group_at(mesh, first, group);
+}
+
+// Of one element, from its first node, so that equal shapes have equal matrices.
+static void find_offsets(const Mesh *mesh, int32_t e, MeshPlace offset[ELEMENT_NODES_MAX])
+{
+    int32_t first = mesh->first_node[e];
+    mesh_offsets(mesh, mesh->element_nodes + first, mesh->first_node[e + 1] - first, offset);
+}
+
+// place: [nodes of the element] among those of the group.
+static void add_member(int32_t dim, const ElementMatrices *member, const int32_t *place,
+                       ElementMatrices *out)
+{
+    for (int32_t i = 0; i < member->dof_count; i++) {
+        int32_t row = node_dof(dim, place[dof_node(dim, i)], dof_axis(dim, i));
+        out->areal[row] += member->areal[i];
+        for (int32_t j = 0; j < member->dof_count; j++) {
+            int32_t column = node_dof(dim, place[dof_node(dim, j)], dof_axis(dim, j));
+            out->stiffness[row][column] += member->stiffness[i][j];
+            out->damping[row][column] += member->damping[i][j];
+        }
+    }
+    for (int32_t a = 0; dim * a < member->dof_count; a++) out->mass[place[a]] += member->mass[a];
+    out->area += member->area;
+}
+
+// k of the header.
+static double areal_modulus(const double d[3][3])
+{
+    return 0.5 * (d[0][0] + d[0][1]);
+}
+
+static void add_areal(const Material *material, ElementMatrices *out)
+{
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    for (int32_t i = 0; i < out->dof_count; i++) {
+        for (int32_t j = 0; j < out->dof_count; j++) {
+            double square = out->areal[i] * out->areal[j] / out->area;
+            out->stiffness[i][j] += areal_modulus(elastic) * square;
+            out->damping[i][j] += areal_modulus(viscous) * square;
+        }
+    }
+}
+
+void element_group_matrices(const Mesh *mesh, const Material *materials, const ElementGroup *group,
+                            ElementMatrices *out)
+{
+    const Material *material = &materials[mesh_region(mesh, group->element[0])];
+    MeshPlace offset[ELEMENT_NODES_MAX];
+    if (!group->is_mean) {
+        find_offsets(mesh, group->element[0], offset);
+        element_matrices((ElementKind)mesh->kind[group->element[0]], (const MeshPlace *)offset,
+                         material, out);
+        return;
+    }
+    ElementGroup known = *group;
+    memset(out, 0, sizeof *out);
+    out->dof_count = mesh->dim * group->node_count;
+    for (int32_t m = 0; m < group->count; m++) {
+        int32_t e = group->element[m], place[ELEMENT_NODES_MAX], first = mesh->first_node[e];
+        ElementMatrices member;
+        find_offsets(mesh, e, offset);
+        element_shape_matrices((ElementKind)mesh->kind[e], (const MeshPlace *)offset, material,
+                               &member);
+        for (int32_t a = 0; mesh->dim * a < member.dof_count; a++)
+            place[a] = place_of(&known, mesh->element_nodes[first + a]);
+        add_member(mesh->dim, &member, place, out);
+    }
+    add_areal(material, out);
+}
+
+void element_group_areal(const Mesh *mesh, const ElementGroup *group, double *g)
+{
+    const Material unit = {.young = 1, .density = 1};
+    ElementMatrices matrices;
+    Mesh one = *mesh;   // borrows all but the regions
+    one.region = NULL;
+    element_group_matrices(&one, &unit, group, &matrices);
+    for (int32_t i = 0; i < matrices.dof_count; i++) g[i] = matrices.areal[i] / matrices.area;
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Kelvin-Voigt: sigma = D eps + D_eta eps', both isotropic. Vectors are (xx, zz, 2 xz) for strains
+// and (xx, zz, xz) for stresses, so that
+//
+//         [ d + t    t     0  ]
+//     D = [   t    d + t   0  ]    d: deviator, E/(1+nu) or eta1;  t: trace, lambda or eta2
+//         [   0      0    d/2 ]
+#include "fem/material.h"
+
+#include <math.h>
+#include <string.h>
+
+// E nu / ((1+nu)(1-2nu)); with sigma_yy = 0, in plane stress, E nu / (1 - nu^2).
+static double lame_lambda(const Material *material)
+{
+    double nu = material->poisson, young = material->young;
+    if (material->plane_strain) return young * nu / ((1 + nu) * (1 - 2 * nu));
+    return young * nu / (1 - nu * nu);
+}
+
+// sigma = deviator * eps + trace * tr(eps) I; the third strain is the engineering shear 2 eps_xz.
+static void fill_isotropic(double deviator, double trace, double d[3][3])
+{
+    memset(d, 0, 9 * sizeof(double));
+    d[0][0] = d[1][1] = deviator + trace;
+    d[0][1] = d[1][0] = trace;
+    d[2][2] = 0.5 * deviator;
+}
+
+void material_elastic(const Material *material, double d[3][3])
+{
+    fill_isotropic(material->young / (1 + material->poisson), lame_lambda(material), d);
+}
+
+void material_viscous(const Material *material, double d[3][3])
+{
+    fill_isotropic(material->eta1, material->eta2, d);
+}
+
+// In plane strain the stress that keeps the faces in place.
+double material_out_of_plane(const Material *material, const double strain[3],
+                             const double strain_rate[3])
+{
+    if (!material->plane_strain) return 0.0;
+    return lame_lambda(material) * (strain[0] + strain[1]) +
+           material->eta2 * (strain_rate[0] + strain_rate[1]);
+}
+
+// (2 - s)^2 - 4 sqrt(1 - s) sqrt(1 - s k), s = (c_R / c_S)^2, k = (c_S / c_L)^2: negative below the
+// root, positive at s = 1.
+static double rayleigh_function(double s, double k)
+{
+    return (2 - s) * (2 - s) - 4 * sqrt(1 - s) * sqrt(1 - s * k);
+}
+
+// c_L = sqrt(D_xx / rho), c_S = sqrt(G / rho), of the plane problem at hand: in plane stress c_L is
+// that of a plate. c_R by bisection of the Rayleigh function to the last bit.
+WaveSpeeds material_speeds(const Material *material)
+{
+    WaveSpeeds speeds;
+    double d[3][3];
+    material_elastic(material, d);
+    speeds.longitudinal = sqrt(d[0][0] / material->density);
+    speeds.shear = sqrt(d[2][2] / material->density);
+    double k = d[2][2] / d[0][0], low = 0.05, high = 1.0;
+    for (int bisection = 0; bisection < 60; bisection++) {
+        double middle = 0.5 * (low + high);
+        if (rayleigh_function(middle, k) < 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    speeds.rayleigh = speeds.shear * sqrt(0.5 * (low + high));
+    return speeds;
+}
+
+double material_gradient(const Material *material, double pressure, double shear)
+{
+    double d[3][3];
+    material_elastic(material, d);
+    double uniaxial = d[0][0] - d[0][1] * d[0][1] / d[0][0];
+    return hypot(shear / d[2][2], pressure / uniaxial);
+}
+
+double material_slip_speed(const Material *material)
+{
+    WaveSpeeds speeds = material_speeds(material);
+    return fmin(speeds.longitudinal, 2 * speeds.shear);
+}
+
+// Trace over deviator, lambda (1 + nu)/E or eta2/eta1.
+static const double AREA_RESISTS = 4;
+
+bool material_resists_area(const Material *material)
+{
+    double deviator = material->young / (1 + material->poisson);
+    return lame_lambda(material) > AREA_RESISTS * deviator ||
+           material->eta2 > AREA_RESISTS * material->eta1;
+}
+
+// --- several ------------------------------------------------------------------------------------
+
+Materials materials_of(const Material *material)
+{
+    return (Materials){.count = 1, .list = {*material}, .mean = *material};
+}
+
+static bool is_used(const Materials *materials, int32_t k)
+{
+    return materials->count == 1 || materials->area[k] > 0;
+}
+
+void materials_find_mean(Materials *materials)
+{
+    Material sum = {.plane_strain = materials->list[0].plane_strain};
+    double area = 0, compliance = 0;
+    materials->mean = materials->list[0];
+    if (materials->count == 1) return;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        double part = materials->area[k];
+        area += part;
+        compliance += part / one->young;
+        sum.poisson += part * one->poisson;
+        sum.density += part * one->density;
+        sum.eta1 += part * one->eta1;
+        sum.eta2 += part * one->eta2;
+    }
+    sum.young = area / compliance;
+    sum.poisson /= area;
+    sum.density /= area;
+    sum.eta1 /= area;
+    sum.eta2 /= area;
+    materials->mean = sum;
+}
+
+double materials_slip_speed(const Materials *materials)
+{
+    double fastest = 0;
+    for (int32_t k = 0; k < materials->count; k++)
+        if (is_used(materials, k))
+            fastest = fmax(fastest, material_slip_speed(&materials->list[k]));
+    return fastest;
+}
+
+double materials_viscous_time(const Materials *materials)
+{
+    double longest = 0;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        if (is_used(materials, k)) longest = fmax(longest, (one->eta1 + one->eta2) / one->young);
+    }
+    return longest;
+}
+
+static ViscousTimes viscous_times(const Material *material)
+{
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    return (ViscousTimes){.volume = (viscous[0][0] + viscous[0][1]) /
+                                    (elastic[0][0] + elastic[0][1]),
+                          .shear = viscous[2][2] / elastic[2][2]};
+}
+
+ViscousTimes materials_viscous_range(const Materials *materials)
+{
+    ViscousTimes range = viscous_times(&materials->list[0]);
+    bool first = true;
+    if (materials->count == 1) return range;
+    for (int32_t k = 0; k < materials->count; k++) {
+        if (!is_used(materials, k)) continue;
+        ViscousTimes own = viscous_times(&materials->list[k]);
+        double low = fmin(own.volume, own.shear), high = fmax(own.volume, own.shear);
+        range.volume = first ? low : fmin(range.volume, low);
+        range.shear = first ? high : fmax(range.shear, high);
+        first = false;
+    }
+    return range;
+}

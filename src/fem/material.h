@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The linear viscoelastic bulk of the paper (Kelvin-Voigt):
+//
+//     sigma = E/(1+nu) eps + lambda tr(eps) I  +  eta1 eps' + eta2 tr(eps') I
+//     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain.
+//
+// Used by fem/element and fem/recovery; its wave speeds by model/ and run/.
+#ifndef AMONTONS_FEM_MATERIAL_H
+#define AMONTONS_FEM_MATERIAL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct Material {
+    double young;   // E, stress
+    double poisson;   // nu, 1; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
+    double density;   // rho, mass per area of the plane and width
+    double eta1, eta2;   // viscosities, stress * time
+    bool plane_strain;
+} Material;
+
+// sigma = D [eps_xx, eps_zz, 2 eps_xz]; row-major, symmetric.
+void material_elastic(const Material *material, double d[3][3]);
+void material_viscous(const Material *material, double d[3][3]);
+
+// sigma_yy, which von Mises needs, with its viscous part: 0 in plane stress.
+double material_out_of_plane(const Material *material, const double strain[3],
+                             const double strain_rate[3]);
+
+typedef struct WaveSpeeds {
+    double longitudinal, shear, rayleigh;   // velocity, elastic limit
+} WaveSpeeds;
+// Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
+WaveSpeeds material_speeds(const Material *material);
+
+// The norm of the displacement gradient under a pressure across it and a shear stress along it:
+// (tau/G, p/E'), E' that of uniaxial stress in the plane.
+double material_gradient(const Material *material, double pressure, double shear);
+
+// For the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards nu = 1/2 in
+// plane strain, while slip does not get faster.)
+double material_slip_speed(const Material *material);
+
+// Linear elements would lock in it: area resists so much more than shape, in K or in C, that it is
+// to be a mean (fem/element_group).
+bool material_resists_area(const Material *material);
+
+enum { MATERIALS_MAX = 17 };
+
+// What a block is made of: one material, or one in each region of its mesh (Mesh.region).
+typedef struct Materials {
+    int32_t count;
+    Material list[MATERIALS_MAX];   // [count] by number of the region
+    double area[MATERIALS_MAX];   // [count] of the region, length^2; 0: of no element; of one
+        // material it need not be known
+    double width[MATERIALS_MAX];   // [count] of the region on the mean, area over extent along z,
+        // length; 0 likewise
+    Material mean;   // what scales are measured with; the material itself, where there is one
+} Materials;
+
+Materials materials_of(const Material *material);   // a block of one
+// Sets the mean: by area of density, Poisson's ratio and viscosities; of E that of regions one
+// above the other, 1/E = mean of 1/E.
+void materials_find_mean(Materials *materials);
+
+// Over the regions that there are: the fastest material_slip_speed, and the longest viscous time
+// (eta1 + eta2)/E.
+double materials_slip_speed(const Materials *materials);
+double materials_viscous_time(const Materials *materials);
+
+// Viscous over elastic modulus of a material: of the plane's volume, and of shear.
+typedef struct ViscousTimes {
+    double volume, shear;
+} ViscousTimes;
+// Of all regions together the shortest and the longest of these times; of one material its own, in
+// that order.
+ViscousTimes materials_viscous_range(const Materials *materials);
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The mesh the solver works on: that of io/mesh/mesh_file, checked, with its named curves. Used by
+// fem/assembly (elements, tractions on curves) and contact/interface (the contact curves).
+#ifndef AMONTONS_FEM_MESH_H
+#define AMONTONS_FEM_MESH_H
+
+#include "base/error.h"
+#include "io/mesh/mesh_file.h"
+
+#include <stdint.h>
+
+enum { MESH_PATH_SIZE = 1024 };
+
+// A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
+// nodes and quadrature points; every node on an element; no node twice in one element; no edge on
+// more than two elements; every edge of a curve group is an edge of an element, listed once; all
+// elements in one part.
+typedef struct Mesh {
+    char path[MESH_PATH_SIZE];   // of the file, for messages
+    int32_t dim;   // numbers of a place, and displacements of a node
+    int32_t node_count;
+    double *position;   // [node_count * dim] from x to z, length; owned
+    int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
+    int32_t element_count;
+    int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
+    uint8_t *kind;   // [element_count] ElementKind; owned
+    int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
+    int32_t *element_nodes;   // [first_node[element_count]] corners, mid-sides, centre; owned
+    uint8_t
+        *region;   // [element_count] which of the materials it is made of (model/regions); NULL:
+    // there is one; owned
+    int32_t *mean_next;   // [element_count] elements that share one areal strain, as rings: the
+        // next of them, itself where it is alone; -1: it has its own at each point; NULL: all have
+        // (fem/element_group); owned
+    int32_t group_count;
+    MeshGroup *groups;   // [group_count]; nodes of curves by ascending x, then z; owned
+    double x_min, x_max;   // extent, length
+    double z_min, z_max;
+} Mesh;
+
+// Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
+// from there to the node, and to d.
+static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
+{
+    return dim * node + d;
+}
+static inline int32_t dof_node(int32_t dim, int32_t dof)
+{
+    return dof / dim;
+}
+static inline int32_t dof_axis(int32_t dim, int32_t dof)
+{
+    return dof % dim;
+}
+
+// Where a node is: [mesh->dim]; and its z.
+static inline const double *mesh_place(const Mesh *mesh, int32_t node)
+{
+    return mesh->position + (int64_t)mesh->dim * node;
+}
+static inline double mesh_height(const Mesh *mesh, int32_t node)
+{
+    return mesh_place(mesh, node)[mesh->dim - 1];
+}
+
+// Where nodes [count] are: place [count]; offsets: from the first of them.
+void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place);
+void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset);
+
+// "(0.5, 0)": a place in a message.
+enum { PLACE_TEXT_SIZE = 64 };
+const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE]);
+
+// Between two nodes, length.
+double mesh_distance(const Mesh *mesh, int32_t one, int32_t two);
+
+// Which of a list of materials element e is made of.
+static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
+{
+    return mesh->region ? mesh->region[e] : 0;
+}
+
+// Puts nodes [count] in order of ascending x, then z.
+void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count);
+
+// A named curve. Borrows from the mesh, owns nothing.
+typedef struct MeshCurve {
+    const char *name;
+    int32_t edge_count;
+    int32_t nodes_per_edge;   // 2, or 3 (end, end, middle)
+    const int32_t *edge_nodes;   // [edge_count * nodes_per_edge]
+    int32_t node_count;
+    const int32_t *nodes;   // [node_count] each once, by ascending x, then z
+} MeshCurve;
+
+// Several contact curves as one line of nodes. A node that ends one curve and begins the next is
+// listed once and belongs to the curve named first.
+typedef struct MeshContact {
+    int32_t curve_count;
+    MeshCurve *curves;   // [curve_count] in the order of the names; owned
+    int32_t node_count;
+    int32_t *nodes;   // [node_count] ascending x; owned
+    int32_t *curve_of;   // [node_count] index into curves; owned
+} MeshContact;
+
+// Takes the arrays of `file` over (it is empty afterwards, also on failure), checks and completes
+// them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
+// Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
+// node, a clockwise element among others, a node on no element, an edge of three elements, elements
+// of different order side by side, a curve group that does not follow the elements or lists an
+// edge twice, parts that share no node.
+bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
+void mesh_destroy(Mesh *mesh);
+
+// The curve called `name`; a missing one or a group of another dimension is ERROR_INPUT.
+bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err);
+
+// The contact line from curves called `names` [name_count]; no names: every curve called "contact"
+// or "contact_...", in the order of their first nodes' x. Each must lie over z = 0 and one
+// node on it, no node straight over another, on the block's edge, no two on the same edge, and the
+// block not below z = 0: ERROR_INPUT names group and node.
+bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
+                  MeshContact *contact, Error *err);
+// How high a contact node stands over z = 0; exactly 0 where only rounding is left.
+double mesh_gap(const Mesh *mesh, int32_t node);
+void mesh_contact_destroy(MeshContact *contact);
+
+// What `amontons info` says of a mesh.
+typedef struct MeshSummary {
+    int32_t element_counts[ELEMENT_KIND_COUNT];   // by ElementKind
+    double area;   // length^2
+    double edge_min, edge_max;   // straight distances between corners, length
+    double aspect_max;   // longest over shortest edge of one element
+    int32_t aspect_worst;   // the element that has it
+} MeshSummary;
+MeshSummary mesh_summarise(const Mesh *mesh);
+double mesh_element_area(const Mesh *mesh, int32_t e);   // length^2
+
+#endif

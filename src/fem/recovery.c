@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at
+// an inner node is a central difference, one order better than each of them. The means are one
+// sparse operator, made once; the stress of a point is that of its mean strain. Of elements that
+// share an areal strain (fem/element_group) this is the areal part.
+//
+// The mean is not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of
+// node 1, ...; the strain's third entry is the engineering shear 2 xz, as in fem/element.
+#include "fem/recovery.h"
+
+#include "base/memory.h"
+#include "fem/element_group.h"
+
+#include <math.h>
+#include <string.h>
+
+// The point of a node in a material, a new one where there is none yet; next: [points] the
+// following point of a node, -1: none.
+static int32_t find_point(NodalStress *stress, int32_t node, int32_t own, int32_t *next,
+                          int32_t nodes)
+{
+    int32_t point = node, *region = stress->region;
+    while (region[point] != own && next[point] >= 0) point = next[point];
+    if (region[point] == own) return point;
+    int32_t made = stress->point_count++;
+    stress->extra_node[made - nodes] = node;
+    region[made] = own;
+    next[made] = -1;
+    next[point] = made;
+    return made;
+}
+
+// At most one point for each node of each element.
+static bool split_nodes(const Mesh *mesh, NodalStress *stress, Error *err)
+{
+    int32_t nodes = mesh->node_count, places = mesh->first_node[mesh->element_count];
+    int32_t *next = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
+    int32_t *region = stress->region = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
+    stress->points = NEW_ARRAY(int32_t, places, err);
+    stress->extra_node = NEW_ARRAY(int32_t, places, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t i = 0; i < nodes; i++) {
+        region[i] = INT32_MAX;
+        next[i] = -1;
+    }
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            int32_t *lowest = &region[mesh->element_nodes[a]], own = mesh_region(mesh, e);
+            if (own < *lowest) *lowest = own;
+        }
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            stress->points[a] =
+                find_point(stress, mesh->element_nodes[a], mesh_region(mesh, e), next, nodes);
+cleanup:
+    memory_free(next);
+    return error_is_clean(err);
+}
+
+const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, int32_t e)
+{
+    return (stress->points ? stress->points : mesh->element_nodes) + mesh->first_node[e];
+}
+
+// The place of `node` in the row of `point`, a new one at its end where there is none yet; rows are
+// short.
+static int32_t place_in_row(NodalStress *stress, int32_t point, int32_t node)
+{
+    int32_t k = stress->row[point], end = k + stress->row_length[point];
+    while (k < end && stress->column[k] != node) k++;
+    stress->row_length[point] += k == end;
+    stress->column[k] = node;
+    return k;
+}
+
+// To the row of `point`: `share` of what the mean areal strain of element e's group is above that
+// of its own slopes `b` there.
+static void add_areal(const Mesh *mesh, int32_t e, int32_t point, double share,
+                      const double b[STRAINS_MAX][ELEMENT_DOFS_MAX], NodalStress *stress)
+{
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    double mean[ELEMENT_DOFS_MAX];
+    ElementGroup group;
+    element_group_of(mesh, e, &group);
+    element_group_areal(mesh, &group, mean);
+    for (int32_t a = 0; a < group.node_count; a++)
+        for (int32_t d = 0; d < mesh->dim; d++)
+            stress->areal[place_in_row(stress, point, group.node[a])][d] +=
+                share * mean[node_dof(mesh->dim, a, d)];
+    for (int32_t a = 0; a < mesh->first_node[e + 1] - mesh->first_node[e]; a++)
+        for (int32_t d = 0; d < mesh->dim; d++)
+            stress->areal[place_in_row(stress, point, element[a])][d] -=
+                share * b[d][node_dof(mesh->dim, a, d)];
+}
+
+// To the row of the point at element `e`'s node `at`: `share` of the slopes d/dx, d/dz of its shape
+// functions there. What other elements said of a node is added to.
+static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, NodalStress *stress)
+{
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+    int32_t point = nodal_stress_points(stress, mesh, e)[at];
+    MeshPlace position[ELEMENT_NODES_MAX];
+    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
+    mesh_places(mesh, element, nodes, position);
+    element_strain_matrix(mesh->kind[e], (const MeshPlace *)position, shape_node(mesh->kind[e], at),
+                          b);
+    for (int32_t a = 0; a < nodes; a++) {
+        int32_t k = place_in_row(stress, point, element[a]);
+        for (int32_t d = 0; d < mesh->dim; d++)
+            stress->slope[k][d] += share * b[d][node_dof(mesh->dim, a, d)];
+    }
+    if (mesh->mean_next && mesh->mean_next[e] >= 0) add_areal(mesh, e, point, share, b, stress);
+}
+
+// How many nodes element e brings to a row: its own, or those of its group.
+static int32_t nodes_with(const Mesh *mesh, int32_t e)
+{
+    ElementGroup group;
+    element_group_of(mesh, e, &group);
+    return group.node_count;
+}
+
+// A row has room for all nodes of its point's elements.
+static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
+{
+    int32_t points = stress->point_count, room = 0;
+    const int32_t *point = nodal_stress_points(stress, mesh, 0);
+    int32_t *shares = NEW_ARRAY(int32_t, points, err);
+    stress->row = NEW_ARRAY(int32_t, points, err);
+    stress->row_length = NEW_ARRAY(int32_t, points, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            stress->row[point[a]] += nodes_with(mesh, e);
+            shares[point[a]]++;
+        }
+    for (int32_t k = 0; k < points; k++) {
+        room += stress->row[k];
+        stress->row[k] = room - stress->row[k];
+    }
+    TRY(stress->column = NEW_ARRAY(int32_t, room, err));
+    TRY(stress->slope = memory_array(room, sizeof *stress->slope, err));
+    if (mesh->mean_next) TRY(stress->areal = memory_array(room, sizeof *stress->areal, err));
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            add_to_row(mesh, e, a - mesh->first_node[e], 1.0 / shares[point[a]], stress);
+cleanup:
+    memory_free(shares);
+    return error_is_clean(err);
+}
+
+// Kept over a run and filled anew at each time that is written.
+bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
+{
+    *stress = (NodalStress){.dim = mesh->dim, .point_count = mesh->node_count};
+    if (mesh->region) TRY(split_nodes(mesh, stress, err));
+    TRY(prepare_rows(mesh, stress, err));
+    int64_t count = stress->point_count;
+    stress->elastic = NEW_ARRAY(double, 3 * count, err);
+    stress->total = NEW_ARRAY(double, 3 * count, err);
+    stress->von_mises = NEW_ARRAY(double, count, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+void nodal_stress_destroy(NodalStress *stress)
+{
+    memory_free(stress->elastic);
+    memory_free(stress->total);
+    memory_free(stress->von_mises);
+    memory_free(stress->row);
+    memory_free(stress->row_length);
+    memory_free(stress->column);
+    memory_free(stress->slope);
+    memory_free(stress->areal);
+    memory_free(stress->region);
+    memory_free(stress->points);
+    memory_free(stress->extra_node);
+    *stress = (NodalStress){0};
+}
+
+typedef struct Strains {
+    double strain[3], rate[3];   // xx, zz, 2 xz
+} Strains;
+
+// A row of the operator times displacement and velocity.
+static Strains strains_at(const NodalStress *stress, int32_t point, const double *displacement,
+                          const double *velocity)
+{
+    Strains found = {0};
+    double more = 0, more_rate = 0;
+    int32_t end = stress->row[point] + stress->row_length[point];
+    for (int32_t k = stress->row[point]; k < end; k++) {
+        const double *u = displacement + node_dof(stress->dim, stress->column[k], 0);
+        const double *v = velocity + node_dof(stress->dim, stress->column[k], 0);
+        double x = stress->slope[k][0], z = stress->slope[k][1];
+        found.strain[0] += x * u[0];
+        found.strain[1] += z * u[1];
+        found.strain[2] += z * u[0] + x * u[1];
+        found.rate[0] += x * v[0];
+        found.rate[1] += z * v[1];
+        found.rate[2] += z * v[0] + x * v[1];
+        if (!stress->areal) continue;
+        for (int32_t d = 0; d < stress->dim; d++) {
+            more += 0.5 * stress->areal[k][d] * u[d];
+            more_rate += 0.5 * stress->areal[k][d] * v[d];
+        }
+    }
+    for (int32_t d = 0; d < stress->dim; d++) {
+        found.strain[d] += more;
+        found.rate[d] += more_rate;
+    }
+    return found;
+}
+
+// sqrt(3 J_2) with all three normal stresses: sigma_yy counts in plane strain.
+static double von_mises(const double stress[3], double out_of_plane)
+{
+    double xx = stress[0], zz = stress[1], xz = stress[2], yy = out_of_plane;
+    return sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) +
+                3 * xz * xz);
+}
+
+// Von Mises is that of the mean stress, not the mean of the elements' von Mises.
+// displacement, velocity: [dim * nodes] of the full mesh. stress->total has the viscous part, C's
+// stress at this velocity, stress->elastic has not.
+void nodal_stress_recover(const Material *materials, const double *displacement,
+                          const double *velocity, NodalStress *stress)
+{
+    double elastic[3][3], viscous[3][3];
+    for (int32_t point = 0; point < stress->point_count; point++) {
+        const Material *material = &materials[stress->region ? stress->region[point] : 0];
+        material_elastic(material, elastic);
+        material_viscous(material, viscous);
+        Strains at = strains_at(stress, point, displacement, velocity);
+        double *held = stress->elastic + 3 * point, *total = stress->total + 3 * point;
+        for (int r = 0; r < 3; r++) {
+            double damped = 0;
+            held[r] = 0;
+            for (int c = 0; c < 3; c++) {
+                held[r] += elastic[r][c] * at.strain[c];
+                damped += viscous[r][c] * at.rate[c];
+            }
+            total[r] = held[r] + damped;
+        }
+        stress->von_mises[point] =
+            von_mises(total, material_out_of_plane(material, at.strain, at.rate));
+    }
+}

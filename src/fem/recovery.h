@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Strains and stresses at the nodes: the mean over the elements around a node. Called by
+// record/fields, on demand only.
+#ifndef AMONTONS_FEM_RECOVERY_H
+#define AMONTONS_FEM_RECOVERY_H
+
+#include "fem/material.h"
+#include "fem/mesh.h"
+
+// Components in the order xx, zz, xz. Where materials meet, stress jumps: a node there is a point
+// in each of them. The first points are the nodes of the mesh, each with the lowest number of its
+// materials; the others follow.
+typedef struct NodalStress {
+    double *elastic;   // [point_count * 3] stress; owned
+    double *total;   // [point_count * 3] elastic and viscous, stress; owned
+    double *von_mises;   // [point_count] of the total stress, stress; owned
+    int32_t *row, *row_length;   // [point_count] where a point's row of the operator begins; owned
+    int32_t *column;   // a row's nodes, and at each:
+    MeshPlace *slope;   // d/dx to d/dz of shape functions, means over the point's elements; owned
+    MeshPlace *areal;   // by u what the areal strain is above that of the slopes, where elements
+        // share one; owned; NULL: none do
+    int32_t dim;
+    int32_t point_count;   // from the mesh's nodes on
+    int32_t *points;   // [mesh->first_node[elements]] in the place of element_nodes; owned; NULL:
+        // points are nodes
+    int32_t *region;   // [point_count] number of the point's material; owned; NULL: one material
+    int32_t *extra_node;   // [point_count - nodes] of the points that follow; owned
+} NodalStress;
+
+// The points of an element: [its nodes].
+const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, int32_t e);
+
+bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
+void nodal_stress_destroy(NodalStress *stress);
+
+// displacement, velocity: [dim * node_count]
+void nodal_stress_recover(const Material *materials, const double *displacement,
+                          const double *velocity, NodalStress *stress);
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The time of use is the file's access time, which io/cache/store sets itself when it reads: file
+// systems mostly do not keep it.
+#include "io/cache/cache_folder.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const int64_t LIMIT_DEFAULT = 2000000000;
+static const double LIMIT_MOST = 1e18;   // bytes: an integer holds them
+
+// Also false where the path would be too long: such a cache is as good as none.
+bool cache_folder_path(char path[PATH_MAX])
+{
+    const char *given = getenv("AMONTONS_CACHE"), *base = getenv("XDG_CACHE_HOME");
+    const char *home = getenv("HOME");
+    int length = -1;
+    if (given)
+        length = snprintf(path, PATH_MAX, "%s", given);
+    else if (base && base[0])
+        length = snprintf(path, PATH_MAX, "%s/amontons", base);
+    else if (home && home[0])
+        length = snprintf(path, PATH_MAX, "%s/.cache/amontons", home);
+    bool fits = length > 0 && length < PATH_MAX;
+    if (!fits) path[0] = 0;
+    return fits;
+}
+
+bool cache_folder_limit(int64_t *bytes, Error *err)
+{
+    static const struct {
+        const char *ending;
+        double factor;
+    } units[] = {{"", 1}, {"K", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}};
+    const char *given = getenv("AMONTONS_CACHE_LIMIT");
+    double number = 0;
+    *bytes = LIMIT_DEFAULT;
+    if (!given || !*given) return true;
+    int32_t length = text_number(given, &number);
+    for (size_t k = 0; length > 0 && k < sizeof units / sizeof *units; k++) {
+        double size = number * units[k].factor;
+        if (strcmp(given + length, units[k].ending) != 0 || !(size >= 0 && size < LIMIT_MOST))
+            continue;
+        *bytes = (int64_t)size;
+        return true;
+    }
+    FAIL(err, ERROR_INPUT,
+         "AMONTONS_CACHE_LIMIT: found `%.40s`; allowed: a number of bytes, as in 500000000, 500M "
+         "or 10G",
+         given);
+cleanup:
+    return false;
+}
+
+// 32 digits and letters, and an ending that only we use.
+static bool is_ours(const char *name)
+{
+#define ENDING(kind, ending, name) "." ending,
+    static const char *const endings[] = {CACHE_KINDS(ENDING)};
+#undef ENDING
+    size_t key = strspn(name, "0123456789abcdef");
+    if (key != 32) return false;
+    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)
+        if (strcmp(name + key, endings[k]) == 0) return true;
+    return false;
+}
+
+static int by_use(const void *left, const void *right)
+{
+    const CacheFolderEntry *a = left, *b = right;
+    if (a->used != b->used) return a->used < b->used ? -1 : 1;
+    return strcmp(a->name, b->name);
+}
+
+static bool add_entry(CacheFolder *folder, const char *name, const struct stat *about, Error *err)
+{
+    CacheFolderEntry *grown =
+        memory_grow(folder->entries, folder->count, &folder->room, sizeof *grown, err);
+    if (!grown) return false;
+    folder->entries = grown;
+    CacheFolderEntry *entry = &grown[folder->count++];
+    double read = (double)about->st_atim.tv_sec + 1e-9 * (double)about->st_atim.tv_nsec;
+    double written = (double)about->st_mtim.tv_sec + 1e-9 * (double)about->st_mtim.tv_nsec;
+    *entry = (CacheFolderEntry){.bytes = about->st_size, .used = read > written ? read : written};
+    memcpy(entry->name, name, strlen(name));   // is_ours: 38 characters
+    folder->bytes += entry->bytes;
+    return true;
+}
+
+bool cache_folder_read(CacheFolder *folder, Error *err)
+{
+    DIR *listing = NULL;
+    *folder = (CacheFolder){0};
+    if (!cache_folder_path(folder->path)) return true;
+    listing = opendir(folder->path);
+    if (!listing && errno != ENOENT)
+        FAIL(err, ERROR_FILE, "cannot read the folder %s: %s", folder->path, strerror(errno));
+    for (struct dirent *file; listing && (file = readdir(listing));) {
+        struct stat about;
+        bool there = is_ours(file->d_name) &&
+                     fstatat(dirfd(listing), file->d_name, &about, AT_SYMLINK_NOFOLLOW) == 0;
+        if (there && S_ISREG(about.st_mode)) TRY(add_entry(folder, file->d_name, &about, err));
+    }
+    if (folder->count > 0)
+        qsort(folder->entries, (size_t)folder->count, sizeof *folder->entries, by_use);
+cleanup:
+    if (listing) closedir(listing);
+    return error_is_clean(err);
+}
+
+void cache_folder_destroy(CacheFolder *folder)
+{
+    memory_free(folder->entries);
+    *folder = (CacheFolder){0};
+}
+
+int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *keep,
+                          int64_t *bytes)
+{
+    int32_t removed = 0;
+    *bytes = 0;
+    for (int32_t k = 0; k < folder->count && folder->bytes - *bytes > limit; k++) {
+        char path[PATH_MAX + CACHE_ENTRY_SIZE + 1];
+        snprintf(path, sizeof path, "%s/%s", folder->path, folder->entries[k].name);
+        if ((keep && strcmp(path, keep) == 0) || unlink(path) != 0) continue;
+        removed++;
+        *bytes += folder->entries[k].bytes;
+    }
+    return removed;
+}

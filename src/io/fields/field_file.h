@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Fields on a mesh for ParaView: .vtu (bulk), .vtp (the interface as lines) and the .pvd that lists
+// them against time. Written by VTK's own XML writers, in a module opened on first use: appended,
+// in zlib's blocks (the mesh compressed, values at nodes stored), 64-bit headers. Called by
+// record/field_files.
+#ifndef AMONTONS_IO_FIELDS_FIELD_FILE_H
+#define AMONTONS_IO_FIELDS_FIELD_FILE_H
+
+#include "base/error.h"
+#include "io/fields/field_grid.h"
+
+// Both write beside `path` and rename, so that the final name never has half a file. Errors
+// (ERROR_FILE) name the path and the cause (full disk, no permission, no such folder).
+bool field_file_write_vtu(const char *path, const FieldGrid *grid, Error *err);
+bool field_file_write_vtp(const char *path, const FieldGrid *grid, Error *err);   // cells: lines
+
+typedef struct FieldSeriesEntry {
+    double time;
+    const char *part;   // "bulk" or "interface"
+    const char *file;   // relative to the .pvd
+} FieldSeriesEntry;
+
+// Writes the collection anew (atomic); entries of equal time may differ in `part`.
+bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int32_t count,
+                          Error *err);
+
+#endif

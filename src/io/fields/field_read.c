@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/fields/field_read.h"
+
+#include "base/memory.h"
+#include "base/module.h"
+#include "io/fields/field_file_module.h"
+#include "io/files/open_file.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LINE_SIZE = 400, COUNT_MAX = 100000000 };
+
+// --- the list of times ---------------------------------------------------------------------------
+
+// A line of the list as io/fields/field_file writes it; false: it names no block.
+static bool read_entry(const char *line, FieldTime *time)
+{
+    const char *start = strstr(line, "timestep=\"");
+    return start && strstr(line, "name=\"bulk\"") &&
+           sscanf(start, "timestep=\"%lf\"", &time->t) == 1 && (start = strstr(line, "file=\"")) &&
+           sscanf(start, "file=\"%63[^\"]\"", time->file) == 1 && !strstr(time->file, "..") &&
+           time->file[0] != '/';
+}
+
+bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Error *err)
+{
+    char path[PATH_MAX], line[LINE_SIZE];
+    FILE *list = NULL;
+    int32_t room = 0;
+    *times = NULL;
+    *count = 0;
+    snprintf(path, sizeof path, "%s/fields.pvd", folder);
+    if (!open_is_there(path))
+        FAIL(err, ERROR_INPUT,
+             "%s has no fields of the block (%s): a scene stores them with output.fields", folder,
+             strerror(errno));
+    TRY(list = open_stream(path, err));
+    while (fgets(line, sizeof line, list)) {
+        FieldTime time;
+        if (!read_entry(line, &time)) continue;
+        FieldTime *longer = memory_grow(*times, *count, &room, sizeof time, err);
+        TRY(longer);
+        *times = longer;
+        longer[(*count)++] = time;
+    }
+    if (*count == 0) FAIL(err, ERROR_INPUT, "%s names no time", path);
+cleanup:
+    if (list) fclose(list);
+    if (!error_is_clean(err)) {
+        memory_free(*times);
+        *times = NULL;
+    }
+    return error_is_clean(err);
+}
+
+// --- one time ------------------------------------------------------------------------------------
+
+// VTK's numbers of the cells that record/fields writes.
+static bool find_kind(double type, uint8_t *kind)
+{
+    for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
+        *kind = (uint8_t)k;
+        if (element_info((ElementKind)k)->vtk_type == type) return true;
+    }
+    return false;
+}
+
+// Indices from 0 to below `end`, into a new array.
+static bool take_indices(const FieldPart *part, int64_t end, int32_t **indices, Error *err)
+{
+    memory_free(*indices);   // of an array that is there twice
+    TRY(*indices = NEW_ARRAY(int32_t, part->count, err));
+    for (int64_t k = 0; k < part->count; k++) {
+        if (!(part->values[k] >= 0 && part->values[k] < (double)end))
+            FAIL(err, ERROR_FILE, "its %s are damaged", part->name);
+        (*indices)[k] = (int32_t)part->values[k];
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool take_kinds(const FieldPart *part, FieldFrame *frame, Error *err)
+{
+    memory_free(frame->kind);
+    TRY(frame->kind = NEW_ARRAY(uint8_t, part->count, err));
+    for (int64_t k = 0; k < part->count; k++)
+        if (!find_kind(part->values[k], &frame->kind[k]))
+            FAIL(err, ERROR_FILE, "it has cells that are no elements of a block");
+    for (int32_t e = 0; e < frame->element_count; e++)
+        if (part->count != frame->element_count ||
+            frame->first_node[e + 1] - frame->first_node[e] !=
+                element_node_count((ElementKind)frame->kind[e]))
+            FAIL(err, ERROR_FILE, "its cells have the wrong number of nodes");
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool take_values(const FieldPart *part, int32_t components, const FieldFrame *frame,
+                        double **values, Error *err)
+{
+    memory_free(*values);
+    *values = NULL;
+    if (part->components != components || part->count != frame->node_count)
+        FAIL(err, ERROR_FILE, "its array %s is not one of %d numbers a node", part->name,
+             components);
+    TRY(*values = NEW_ARRAY(double, components * part->count, err));
+    memcpy(*values, part->values, (size_t)(components * part->count) * sizeof(double));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Grid before fields, points first: as the module hands them on. What is not known is passed over.
+static bool take_part(void *context, const FieldPart *part, Error *err)
+{
+    FieldFrame *frame = context;
+    const struct {
+        const char *name;
+        int32_t components;
+        double **values;
+    } arrays[] = {{"points", 3, &frame->position},   {"displacement", 3, &frame->displacement},
+                  {"velocity", 3, &frame->velocity}, {"stress_elastic", 3, &frame->stress_elastic},
+                  {"stress", 3, &frame->stress},     {"von_mises", 1, &frame->von_mises}};
+    if (part->count > COUNT_MAX) FAIL(err, ERROR_FILE, "it has more than %d nodes", COUNT_MAX);
+    if (strcmp(part->name, "points") == 0) frame->node_count = (int32_t)part->count;
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        if (strcmp(arrays[k].name, part->name) == 0)
+            return take_values(part, arrays[k].components, frame, arrays[k].values, err);
+    if (strcmp(part->name, "offsets") == 0) {
+        frame->element_count = (int32_t)part->count - 1;
+        return take_indices(part, INT32_MAX, &frame->first_node, err);
+    }
+    if (strcmp(part->name, "connectivity") == 0) {
+        bool whole = part->count == frame->first_node[frame->element_count];
+        if (!whole) FAIL(err, ERROR_FILE, "its cells are damaged");
+        return take_indices(part, frame->node_count, &frame->element_nodes, err);
+    }
+    if (strcmp(part->name, "types") == 0) return take_kinds(part, frame, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool field_frame_read(const char *path, FieldFrame *frame, Error *err)
+{
+    *frame = (FieldFrame){0};
+    if (!open_check(path, err)) goto cleanup;   // VTK opens it by its name
+    FieldDecodeFunction decode =
+        (FieldDecodeFunction)module_function("vtk", "amontons_vtk_decode", err);
+    TRY(decode);
+    TRY(decode(path, take_part, frame, err));
+    const void *needed[] = {frame->displacement,   frame->velocity,  frame->stress,
+                            frame->stress_elastic, frame->von_mises, frame->kind};
+    for (size_t k = 0; k < sizeof needed / sizeof *needed; k++)
+        if (!needed[k]) FAIL(err, ERROR_FILE, "it lacks an array that a run writes");
+cleanup:
+    error_context(err, "while reading %s", path);
+    return error_is_clean(err);
+}
+
+void field_frame_destroy(FieldFrame *frame)
+{
+    memory_free(frame->position);
+    memory_free(frame->displacement);
+    memory_free(frame->velocity);
+    memory_free(frame->stress_elastic);
+    memory_free(frame->stress);
+    memory_free(frame->von_mises);
+    memory_free(frame->kind);
+    memory_free(frame->first_node);
+    memory_free(frame->element_nodes);
+    *frame = (FieldFrame){0};
+}

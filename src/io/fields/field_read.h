@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What record/fields wrote, read back: which times there are, and the block at one of them. Called
+// by render/figures/block.
+#ifndef AMONTONS_IO_FIELDS_FIELD_READ_H
+#define AMONTONS_IO_FIELDS_FIELD_READ_H
+
+#include "io/mesh/mesh_file.h"
+
+enum { FIELD_NAME_SIZE = 64 };
+
+typedef struct FieldTime {
+    double t;   // time
+    char file[FIELD_NAME_SIZE];   // of the block, below the result folder
+} FieldTime;
+
+// The list fields.pvd of the result in `folder`: *times [*count], owned by the caller
+// (memory_free). ERROR_INPUT where there is none.
+bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Error *err);
+
+// The block at one time. Vectors have three components, the third 0; stresses xx, zz, xz.
+typedef struct FieldFrame {
+    int32_t node_count;
+    double *position, *displacement, *velocity;   // [node_count * 3] owned, like all
+    double *stress_elastic, *stress;   // [node_count * 3] without and with the viscous part
+    double *von_mises;   // [node_count]
+    int32_t element_count;
+    uint8_t *kind;   // [element_count] ElementKind
+    int32_t *first_node;   // [element_count + 1] offsets into element_nodes
+    int32_t *element_nodes;
+} FieldFrame;
+
+// Checked: nothing points outside. ERROR_FILE names `path`.
+bool field_frame_read(const char *path, FieldFrame *frame, Error *err);
+void field_frame_destroy(FieldFrame *frame);   // zeroed is fine
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The holder removes the file before it releases the lock. A process that waited for it then holds
+// the lock of a file without a name, which guards nothing: it opens the name again.
+#include "io/files/file_lock.h"
+
+#include "base/clock.h"
+#include "io/files/open_file.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tries: 10 ms
+
+// What a signal handler can reach. A lock that finds no place is one whose file stays.
+enum { HELD_MAX = 8 };
+static _Atomic(FileLock *) held_locks[HELD_MAX];
+
+// From the one to the other, in the first place that fits; NULL: no lock.
+static void exchange_held(FileLock *from, FileLock *to)
+{
+    for (int32_t k = 0; k < HELD_MAX; k++) {
+        FileLock *found = from;
+        if (atomic_compare_exchange_strong(&held_locks[k], &found, to)) return;
+    }
+}
+
+bool file_is_named(const char *name, int descriptor)
+{
+    struct stat named, opened;
+    return lstat(name, &named) == 0 && fstat(descriptor, &opened) == 0 &&
+           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
+// Until signals are let in again a handler finds the lock's file and its place among the held ones,
+// or neither.
+static void hold_signals(sigset_t *before)
+{
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, before);
+}
+
+// 0, or why the file could not be opened or locked; `held` only where it still has its name.
+static int try_once(FileLock *lock, const char *path)
+{
+    sigset_t before;
+    char why[OPEN_WHY_SIZE];
+    hold_signals(&before);
+    lock->descriptor = open_to_write(path, OPEN_PART, why);
+    int cause = lock->descriptor < 0 || flock(lock->descriptor, LOCK_EX | LOCK_NB) != 0 ? errno : 0;
+    lock->held = cause == 0 && file_is_named(path, lock->descriptor);
+    if (lock->held) {
+        lock->owner = getpid();
+        exchange_held(NULL, lock);
+    } else if (lock->descriptor >= 0) {
+        close(lock->descriptor);
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return cause;
+}
+
+// Tried again and again, as flock itself cannot wait for a limited time.
+bool file_lock_take(FileLock *lock, const char *path, double seconds)
+{
+    double until = clock_seconds() + seconds;
+    *lock = (FileLock){0};
+    if (snprintf(lock->path, sizeof lock->path, "%s", path) >= (int)sizeof lock->path) return false;
+    for (;;) {
+        int cause = try_once(lock, path);
+        lock->busy = cause == EWOULDBLOCK;
+        if (lock->held) return true;
+        if (lock->descriptor < 0) return false;
+        if (cause == 0 || cause == EINTR) continue;
+        if (!lock->busy || clock_seconds() >= until) return false;
+        nanosleep(&PAUSE, NULL);
+    }
+}
+
+void file_lock_release(FileLock *lock)
+{
+    sigset_t before;
+    if (!lock->held) return;
+    hold_signals(&before);
+    exchange_held(lock, NULL);
+    unlink(lock->path);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    close(lock->descriptor);
+    lock->held = false;
+}
+
+void file_locks_let_go(void)
+{
+    for (int32_t k = 0; k < HELD_MAX; k++) {
+        const FileLock *lock = atomic_load(&held_locks[k]);
+        if (lock && lock->owner == getpid()) unlink(lock->path);
+    }
+}

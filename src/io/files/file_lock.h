@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One process at a time at some work, by a lock on a file that exists only meanwhile. The lock is
+// flock's: it belongs to the open file and ends with the process, however that ends, so that
+// nothing has to be cleared up after a kill. Called by model/basis_cache and run/result_folder;
+// part_file shares file_is_named.
+//
+//   take -> (the work) -> release     take also gives up: after its limit, where the folder cannot
+//                                     be written to, or on a file system without locks
+#ifndef AMONTONS_IO_FILES_FILE_LOCK_H
+#define AMONTONS_IO_FILES_FILE_LOCK_H
+
+#include <limits.h>
+#include <stdbool.h>
+#include <sys/types.h>
+
+typedef struct FileLock {
+    bool held;   // false: zeroed, given up or released
+    bool busy;   // given up, as another process held it to the end
+    int descriptor;   // valid while held
+    pid_t owner;   // the process that took it: one that it forked has a copy, not the lock
+    char path[PATH_MAX + 64];
+} FileLock;
+
+// Waits until no other process holds the lock of the file `path`, at most `seconds`; true: it is
+// ours. false is no error: the caller then works without a lock.
+bool file_lock_take(FileLock *lock, const char *path, double seconds);
+void file_lock_release(FileLock *lock);   // removes the file; fine when not held
+
+// Removes the files of all locks that this process holds: it is about to end. A signal handler may
+// call it. A lock is held where it was taken: a FileLock is not moved.
+void file_locks_let_go(void);
+
+// Whether `name` is still the name of the file behind `descriptor`: it may have been removed,
+// renamed or replaced between opening and locking.
+bool file_is_named(const char *name, int descriptor);
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/files/folder.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+bool folder_make(const char *path, Error *err)
+{
+    char part[PATH_MAX];
+    if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part)
+        FAIL(err, ERROR_INPUT, "the path of the folder %.80s... is too long", path);
+    for (char *slash = part + 1; *slash; slash++) {
+        if (*slash != '/') continue;
+        *slash = 0;
+        mkdir(part, 0777);   // a failure shows when the last one is made
+        *slash = '/';
+    }
+    if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+        bool wrong_name = errno == ENAMETOOLONG || errno == ENOTDIR;   // no disk can help it
+        FAIL(err, wrong_name ? ERROR_INPUT : ERROR_FILE, "cannot make the folder %s: %s", path,
+             strerror(errno));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Both by their real paths: one ".." for each name of the folder's that is not the file's too.
+void folder_relative(const char *folder, const char *file, char *path, int32_t size)
+{
+    char from[PATH_MAX + 1], to[PATH_MAX];
+    snprintf(path, (size_t)size, "%s", file);
+    if (!realpath(folder, from) || !realpath(file, to)) return;
+    size_t shared = 0, used = 0;   // bytes, up to the last slash behind which names differ
+    if (from[1]) snprintf(from + strlen(from), 2, "/");
+    for (size_t k = 0; from[k] && from[k] == to[k]; k++)
+        if (from[k] == '/') shared = k + 1;
+    for (const char *rest = from + shared; (rest = strchr(rest, '/')); rest++)
+        if (used + 3 < (size_t)size) used += (size_t)sprintf(path + used, "../");
+    snprintf(path + used, (size_t)size - used, "%s", to + shared);
+}

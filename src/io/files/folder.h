@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Makes folders, and says where a file is as seen from one.
+#ifndef AMONTONS_IO_FILES_FOLDER_H
+#define AMONTONS_IO_FILES_FOLDER_H
+
+#include "base/error.h"
+
+// Like `mkdir -p`: `path` and all that leads there; what is there already is left as it is.
+bool folder_make(const char *path, Error *err);
+
+// `file` as seen from `folder`: "../../meshes/block.geo" from results/fig1. As it is where one of
+// them does not exist.
+void folder_relative(const char *folder, const char *file, char *path, int32_t size);
+
+#endif

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Linux gives the sticky bit of a file no meaning, keeps it, and sets it in the call that makes the
+// file: with it a part of ours is told from somebody's film.mp4.part, however early its writer was
+// killed. A file system without such bits (FAT) forgets it: what was left there is then refused.
+#include "io/files/open_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/magic.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+// What is no file, in words.
+static const char *kind_of(const struct stat *status)
+{
+    switch (status->st_mode & S_IFMT) {
+    case S_IFREG:
+        return NULL;
+    case S_IFDIR:
+        return "a folder";
+    case S_IFIFO:
+        return "a pipe (FIFO)";
+    case S_IFSOCK:
+        return "a socket";
+    default:
+        return "a device";
+    }
+}
+
+// --- to read ------------------------------------------------------------------------------------
+
+// A pipe without a name in any folder: its other end is open.
+static bool is_of_shell(const char *path, const struct stat *status)
+{
+    struct statfs system;
+    return S_ISFIFO(status->st_mode) && statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+}
+
+bool open_check(const char *path, Error *err)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        FAIL(err, errno == ENOENT || errno == ENOTDIR ? ERROR_INPUT : ERROR_FILE,
+             "cannot read %s: %s", path, strerror(errno));
+    if (kind_of(&status) && !is_of_shell(path, &status))
+        FAIL(err, ERROR_INPUT, "%s is %s, not a file", path, kind_of(&status));
+cleanup:
+    return error_is_clean(err);
+}
+
+// O_NONBLOCK: what was a file a moment ago is not waited for either.
+int open_to_read(const char *path, Error *err)
+{
+    struct stat status;
+    int file = -1;
+    TRY(open_check(path, err));
+    file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (file < 0 || fstat(file, &status) != 0)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode) && !is_of_shell(path, &status))
+        FAIL(err, ERROR_INPUT, "%s is %s, not a file", path, kind_of(&status));
+    fcntl(file, F_SETFL, 0);
+    return file;
+cleanup:
+    if (file >= 0) close(file);
+    return -1;
+}
+
+FILE *open_stream(const char *path, Error *err)
+{
+    FILE *stream = NULL;
+    int file = open_to_read(path, err);
+    if (file < 0) return NULL;
+    if (!(stream = fdopen(file, "rb"))) {
+        close(file);
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    }
+cleanup:
+    return stream;
+}
+
+// --- to write -----------------------------------------------------------------------------------
+
+bool open_is_there(const char *path)
+{
+    struct stat status;
+    return lstat(path, &status) == 0;
+}
+
+// What speaks against writing into the open file, or NULL.
+static const char *objection(const struct stat *status, OpenAs as)
+{
+    if (!S_ISREG(status->st_mode)) return kind_of(status);
+    if (status->st_nlink > 1) return "a file with a second name (a hard link)";
+    if (as == OPEN_PART && status->st_size > 0 && !(status->st_mode & S_ISVTX))
+        return "there, and nothing says that amontons left it";
+    return NULL;
+}
+
+static int refuse(const char *path, const char *what, char why[OPEN_WHY_SIZE])
+{
+    snprintf(why, OPEN_WHY_SIZE, "%.250s is %s: move it away", path, what);
+    errno = EEXIST;
+    return -1;
+}
+
+// One that is there. O_NONBLOCK: a pipe is not waited for.
+static int open_there(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
+{
+    struct stat status;
+    int file = open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (file < 0) {
+        int cause = errno;
+        snprintf(why, OPEN_WHY_SIZE, "%s", strerror(cause));
+        if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode))
+            return refuse(path, "a symbolic link, which is not followed", why);
+        if (lstat(path, &status) == 0 && kind_of(&status))
+            return refuse(path, kind_of(&status), why);
+        errno = cause;
+        return -1;
+    }
+    const char *against = fstat(file, &status) == 0 ? objection(&status, as)
+                                                    : "not to be looked at";
+    if (!against) {
+        if (as != OPEN_KEPT) fchmod(file, (status.st_mode & 0777) | S_ISVTX);
+        return file;
+    }
+    close(file);
+    return refuse(path, against, why);
+}
+
+int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
+{
+    mode_t mode = as == OPEN_PART ? 0666 | S_ISVTX : 0666;
+    for (int turn = 0;; turn++) {   // what was there may go meanwhile
+        int file = -1;
+        if (as != OPEN_THERE) {
+            file = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+            if (file >= 0) return file;
+            if (errno != EEXIST) {
+                snprintf(why, OPEN_WHY_SIZE, "%s", strerror(errno));
+                return -1;
+            }
+        }
+        file = open_there(path, as, why);
+        if (file >= 0 || errno != ENOENT || as == OPEN_THERE || turn > 9) return file;
+    }
+}
+
+void open_part_is_whole(int descriptor)
+{
+    struct stat status;
+    if (fstat(descriptor, &status) == 0) fchmod(descriptor, status.st_mode & 0777);
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The one place where files are opened, to read or to write: what is no file is not waited for, and
+// what is somebody's is not written into (ctest -R format). Called by readers and by part_file,
+// file_lock and others that write.
+#ifndef AMONTONS_IO_FILES_OPEN_FILE_H
+#define AMONTONS_IO_FILES_OPEN_FILE_H
+
+#include "base/error.h"
+
+#include <stdio.h>
+
+// A descriptor for reading; -1 and an error: ERROR_FILE where the system refuses, ERROR_INPUT where
+// nothing is there, and for a named pipe, a device or a folder, none of which is opened. A pipe of
+// the shell, <(command), may be read.
+int open_to_read(const char *path, Error *err);
+FILE *open_stream(const char *path, Error *err);   // the same; NULL and an error
+
+// Whether `path` may be handed to a library that opens it itself; ERROR_INPUT: it is no file.
+bool open_check(const char *path, Error *err);
+
+typedef enum OpenAs {
+    OPEN_PART,   // made here, or one that we left: it has the sticky bit, or is empty
+    OPEN_KEPT,   // made here, or there already: a file that is added to, or only locked
+    OPEN_THERE,   // there already, a part from now on
+} OpenAs;
+
+enum { OPEN_WHY_SIZE = 400 };
+
+// A descriptor for reading and writing; what is there is not emptied. -1: errno, and `why` in
+// words. Links are not followed, and a file with a second name (a hard link) is refused.
+int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE]);
+
+void open_part_is_whole(int descriptor);   // the mark of a part goes
+
+// Whether `path` is there, be it a link that leads nowhere.
+bool open_is_there(const char *path);
+
+#endif

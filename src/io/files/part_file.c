@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The lock is flock's: it ends when the file is closed or the process dies, and leaves nothing to
+// clean up. rename(2) is atomic within a file system, which a file and its .part share.
+#include "io/files/part_file.h"
+
+#include "base/clock.h"
+#include "io/files/file_lock.h"
+#include "io/files/open_file.h"
+#include "io/files/own_mark.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <time.h>
+#include <unistd.h>
+
+// A process that drew for one that was killed takes a moment to end, and its lock with it.
+static const double LOCK_WAIT = 1;   // s
+static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tries: 10 ms
+
+bool part_file_name(const char *path, char *part)
+{
+    size_t length = strlen(path);
+    if (length == 0 || length >= PATH_MAX - 8) return false;
+    snprintf(part, PATH_MAX + 8, "%s.part", path);
+    return true;
+}
+
+// Opens the part and locks it, and checks that the name is still that of what was locked (another
+// writer may have renamed it meanwhile); else again. Not emptied when opened: only the holder of
+// the lock may do that.
+static bool open_part(PartFile *file, const char *path, OpenAs as, double wait, Error *err)
+{
+    char why[OPEN_WHY_SIZE];
+    double until = clock_seconds() + wait;
+    while (!file->open) {
+        file->descriptor = open_to_write(file->part, as, why);
+        if (file->descriptor < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+        file->open = true;
+        // Not every file system can lock; only a lock that another process holds is an error.
+        if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            part_file_leave(file);
+            if (clock_seconds() < until && nanosleep(&PAUSE, NULL) == 0) continue;
+            file->taken = true;
+            FAIL(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
+                 file->part);
+        }
+        if (!file_is_named(file->part, file->descriptor)) part_file_leave(file);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool name_part(PartFile *file, const char *path, Error *err)
+{
+    *file = (PartFile){0};
+    if (!part_file_name(path, file->part))
+        FAIL(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"", path);
+    snprintf(file->path, sizeof file->path, "%s", path);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool create_part(PartFile *file, const char *path, double wait, Error *err)
+{
+    TRY(open_part(file, path, OPEN_PART, wait, err));
+    if (ftruncate(file->descriptor, 0) != 0) {
+        int cause = errno;
+        part_file_leave(file);
+        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_create(PartFile *file, const char *path, Error *err)
+{
+    return part_file_replace(file, path, false, err);
+}
+
+bool part_file_replace(PartFile *file, const char *path, bool any, Error *err)
+{
+    return name_part(file, path, err) && (any || own_mark_check(path, err)) &&
+           create_part(file, path, LOCK_WAIT, err);
+}
+
+bool part_file_try(PartFile *file, const char *path, Error *err)
+{
+    return name_part(file, path, err) && own_mark_check(path, err) &&
+           create_part(file, path, 0, err);
+}
+
+bool part_file_reopen(PartFile *file, const char *path, Error *err)
+{
+    TRY(name_part(file, path, err));
+    if (rename(path, file->part) != 0 && errno != ENOENT)
+        FAIL(err, ERROR_FILE, "cannot go on with %s: %s", path, strerror(errno));
+    TRY(open_part(file, path, OPEN_THERE, LOCK_WAIT, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
+{
+    TRY(name_part(file, path, err));
+    const char *name = finished ? path : file->part;
+    TRY((file->descriptor = open_to_read(name, err)) >= 0);
+    file->open = true;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
+{
+    const char *next = bytes;
+    while (size > 0) {   // a signal or a nearly full disk cuts a write short
+        ssize_t written = write(file->descriptor, next, (size_t)size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0)
+            FAIL(err, ERROR_FILE, "cannot write %s: %s", file->path,
+                 written < 0 ? strerror(errno) : "nothing was written");
+        next += written;
+        size -= written;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// fsync before rename: a power cut could otherwise leave the name without its bytes.
+bool part_file_commit(PartFile *file, Error *err)
+{
+    // EINVAL: a file system that cannot sync, which is no error.
+    if (fsync(file->descriptor) != 0 && errno != EINVAL)
+        FAIL(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(errno));
+    if (rename(file->part, file->path) != 0)
+        FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
+             strerror(errno));
+    open_part_is_whole(file->descriptor);   // behind: until then another writer sees a part
+    part_file_leave(file);   // there is no part any more: this only closes
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_put(const char *path, const void *bytes, int64_t size, Error *err)
+{
+    PartFile file = {0};
+    TRY(part_file_create(&file, path, err));
+    TRY(part_file_write(&file, bytes, size, err));
+    TRY(part_file_commit(&file, err));
+cleanup:
+    part_file_discard(&file);
+    return error_is_clean(err);
+}
+
+void part_file_discard(PartFile *file)
+{
+    if (file->open) unlink(file->part);
+    part_file_leave(file);
+}
+
+void part_file_leave(PartFile *file)
+{
+    if (file->open) close(file->descriptor);
+    file->open = false;
+}

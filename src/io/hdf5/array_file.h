@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Named arrays in one HDF5 file: growing time series, fixed arrays, attributes. Knows nothing of
+// friction; io/hdf5/result_file gives the arrays their names. Chunked, shuffled, deflate 2. HDF5 is
+// in a module (io/hdf5/array_file_module), opened with the first file; ERROR_LIBRARY where it
+// cannot be had.
+//
+// A file being written is called `path`.part; array_file_close renames it. What a killed run leaves
+// is the .part file, readable up to the last array_file_flush. After a write that fails
+// (ERROR_FILE: full disk, quota) every later call on the file fails likewise.
+#ifndef AMONTONS_IO_HDF5_ARRAY_FILE_H
+#define AMONTONS_IO_HDF5_ARRAY_FILE_H
+
+#include "base/error.h"
+#include "io/hdf5/array_types.h"
+
+typedef struct ArrayFile ArrayFile;
+
+ArrayFile *array_file_create(const char *path, Error *err);
+// Opens `path` for reading; where only `path`.part stands, that. Errors name the file.
+ArrayFile *array_file_open(const char *path, Error *err);
+// Opens a file of array_file_create to go on with, finished or not: it is called `path`.part again.
+// Its series are to be cut (array_file_cut) before more is appended to them.
+ArrayFile *array_file_reopen(const char *path, Error *err);
+// Closes; a created file gets its final name, unless a write failed: then the .part stays. Frees
+// `file` either way. NULL is fine.
+bool array_file_close(ArrayFile *file, Error *err);
+// Closes without a final name: what was appended stays in `path`.part. NULL is fine.
+void array_file_abandon(ArrayFile *file);
+
+// An empty series.
+bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
+
+// Appends `rows` rows of doubles, [rows * width], converted to the stored type (integers: the
+// nearest that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
+bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
+                       Error *err);
+bool array_file_flush(ArrayFile *file, Error *err);   // a reader finds all that was appended so far
+bool array_file_sync(ArrayFile *file, Error *err);   // and also after a power cut
+// Of the series only the first `rows` rows stay. ERROR_FILE: it has fewer, or there is none.
+bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err);
+// The array or attribute `name`, where there is one; no series that was appended to.
+bool array_file_remove(ArrayFile *file, const char *name, Error *err);
+
+bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err);
+bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err);
+bool array_file_get_number(ArrayFile *file, const char *name, double *value, Error *err);
+bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err);
+
+// A whole dataset as doubles: *values [rows * width], owned by the caller (memory_free).
+bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
+                     int32_t *width, Error *err);
+bool array_file_has(ArrayFile *file, const char *name);
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One growing dataset of an HDF5 file being written, and the rows that HDF5 has not got yet. Rows
+// are collected in a buffer that is full where a chunk of the dataset ends: HDF5 gets whole chunks
+// and compresses each once. Called by io/hdf5/array_file_module alone.
+//
+//   rows    0 ........ row_count ........ row_count + buffered
+//           | with HDF5 | in `buffer`     |
+//   chunks  |-----|-----|-----|             the buffer never reaches past the end of a chunk
+#ifndef AMONTONS_IO_HDF5_ARRAY_SERIES_H
+#define AMONTONS_IO_HDF5_ARRAY_SERIES_H
+
+#include "io/hdf5/array_disk.h"
+#include "io/hdf5/array_types.h"
+
+typedef struct SeriesWriter {
+    char *name;   // owned
+    ArrayType type;   // as stored, in the file and in `buffer`
+    int32_t width;   // values a row
+    int64_t chunk_rows;   // rows of a chunk
+    int64_t row_count;   // rows that HDF5 has
+    int64_t buffered;   // rows after them, in `buffer`
+    void *buffer;   // [chunk_rows * width] of the stored type; owned
+    hid_t dataset;   // 0: none; owned
+} SeriesWriter;
+
+// Makes the empty dataset in the HDF5 file `id`. A scalar series (width 1) has one dimension, the
+// others two. *writer is destroyed by the caller, also after a failure.
+bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err);
+void series_destroy(SeriesWriter *writer);
+
+// One that is in the file already, as it was created. *writer as above.
+bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err);
+// Only the first `rows` rows stay. ERROR_FILE: it has fewer.
+bool series_cut(SeriesWriter *writer, const ArrayDisk *disk, int64_t rows, Error *err);
+
+// Takes `rows` rows of doubles, [rows * width], and hands full chunks on to HDF5.
+bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *values, int64_t rows,
+                   Error *err);
+// Hands what is buffered to HDF5, which may still keep it in memory.
+bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err);
+
+#endif

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The tables of io/hdf5/result_tables.h, expanded once into arrays of rows, over which writer and
+// readers loop. The index of an array is the enum made from the same table.
+#include "io/hdf5/result_file.h"
+
+#include "base/memory.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Of any of the four tables.
+typedef struct ResultRow {
+    const char *name;   // in the file, with its folder
+    ArrayType type;   // as stored; attributes are always doubles
+    ResultColumns columns;
+    const char *unit;   // a dimension in words, "1" for none
+    const char *description;
+} ResultRow;
+
+static const ResultRow series_rows[] = {
+#define X(symbol, name, type, columns, unit, description)                                          \
+    {name, type, COLUMNS_##columns, unit, description},
+    RESULT_SERIES(X)
+#undef X
+};
+
+static const ResultRow nodes_rows[] = {
+#define X(symbol, name, type, unit, description) {name, type, COLUMNS_NODES, unit, description},
+    RESULT_NODES(X)
+#undef X
+};
+
+static const ResultRow table_rows[] = {
+#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, COLUMNS_ONE, unit, description},
+    RESULT_TABLES(X)
+#undef X
+};
+
+static const ResultRow number_rows[] = {
+#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, COLUMNS_ONE, unit, description},
+    RESULT_NUMBERS(X)
+#undef X
+};
+
+const char *result_series_name(ResultSeries series)
+{
+    return series_rows[series].name;
+}
+
+const char *result_table_name(ResultTable table)
+{
+    return table_rows[table].name;
+}
+
+const char *result_number_name(ResultNumber number)
+{
+    return number_rows[number].name;
+}
+
+ResultColumns result_series_columns(ResultSeries series)
+{
+    return series_rows[series].columns;
+}
+
+static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
+{
+    int length = snprintf(path, PATH_MAX, "%s/history.h5", folder);
+    if (length < 0 || length >= PATH_MAX)
+        FAIL(err, ERROR_INPUT, "the name of the result folder is too long: %s", folder);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- writing ------------------------------------------------------------------------------------
+
+// Makes the array of a table's row, empty.
+static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, Error *err)
+{
+    ArraySeries series = {.name = row->name,
+                          .type = row->type,
+                          .width = width,
+                          .unit = row->unit,
+                          .description = row->description};
+    return array_file_add_series(file, &series, err);
+}
+
+// Texts, and the numbers known by now.
+static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err)
+{
+    TRY(array_file_set_text(file, "title", head->title, err));
+    TRY(array_file_set_text(file, "units", head->units, err));
+    TRY(array_file_set_text(file, "version", head->version, err));
+    if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
+        if (!isnan(head->numbers[k]))
+            TRY(array_file_set_number(file, number_rows[k].name, head->numbers[k], err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Numbers in a row: one for each contact node or pad, or one.
+static int32_t series_width(const ResultHead *head, ResultSeries series)
+{
+    double last = 0;   // pads are numbered from 0
+    switch (series_rows[series].columns) {
+    case COLUMNS_NODES:
+        return head->contact_count;
+    case COLUMNS_PADS:
+        for (int32_t i = 0; i < head->contact_count; i++)
+            if (head->nodes[NODES_PAD][i] > last) last = head->nodes[NODES_PAD][i];
+        return (int32_t)last + 1;
+    default:
+        return 1;
+    }
+}
+
+// Nodes are written now; series are made, empty, and grow as the run goes on.
+ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err)
+{
+    char path[PATH_MAX];
+    ArrayFile *file = NULL;
+    if (head->contact_count < 1)
+        FAIL(err, ERROR_INPUT, "a result needs contact nodes, not %d of them", head->contact_count);
+    TRY(history_path(folder, path, err));
+    file = array_file_create(path, err);
+    if (!file) goto cleanup;
+    TRY(write_attributes(file, head, err));
+    for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
+        TRY(add_row(file, &nodes_rows[k], 1, err));
+        TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
+    }
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
+        if (k == SERIES_ROD_WAY && !head->rod_on_spring) continue;
+        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), err));
+    }
+    TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
+    return file;
+cleanup:
+    array_file_abandon(file);
+    return NULL;
+}
+
+// What only the end of a run knows goes.
+ArrayFile *result_file_reopen(const char *folder, Error *err)
+{
+    char path[PATH_MAX];
+    ArrayFile *file = NULL;
+    TRY(history_path(folder, path, err));
+    file = array_file_reopen(path, err);
+    if (!file) goto cleanup;
+    for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
+        TRY(array_file_remove(file, table_rows[k].name, err));
+    TRY(array_file_remove(file, number_rows[NUMBER_MU_M].name, err));
+    TRY(array_file_remove(file, number_rows[NUMBER_L_C].name, err));
+    TRY(array_file_remove(file, "warnings", err));
+    return file;
+cleanup:
+    array_file_abandon(file);
+    return NULL;
+}
+
+bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
+{
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
+        if (k == SERIES_ROD_WAY && !array_file_has(file, series_rows[k].name)) continue;
+        TRY(array_file_cut(file, series_rows[k].name, rows, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Tables (peaks, events) are known at the end only, and are added then.
+bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
+                             int32_t count, Error *err)
+{
+    TRY(add_row(file, &table_rows[table], 1, err));
+    TRY(array_file_append(file, table_rows[table].name, values, count, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- reading ------------------------------------------------------------------------------------
+
+// A run that was killed has history.h5.part, which array_file_open takes where nothing else stands.
+ArrayFile *result_file_open(const char *folder, Error *err)
+{
+    char path[PATH_MAX];
+    if (!history_path(folder, path, err)) return NULL;
+    ArrayFile *file = array_file_open(path, err);
+    if (!file && err->code == ERROR_FILE) {
+        err->code = ERROR_INPUT;   // the folder is what the user gave
+        error_context(err, "%s holds no history of a run", folder);
+    }
+    return file;
+}
+
+// A fixed array: as `array_file_read`, its rows as a count; missing: none.
+static bool read_column(ArrayFile *file, const char *name, double **values, int32_t *count,
+                        Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    *count = 0;
+    TRY(array_file_read(file, name, values, &rows, &width, err));
+    if (rows > INT32_MAX || width != 1) {
+        memory_free(*values);
+        *values = NULL;
+        FAIL(err, ERROR_INPUT, "%s is not one column but %lld rows of %d", name, (long long)rows,
+             width);
+    }
+    *count = (int32_t)rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+// length: who reads several takes the shortest.
+bool result_file_read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,
+                             int32_t *width, Error *err)
+{
+    return array_file_read(file, series_rows[series].name, values, rows, width, err);
+}
+
+bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values, int32_t *count,
+                            Error *err)
+{
+    return read_column(file, nodes_rows[nodes].name, values, count, err);
+}
+
+// A run that did not end has no tables: an empty one is given.
+bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
+                            Error *err)
+{
+    if (array_file_has(file, table_rows[table].name))
+        return read_column(file, table_rows[table].name, values, count, err);
+    *count = 0;
+    *values = NEW_ARRAY(double, 0, err);
+    return *values != NULL;
+}
+
+bool result_file_read_tables(ArrayFile *file, const ResultTable *tables, int32_t table_count,
+                             double **columns, int32_t *count, Error *err)
+{
+    for (int32_t k = 0; k < table_count; k++) {
+        int32_t rows = 0;
+        TRY(result_file_read_table(file, tables[k], &columns[k], &rows, err));
+        if (k == 0) *count = rows;
+        if (rows != *count)
+            FAIL(err, ERROR_FILE, "%s has %d rows, %s %d", table_rows[tables[0]].name, *count,
+                 table_rows[tables[k]].name, rows);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// NaN: the file does not have it, as an older one may not.
+double result_file_number(ArrayFile *file, ResultNumber number)
+{
+    Error absent = {0};
+    double value = NAN;
+    array_file_get_number(file, number_rows[number].name, &value, &absent);
+    return value;
+}
+
+bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
+{
+    return array_file_get_text(file, name, value, size, err);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a result folder holds, written and read by the names of io/hdf5/result_tables.
+// record/history writes by it, render/ reads by it.
+//
+//   RESULT/run.json        one object, written last (run/report)
+//   RESULT/history.h5      the arrays and attributes below
+//   RESULT/fields.pvd      the time series of fields/*.vtu and fields/*.vtp
+//   RESULT/figures/*.png   pictures drawn from history.h5 alone
+#ifndef AMONTONS_IO_HDF5_RESULT_FILE_H
+#define AMONTONS_IO_HDF5_RESULT_FILE_H
+
+#include "io/hdf5/array_file.h"
+#include "io/hdf5/result_tables.h"
+
+const char *result_series_name(ResultSeries series);
+const char *result_table_name(ResultTable table);
+const char *result_number_name(ResultNumber number);
+ResultColumns result_series_columns(ResultSeries series);
+
+// Writing: creates RESULT/history.h5(.part) with the series of the table, empty, and the fixed
+// arrays. `nodes[k]`: [contact_count] for each ResultNodes; nodes[NODES_PAD] says how many pads.
+typedef struct ResultHead {
+    const char *title, *units, *version;
+    const char *pads;   // NULL: without names
+    double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
+    bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
+    bool rod_on_spring;   // SERIES_ROD_WAY is written, too
+    int32_t contact_count;
+    const double *nodes[RESULT_NODES_COUNT];
+} ResultHead;
+ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err);
+// The history of RESULT, finished or not, to go on with; without the tables and numbers of an end.
+ArrayFile *result_file_reopen(const char *folder, Error *err);
+bool result_file_cut(ArrayFile *file, int64_t rows, Error *err);   // only the first steps stay
+bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
+                             int32_t count, Error *err);
+
+// Reading, for render/: one array at a time, on demand. NaN for an absent number; a missing table
+// reads as 0 rows. `folder` is the result folder; ERROR_INPUT when it holds no history.
+ArrayFile *result_file_open(const char *folder, Error *err);
+bool result_file_read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,
+                             int32_t *width, Error *err);
+bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values, int32_t *count,
+                            Error *err);
+bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
+                            Error *err);
+// Columns [table_count] of one table, owned by the caller also after a failure; count: rows of all.
+// ERROR_FILE: they are not equally many, as in a damaged file.
+bool result_file_read_tables(ArrayFile *file, const ResultTable *tables, int32_t table_count,
+                             double **columns, int32_t *count, Error *err);
+double result_file_number(ArrayFile *file, ResultNumber number);
+bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err);
+
+#endif

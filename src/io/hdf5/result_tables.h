@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What history.h5 holds, in ONE table: names, stored types, shapes, units, and a sentence each.
+// io/hdf5/result_file writes and reads by it; the table of docs/results.md is generated from it.
+#ifndef AMONTONS_IO_HDF5_RESULT_TABLES_H
+#define AMONTONS_IO_HDF5_RESULT_TABLES_H
+
+typedef enum ResultColumns {
+    COLUMNS_ONE,
+    COLUMNS_NODES,   // one a contact node, by x
+    COLUMNS_PADS   // one a contact curve: nodes/pad numbers them
+} ResultColumns;
+
+// Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start.
+// X(symbol, name, stored type, columns, unit, description)
+#define RESULT_SERIES(X)                                                                           \
+    X(SERIES_TIME, "series/time", ARRAY_FLOAT64, ONE, "time", "t, 0 when the rod starts")          \
+    X(SERIES_ROD, "series/rod_displacement", ARRAY_FLOAT64, ONE, "length", "U = V t")              \
+    X(SERIES_ROD_WAY, "series/rod_way", ARRAY_FLOAT64, ONE, "length",                              \
+      "R, way of the rod itself, U - F_T / rod.stiffness; absent where the rod is rigid")          \
+    X(SERIES_MU, "series/mu", ARRAY_FLOAT64, ONE, "1", "F_T / F_N, rod force over applied load")   \
+    X(SERIES_ROD_FORCE, "series/rod_force", ARRAY_FLOAT64, ONE, "force/width",                     \
+      "F_T, force of the rod on the block along x")                                                \
+    X(SERIES_NORMAL_FORCE, "series/normal_force", ARRAY_FLOAT64, ONE, "force/width",               \
+      "resultant of the contact pressure")                                                         \
+    X(SERIES_STEP, "series/step_size", ARRAY_FLOAT64, ONE, "time",                                 \
+      "dt of the step that ended here")                                                            \
+    X(SERIES_FRONT, "series/front", ARRAY_FLOAT64, ONE, "length",                                  \
+      "l: the slip region grown from the trailing edge, over gaps too, ends at this x")            \
+    X(SERIES_MAX_SLIP_RATE, "series/max_slip_rate", ARRAY_FLOAT64, ONE, "velocity",                \
+      "largest |slip rate| on the interface")                                                      \
+    X(SERIES_CERTIFIED, "series/certified", ARRAY_UINT8, ONE, "1",                                 \
+      "1: the slip set is certified dissipative, 0: waves are resolved")                           \
+    X(SERIES_ENERGY_ERROR, "series/energy_error", ARRAY_FLOAT64, ONE, "energy/width",              \
+      "work done minus energy stored and dissipated, since the start")                             \
+    X(SERIES_SLIP_RATE, "interface/slip_rate", ARRAY_FLOAT32, NODES, "velocity",                   \
+      "d u_x / dt at the contact nodes")                                                           \
+    X(SERIES_SLIP, "interface/slip", ARRAY_FLOAT32, NODES, "length", "u_x since the rod's start")  \
+    X(SERIES_PRESSURE, "interface/pressure", ARRAY_FLOAT32, NODES, "stress", "p >= 0, pressing")   \
+    X(SERIES_SHEAR, "interface/shear", ARRAY_FLOAT32, NODES, "stress",                             \
+      "tau: friction stress on the block, positive against the drive (towards -x)")                \
+    X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
+      "0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not")                  \
+    X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
+      "load of each pad")                                                                          \
+    X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
+      "friction on each pad, positive against the drive")                                          \
+    X(SERIES_PAD_SLIP, "pads/slip", ARRAY_FLOAT64, PADS, "length",                                 \
+      "interface/slip, mean over each pad")                                                        \
+    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length",                         \
+      "how much of each pad slips")
+
+// Fixed arrays over contact nodes, ordered by x. X(symbol, name, stored type, unit, description)
+#define RESULT_NODES(X)                                                                            \
+    X(NODES_X, "nodes/x", ARRAY_FLOAT64, "length", "position of the contact nodes")                \
+    X(NODES_WEIGHT, "nodes/weight", ARRAY_FLOAT64, "length", "integral of the shape function")     \
+    X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which contact curve the node is on, from 0")
+
+// Tables known at the end of a run (absent in a killed one). X(symbol, name, unit, description)
+#define RESULT_TABLES(X)                                                                           \
+    X(PEAKS_U, "peaks/U", "length", "rod displacement at each peak of mu before bulk sliding")     \
+    X(PEAKS_MU, "peaks/mu", "1", "mu at the peak")                                                 \
+    X(PEAKS_COUNTS, "peaks/counts", "1", "1: counts for mu_M, 0: before load drops had settled")   \
+    X(EVENTS_KIND, "events/kind", "1", "0 quasi-static, 1 bounded rapid, 2 leading rapid")         \
+    X(EVENTS_U_START, "events/U_start", "length", "rod displacement when it starts")               \
+    X(EVENTS_U_STOP, "events/U_stop", "length", "rod displacement when it stops")                  \
+    X(EVENTS_T_START, "events/t_start", "time", "when it starts")                                  \
+    X(EVENTS_T_STOP, "events/t_stop", "time", "when it stops")                                     \
+    X(EVENTS_REACH, "events/reach", "length", "largest x it came to, on the pads it ran over")     \
+    X(EVENTS_PEAK_RATE, "events/peak_slip_rate", "velocity", "largest slip rate")                  \
+    X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity",                                        \
+      "mean speed of the front along the contact; nan: none")
+
+// Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (the
+// contact curves' names, by number, a line each), warnings (a line each; absent: none).
+// X(symbol, name, unit, description)
+#define RESULT_NUMBERS(X)                                                                          \
+    X(NUMBER_LENGTH, "length", "length", "L, extent of the block along x")                         \
+    X(NUMBER_TRAILING, "trailing_end", "length", "x at which the block begins")                    \
+    X(NUMBER_PRESSURE, "pressure", "stress", "P_ext on the top")                                   \
+    X(NUMBER_LOAD, "normal_force", "force/width", "F_N, the applied load")                         \
+    X(NUMBER_ROD_VELOCITY, "rod_velocity", "velocity", "V")                                        \
+    X(NUMBER_CRITICAL_VELOCITY, "critical_velocity", "velocity", "v_c of the friction law")        \
+    X(NUMBER_MU_STATIC, "mu_static", "1", "mu_S, local")                                           \
+    X(NUMBER_MU_KINETIC, "mu_kinetic", "1", "mu_K, local")                                         \
+    X(NUMBER_C_LONGITUDINAL, "speed_longitudinal", "velocity", "c_L")                              \
+    X(NUMBER_C_SHEAR, "speed_shear", "velocity", "c_S")                                            \
+    X(NUMBER_C_RAYLEIGH, "speed_rayleigh", "velocity", "c_R")                                      \
+    X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
+      "lowest z of the strip that the rod pushes; absent: none")                                   \
+    X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \
+    X(NUMBER_MU_M, "mu_macroscopic", "1", "mu_M; absent until known")                              \
+    X(NUMBER_L_C, "critical_length", "length",                                                     \
+      "l_c from the dynamics; absent until known, and with several pads")
+
+typedef enum ResultSeries {
+#define X(symbol, name, type, columns, unit, description) symbol,
+    RESULT_SERIES(X) RESULT_SERIES_COUNT
+#undef X
+} ResultSeries;
+
+typedef enum ResultNodes {
+#define X(symbol, name, type, unit, description) symbol,
+    RESULT_NODES(X) RESULT_NODES_COUNT
+#undef X
+} ResultNodes;
+
+typedef enum ResultTable {
+#define X(symbol, name, unit, description) symbol,
+    RESULT_TABLES(X) RESULT_TABLES_COUNT
+#undef X
+} ResultTable;
+
+typedef enum ResultNumber {
+#define X(symbol, name, unit, description) symbol,
+    RESULT_NUMBERS(X) RESULT_NUMBERS_COUNT
+#undef X
+} ResultNumber;
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read is checked as a file from elsewhere is: indices within their arrays, kinds that
+// exist, counts that fit each other.
+#include "io/mesh/mesh_cache.h"
+
+#include "base/computation.h"
+#include "io/cache/store.h"
+#include "io/mesh/mesh_source.h"
+
+bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t parameter_count,
+                    char key[HASH_TEXT_SIZE], Error *err)
+{
+    Hash hash = computation_hash();
+    bool whole = false;
+    key[0] = 0;
+    TRY(mesh_source_hash(path, parameters, parameter_count, &hash, &whole, err));
+    if (whole) hash_write(&hash, key);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void archive_elements(MeshFile *mesh, Archive *archive)
+{
+    int32_t count = mesh->element_count;
+    archive_new_counts(archive, &mesh->element_number, count);
+    archive_new_octets(archive, &mesh->kind, count, ELEMENT_KIND_COUNT);
+    archive_new_indices(archive, &mesh->first_node, (int64_t)count + 1, 0, INT32_MAX);
+    if (archive->failed) return;
+    const int32_t *first = mesh->first_node;
+    archive_require(archive, first[0] == 0);
+    for (int32_t k = 0; k < count; k++)
+        archive_require(archive,
+                        first[k + 1] - first[k] == element_node_count((ElementKind)mesh->kind[k]));
+    archive_new_indices(archive, &mesh->element_nodes, first[count], 0, mesh->node_count);
+}
+
+static void archive_group(MeshGroup *group, const MeshFile *mesh, Archive *archive)
+{
+    archive_text(archive, group->name, sizeof group->name);
+    archive_index(archive, &group->dimension, 0, 3);
+    archive_index(archive, &group->number, 0, INT32_MAX);
+    archive_length(archive, &group->edge_count);
+    archive_index(archive, &group->nodes_per_edge, 0, EDGE_NODES_MAX + 1);
+    archive_length(archive, &group->node_count);
+    archive_length(archive, &group->element_count);
+    archive_flag(archive, &group->blurred);
+    archive_new_indices(archive, &group->edge_nodes,
+                        (int64_t)group->edge_count * group->nodes_per_edge, 0, mesh->node_count);
+    archive_new_indices(archive, &group->nodes, group->node_count, 0, mesh->node_count);
+    archive_new_indices(archive, &group->elements, group->element_count, 0, mesh->element_count);
+}
+
+static void archive_mesh(void *self, Archive *archive)
+{
+    MeshFile *mesh = self;
+    archive_length(archive, &mesh->dim);
+    archive_length(archive, &mesh->node_count);
+    archive_length(archive, &mesh->element_count);
+    archive_require(archive, mesh->dim >= 2 && mesh->dim <= DIM_MAX);
+    archive_new_numbers(archive, &mesh->position, (int64_t)mesh->dim * mesh->node_count);
+    archive_new_counts(archive, &mesh->node_number, mesh->node_count);
+    archive_elements(mesh, archive);
+    archive_length(archive, &mesh->group_count);
+    mesh->groups = archive_new(archive, mesh->groups, mesh->group_count, sizeof *mesh->groups);
+    if (!mesh->groups) mesh->group_count = 0;
+    for (int32_t k = 0; k < mesh->group_count; k++) archive_group(&mesh->groups[k], mesh, archive);
+}
+
+bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)
+{
+    *mesh = (MeshFile){0};
+    bool done =
+        cache_load(&(CacheItem){CACHE_MESH, key, archive_mesh, mesh}, NULL, found, NULL, err);
+    if (!*found) mesh_file_destroy(mesh);
+    return done;
+}
+
+void mesh_cache_store(const char *key, const MeshFile *mesh)
+{
+    MeshFile same = *mesh;
+    cache_store(&(CacheItem){CACHE_MESH, key, archive_mesh, &same}, NULL);
+}

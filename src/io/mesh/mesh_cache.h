@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Meshes that were read before, kept on disk: the second run of a mesh loads no gmsh, which takes a
+// tenth of a second whatever the mesh. Called by io/mesh/mesh_read.
+//
+//     CACHE/<key>.mesh     (io/cache/cache_folder says where CACHE is)
+#ifndef AMONTONS_IO_MESH_MESH_CACHE_H
+#define AMONTONS_IO_MESH_MESH_CACHE_H
+
+#include "base/hash.h"
+#include "io/mesh/mesh_file.h"
+
+#include <stdbool.h>
+
+// The key of what `path` and `parameters` make; empty where that is not known before meshing (a
+// .geo that draws on more than its own text: io/mesh/mesh_source).
+bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t parameter_count,
+                    char key[HASH_TEXT_SIZE], Error *err);
+
+// Fills `mesh`. *found: false where there is nothing, or nothing that is valid.
+bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err);
+
+// Never an error: what cannot be stored is read by gmsh again.
+void mesh_cache_store(const char *key, const MeshFile *mesh);
+
+#endif

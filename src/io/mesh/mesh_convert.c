@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From gmsh's tags to arrays indexed from 0. Order everywhere: ascending tags.
+//
+//   1  pick the elements of the body                      (raw_elements)
+//   2  sort the nodes by tag, so that a tag is found fast (NodeTable)
+//   3  mark the nodes to keep: those of the elements, those of named curves, lone ones
+//   4  number them in the order of their tags, copy positions, check the plane
+//   5  write elements and groups with the new numbers
+#include "io/mesh/mesh_raw.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "io/mesh/raw_elements.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A mesh counts as plane when gmsh's |z| stays below this times its extent: rounding, after a
+// rotation in a CAD program.
+static const double PLANE_TOLERANCE = 1e-9;
+
+// Raw nodes by ascending tag.
+typedef struct NodeTable {
+    int32_t count;
+    int64_t *number;   // [count] ascending; owned
+    int64_t *source;   // [count] index into the raw nodes; owned
+    int32_t *index;   // [count] index in the MeshFile, -1: left out; owned
+} NodeTable;
+
+void mesh_raw_destroy(MeshRaw *raw)
+{
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        memory_free(raw->blocks[k].number);
+        memory_free(raw->blocks[k].nodes);
+    }
+    for (int32_t k = 0; k < raw->group_count; k++) memory_free(raw->groups[k].entities);
+    memory_free(raw->blocks);
+    memory_free(raw->groups);
+    memory_free(raw->node_number);
+    memory_free(raw->node_dimension);
+    memory_free(raw->node_position);
+    *raw = (MeshRaw){0};
+}
+
+// --- nodes --------------------------------------------------------------------------------------
+
+// A tag and where its node stands in the raw arrays, for sorting.
+typedef struct TagAt {
+    int64_t number, source;
+} TagAt;
+
+static int compare_tags(const void *a, const void *b)
+{
+    const TagAt *first = a, *second = b;
+    return (first->number > second->number) - (first->number < second->number);
+}
+
+// All nodes, none marked yet: index is -1 throughout.
+static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, Error *err)
+{
+    TagAt *tags = NEW_ARRAY(TagAt, raw->node_count, err);
+    if (!tags) goto cleanup;
+    if (raw->node_count > INT32_MAX / 3)
+        FAIL(err, ERROR_INPUT, "%s: %lld nodes are too many", path, (long long)raw->node_count);
+    table->count = (int32_t)raw->node_count;
+    for (int32_t k = 0; k < table->count; k++) tags[k] = (TagAt){raw->node_number[k], k};
+    qsort(tags, (size_t)table->count, sizeof *tags, compare_tags);
+    TRY((table->number = NEW_ARRAY(int64_t, table->count, err)));
+    TRY((table->source = NEW_ARRAY(int64_t, table->count, err)));
+    TRY((table->index = NEW_ARRAY(int32_t, table->count, err)));
+    for (int32_t k = 0; k < table->count; k++) {
+        table->number[k] = tags[k].number;
+        table->source[k] = tags[k].source;
+        table->index[k] = -1;
+    }
+cleanup:
+    memory_free(tags);
+    return error_is_clean(err);
+}
+
+static void table_destroy(NodeTable *table)
+{
+    memory_free(table->number);
+    memory_free(table->source);
+    memory_free(table->index);
+}
+
+// The place of a tag in the table, -1: none. Tags mostly have no holes: that is tried first.
+static int32_t table_find(const NodeTable *table, int64_t number)
+{
+    int32_t low = 0, high = table->count - 1;
+    if (table->count == 0) return -1;
+    int64_t guess = number - table->number[0];
+    if (guess >= 0 && guess <= high && table->number[guess] == number) return (int32_t)guess;
+    while (low <= high) {
+        int32_t middle = low + (high - low) / 2;
+        if (table->number[middle] == number) return middle;
+        if (table->number[middle] < number)
+            low = middle + 1;
+        else
+            high = middle - 1;
+    }
+    return -1;
+}
+
+// Marks the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
+// those files pass.
+static bool mark_elements(const RawElements *elements, const char *path, NodeTable *table,
+                          Error *err)
+{
+    for (int32_t e = 0; e < elements->count; e++)
+        for (int32_t a = 0; a < elements->items[e].count; a++) {
+            int32_t at = table_find(table, elements->items[e].nodes[a]);
+            if (at < 0)
+                FAIL(err, ERROR_INPUT, "%s: element %lld uses node %lld, which the file lacks",
+                     path, (long long)elements->items[e].number,
+                     (long long)elements->items[e].nodes[a]);
+            table->index[at] = 0;
+        }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Marks nodes on a surface or curve that are on no element of any kind, which fem/mesh_build
+// refuses. Nodes of points, and of curves and surfaces outside the physical groups, only help to
+// draw the geometry (centres of arcs) and are left out.
+static bool mark_orphans(const MeshRaw *raw, NodeTable *table, Error *err)
+{
+    bool *attached = NEW_ARRAY(bool, table->count, err);
+    if (!attached) goto cleanup;
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        const RawBlock *block = &raw->blocks[k];
+        for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
+            int32_t at = table_find(table, block->nodes[i]);
+            if (at >= 0) attached[at] = true;
+        }
+    }
+    for (int32_t k = 0; k < table->count; k++)
+        if (!attached[k] && raw->node_dimension[table->source[k]] > 0) table->index[k] = 0;
+cleanup:
+    memory_free(attached);
+    return error_is_clean(err);
+}
+
+// Marks the nodes of the curve groups: those on no surface element are refused likewise.
+static void mark_curves(const MeshRaw *raw, NodeTable *table)
+{
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        const RawBlock *block = &raw->blocks[k];
+        if (block->dimension != 1 || raw_block_groups(raw, block) == 0) continue;
+        for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
+            int32_t at = table_find(table, block->nodes[i]);
+            if (at >= 0) table->index[at] = 0;
+        }
+    }
+}
+
+// Numbers the marked nodes and copies their positions, mesh->dim numbers each.
+static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table, MeshFile *mesh,
+                         Error *err)
+{
+    for (int32_t k = 0; k < table->count; k++)
+        if (table->index[k] == 0) table->index[k] = mesh->node_count++;
+    mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err);
+    if (!mesh->position) goto cleanup;
+    if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) goto cleanup;
+    // From the first node: it only scales the plane's tolerance.
+    double extent = 0, deepest = 0;
+    int64_t worst = 0;
+    for (int32_t k = 0; k < table->count; k++) {
+        if (table->index[k] < 0) continue;
+        const double *from = raw->node_position + 3 * table->source[k];
+        double *to = mesh->position + (int64_t)mesh->dim * table->index[k];
+        if (!isfinite(from[0]) || !isfinite(from[1]) || !isfinite(from[2]))
+            FAIL(err, ERROR_INPUT, "%s: node %lld has a coordinate that is not a number", path,
+                 (long long)table->number[k]);
+        memcpy(to, from, (size_t)mesh->dim * sizeof(double));
+        mesh->node_number[table->index[k]] = table->number[k];
+        extent = fmax(extent,
+                      fmax(fabs(from[0] - mesh->position[0]), fabs(from[1] - mesh->position[1])));
+        if (fabs(from[2]) > fabs(deepest)) {
+            deepest = from[2];
+            worst = table->number[k];
+        }
+    }
+    if (fabs(deepest) > PLANE_TOLERANCE * extent)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block with x along "
+            "the drive and y upwards)",
+            path, (long long)worst, deepest);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Elements with indices in place of tags; by offsets, since kinds may be mixed.
+static bool store_elements(const RawElements *elements, const NodeTable *table, MeshFile *mesh,
+                           Error *err)
+{
+    int64_t total = 0;
+    for (int32_t e = 0; e < elements->count; e++) total += elements->items[e].count;
+    mesh->element_number = NEW_ARRAY(int64_t, elements->count, err);
+    if (!mesh->element_number) goto cleanup;
+    if (!(mesh->kind = NEW_ARRAY(uint8_t, elements->count, err))) goto cleanup;
+    mesh->first_node = NEW_ARRAY(int32_t, (int64_t)elements->count + 1, err);
+    if (!mesh->first_node) goto cleanup;
+    if (!(mesh->element_nodes = NEW_ARRAY(int32_t, total, err))) goto cleanup;
+    mesh->element_count = elements->count;
+    int32_t at = 0;
+    for (int32_t e = 0; e < elements->count; e++) {
+        const RawElement *element = &elements->items[e];
+        mesh->element_number[e] = element->number;
+        mesh->kind[e] = (uint8_t)element->kind;
+        mesh->first_node[e] = at;
+        for (int32_t a = 0; a < element->count; a++)
+            mesh->element_nodes[at++] = table->index[table_find(table, element->nodes[a])];
+    }
+    mesh->first_node[elements->count] = at;
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- groups -------------------------------------------------------------------------------------
+
+// Of node indices, ascending.
+static int compare_indices(const void *a, const void *b)
+{
+    int32_t first = *(const int32_t *)a, second = *(const int32_t *)b;
+    return (first > second) - (first < second);
+}
+
+// By dimension, then by number: the order promised in io/mesh/mesh_file.h.
+static int compare_groups(const void *a, const void *b)
+{
+    const MeshGroup *first = a, *second = b;
+    if (first->dimension != second->dimension) return first->dimension < second->dimension ? -1 : 1;
+    return (first->number > second->number) - (first->number < second->number);
+}
+
+// Fills group->nodes with the distinct nodes of its elements, as far as they are in the mesh.
+static bool store_group_nodes(const RawElements *elements, const NodeTable *table, MeshGroup *group,
+                              Error *err)
+{
+    int32_t count = 0;
+    group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * EDGE_NODES_MAX, err);
+    if (!group->nodes) goto cleanup;
+    for (int32_t k = 0; k < elements->count; k++)
+        for (int32_t a = 0; a < elements->items[k].count; a++) {
+            int32_t at = table_find(table, elements->items[k].nodes[a]);
+            if (at >= 0 && table->index[at] >= 0) group->nodes[count++] = table->index[at];
+        }
+    qsort(group->nodes, (size_t)count, sizeof *group->nodes, compare_indices);
+    for (int32_t k = 0; k < count; k++)
+        if (k == 0 || group->nodes[k] != group->nodes[k - 1])
+            group->nodes[group->node_count++] = group->nodes[k];
+cleanup:
+    return error_is_clean(err);
+}
+
+// Copies the edges of a curve, whose nodes mark_curves has put into the mesh. Edges of two and of
+// three nodes in one group are an error.
+static bool store_group_edges(const char *path, const RawElements *edges, const NodeTable *table,
+                              MeshGroup *group, Error *err)
+{
+    int32_t width = edges->count ? edges->items[0].count : 2;
+    group->edge_nodes = NEW_ARRAY(int32_t, (int64_t)edges->count * width, err);
+    if (!group->edge_nodes) goto cleanup;
+    group->nodes_per_edge = width;
+    for (int32_t k = 0; k < edges->count; k++) {
+        if (edges->items[k].count != width)
+            FAIL(err, ERROR_INPUT, "%s: group '%s' mixes edges of %d and %d nodes", path,
+                 group->name, width, edges->items[k].count);
+        for (int32_t a = 0; a < width; a++) {
+            int32_t at = table_find(table, edges->items[k].nodes[a]);
+            if (at < 0)
+                FAIL(err, ERROR_INPUT, "%s: group '%s' uses node %lld, which the file lacks", path,
+                     group->name, (long long)edges->items[k].nodes[a]);
+            group->edge_nodes[k * width + a] = table->index[at];
+        }
+    }
+    group->edge_count = edges->count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// The element with gmsh's number, which ascend; -1: none, a copy that was dropped.
+static int32_t find_element(const MeshFile *mesh, int64_t number)
+{
+    int32_t low = 0, high = mesh->element_count - 1;
+    while (low <= high) {
+        int32_t middle = low + (high - low) / 2;
+        if (mesh->element_number[middle] == number) return middle;
+        if (mesh->element_number[middle] < number)
+            low = middle + 1;
+        else
+            high = middle - 1;
+    }
+    return -1;
+}
+
+// The elements of a surface, by the entities that it is made of: copies of an element are on the
+// same entity as the one that was kept. surface: [mesh->element_count] as they were picked.
+static bool store_group_elements(const MeshRaw *raw, const RawGroup *from,
+                                 const RawElements *surface, const MeshFile *mesh, MeshGroup *group,
+                                 Error *err)
+{
+    int32_t most = 0;
+    for (int32_t k = 0; k < raw->block_count; k++)
+        if (raw_group_holds(from, &raw->blocks[k])) most += (int32_t)raw->blocks[k].count;
+    if (!(group->elements = NEW_ARRAY(int32_t, most, err))) goto cleanup;
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        const RawBlock *block = &raw->blocks[k];
+        for (int64_t i = 0; raw_group_holds(from, block) && i < block->count; i++) {
+            int32_t e = find_element(mesh, block->number[i]);
+            if (e < 0) continue;
+            const RawElement *item = &surface->items[e];
+            group->elements[group->element_count++] = e;
+            if (raw->version > 0 && raw->version < 4 && item->copies < item->groups)
+                group->blurred = true;
+        }
+    }
+    qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), compare_indices);
+cleanup:
+    return error_is_clean(err);
+}
+
+// One group: its name (or its number in decimal), and its edges and nodes; of a surface its
+// elements.
+static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable *table,
+                          const RawGroup *from, MeshGroup *group, Error *err)
+{
+    RawElements elements = {0};
+    uint32_t code = 0;
+    *group = (MeshGroup){.dimension = from->dimension, .number = from->number};
+    if (from->name[0])
+        snprintf(group->name, sizeof group->name, "%s", from->name);
+    else
+        snprintf(group->name, sizeof group->name, "%d", from->number);
+    if (text_find_unshown(group->name, &code) >= 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: the name of group %d of dimension %d has the character U+%04X, which no page or "
+             "picture can show",
+             path, from->number, from->dimension, code);
+    if (from->dimension >= 2) goto cleanup;
+    TRY(raw_pick_group(raw, path, from, group->name, &elements, err));
+    if (raw->version > 0 && raw->version < 4)
+        TRY(raw_check_copies(path, group->name, &elements, err));
+    if (from->dimension == 1) TRY(store_group_edges(path, &elements, table, group, err));
+    TRY(store_group_nodes(&elements, table, group, err));
+cleanup:
+    memory_free(elements.items);
+    return error_is_clean(err);
+}
+
+// All groups. Each name is there once, whatever the dimension.
+static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
+                           const RawElements *surface, MeshFile *mesh, Error *err)
+{
+    if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) goto cleanup;
+    for (int32_t k = 0; k < raw->group_count; k++) {
+        MeshGroup *group = &mesh->groups[mesh->group_count++];
+        TRY(convert_group(raw, path, table, &raw->groups[k], group, err));
+        if (group->dimension == 2)
+            TRY(store_group_elements(raw, &raw->groups[k], surface, mesh, group, err));
+        for (const MeshGroup *other = mesh->groups; other < group; other++)
+            if (strcmp(other->name, group->name) == 0)
+                FAIL(err, ERROR_INPUT,
+                     "%s: the physical name '%s' is used twice: by group %d of dimension %d and by "
+                     "group %d of dimension %d",
+                     path, group->name, other->number, other->dimension, group->number,
+                     group->dimension);
+    }
+    qsort(mesh->groups, (size_t)mesh->group_count, sizeof *mesh->groups, compare_groups);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err)
+{
+    RawElements surface = {0};
+    NodeTable table = {0};
+    *mesh = (MeshFile){0};
+    TRY(raw_pick_surface(raw, path, &surface, err));
+    mesh->dim = element_dim(surface.items[0].kind);
+    TRY(table_build(raw, path, &table, err));
+    TRY(mark_elements(&surface, path, &table, err));
+    TRY(mark_orphans(raw, &table, err));
+    mark_curves(raw, &table);
+    TRY(number_nodes(raw, path, &table, mesh, err));
+    TRY(store_elements(&surface, &table, mesh, err));
+    TRY(convert_groups(raw, path, &table, &surface, mesh, err));
+cleanup:
+    table_destroy(&table);
+    memory_free(surface.items);
+    return error_is_clean(err);
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/mesh/mesh_file.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
+
+const ElementInfo *element_info(ElementKind kind)
+{
+    static const ElementInfo rows[] = {
+#define X(symbol, dim, nodes, corners, gmsh, vtk, name) {dim, nodes, corners, gmsh, vtk, name},
+        ELEMENT_KINDS(X)
+#undef X
+    };
+    return &rows[kind];
+}
+
+int32_t element_dim(ElementKind kind)
+{
+    return element_info(kind)->dim;
+}
+
+int32_t element_node_count(ElementKind kind)
+{
+    return element_info(kind)->node_count;
+}
+
+int32_t element_corner_count(ElementKind kind)
+{
+    return element_info(kind)->corner_count;
+}
+
+const char *element_name(ElementKind kind)
+{
+    return element_info(kind)->name;
+}
+
+void mesh_file_destroy(MeshFile *mesh)
+{
+    for (int32_t k = 0; k < mesh->group_count; k++) {
+        memory_free(mesh->groups[k].edge_nodes);
+        memory_free(mesh->groups[k].nodes);
+        memory_free(mesh->groups[k].elements);
+    }
+    memory_free(mesh->position);
+    memory_free(mesh->node_number);
+    memory_free(mesh->element_number);
+    memory_free(mesh->kind);
+    memory_free(mesh->first_node);
+    memory_free(mesh->element_nodes);
+    memory_free(mesh->groups);
+    *mesh = (MeshFile){0};
+}
+
+// --- groups -------------------------------------------------------------------------------------
+
+// "'body' (surface), 'contact' (curve)" or "none".
+static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
+{
+    static const char *const words[] = {"point", "curve", "surface", "volume"};
+    size_t length = 0;
+    snprintf(list, LIST_SIZE, "none");
+    for (int32_t k = 0; k < mesh->group_count && length < LIST_SIZE; k++)
+        length += (size_t)snprintf(list + length, LIST_SIZE - length, "%s'%s' (%s)", k ? ", " : "",
+                                   mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
+}
+
+// By name; NULL: none. Names are unique: mesh_raw_convert sees to it.
+static const MeshGroup *find_group(const MeshFile *mesh, const char *name)
+{
+    for (int32_t k = 0; k < mesh->group_count; k++)
+        if (strcmp(mesh->groups[k].name, name) == 0) return &mesh->groups[k];
+    return NULL;
+}
+
+// dimension: 0 point, 1 curve, 2 surface.
+const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const char *name,
+                                 int32_t dimension, Error *err)
+{
+    static const char *const words[] = {"point", "curve", "surface", "volume"};
+    const MeshGroup *group = find_group(mesh, name);
+    const char **names = NULL;
+    char list[LIST_SIZE], hint[GROUP_NAME_SIZE + 32] = "";
+    if (group && group->dimension == dimension) return group;
+    list_groups(mesh, list);
+    if (group)
+        FAIL(err, ERROR_INPUT, "%s: group '%s' is a %s, wanted is a %s; the groups are: %s", path,
+             name, words[group->dimension & 3], words[dimension & 3], list);
+    if (!(names = NEW_ARRAY(const char *, mesh->group_count, err))) goto cleanup;
+    for (int32_t k = 0; k < mesh->group_count; k++) names[k] = mesh->groups[k].name;
+    int32_t nearest = text_nearest(name, names, mesh->group_count);
+    if (nearest >= 0) snprintf(hint, sizeof hint, "; did you mean '%s'?", names[nearest]);
+    FAIL(err, ERROR_INPUT, "%s: has no group '%s'; the groups are: %s%s", path, name, list, hint);
+cleanup:
+    memory_free(names);
+    return NULL;
+}

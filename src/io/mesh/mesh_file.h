@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A mesh as it stands in a file: plain arrays, no physics. Read through the gmsh C API, which is a
+// module opened on first use. Called by model/assemble and run/info; checked by fem/mesh_build.
+#ifndef AMONTONS_IO_MESH_MESH_FILE_H
+#define AMONTONS_IO_MESH_MESH_FILE_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+// kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's and
+// VTK's: corners, mid-sides, centre.
+#define ELEMENT_KINDS(X)                                                                           \
+    X(ELEMENT_T3, 2, 3, 3, 2, 5, "T3")                                                             \
+    X(ELEMENT_T6, 2, 6, 3, 9, 22, "T6")                                                            \
+    X(ELEMENT_Q4, 2, 4, 4, 3, 9, "Q4")                                                             \
+    X(ELEMENT_Q8, 2, 8, 4, 16, 23, "Q8")                                                           \
+    X(ELEMENT_Q9, 2, 9, 4, 10, 28, "Q9")
+
+typedef enum ElementKind {
+#define X(kind, ...) kind,
+    ELEMENT_KINDS(X) ELEMENT_KIND_COUNT
+#undef X
+} ElementKind;
+
+enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3, DIM_MAX = 2 };
+
+// x to z in as many numbers as the mesh has dimensions; in the plane (x, z).
+typedef double MeshPlace[DIM_MAX];
+
+// One physical group: of surfaces (dimension 2), of curves (1) or of points (0).
+typedef struct MeshGroup {
+    char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal
+    int32_t dimension;   // 0, 1 or 2
+    int32_t number;   // gmsh's physical tag
+    int32_t edge_count;   // 0 unless dimension is 1
+    int32_t nodes_per_edge;   // 2 or 3 (end, end, middle)
+    int32_t *edge_nodes;   // [edge_count * nodes_per_edge] node indices; owned
+    int32_t node_count;
+    int32_t *nodes;   // [node_count] ascending, each once; empty for surfaces; owned
+    int32_t element_count;   // 0 unless dimension is 2
+    int32_t *elements;   // [element_count] of the mesh, ascending; owned
+    bool
+        blurred;   // a surface of a file of format 2.2 that shares its entity's number with another
+    // group: which of the two an element belongs to is not known
+} MeshGroup;
+
+// Made by gmsh now, or before (io/mesh/mesh_cache).
+typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE } MeshOrigin;
+
+typedef struct MeshFile {
+    MeshOrigin origin;
+    int32_t dim;   // numbers of a place
+    int32_t node_count;
+    double *position;   // [node_count * dim] (x, z): gmsh's x and y; length; owned
+    int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
+    int32_t element_count;
+    int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
+    uint8_t *kind;   // [element_count] ElementKind; owned
+    int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
+    int32_t *element_nodes;   // [first_node[element_count]] node indices; owned
+    int32_t group_count;
+    MeshGroup *groups;   // [group_count] by dimension, then by number; owned
+} MeshFile;
+
+// A value for one name of a .geo: `DefineConstant[ nx = 80 ]` takes what is given here instead.
+typedef struct MeshParameter {
+    char name[GROUP_NAME_SIZE];
+    double value;
+    char text[GROUP_NAME_SIZE];   // non-empty: a string parameter, and `value` is not looked at
+} MeshParameter;
+
+// The parameter `refine` (cells so many times as small) is known to every mesh: where a .geo does
+// not declare it itself, gmsh halves all edges, so that it must be a power of two.
+//
+// Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed in 2D with `parameters`.
+// Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind
+// that is not in ELEMENT_KINDS, a parameter the .geo does not know, a name used twice.
+// A mesh that is not in the plane z = 0 of gmsh is refused. *mesh is destroyed by the caller.
+bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
+                    MeshFile *mesh, Error *err);
+void mesh_file_destroy(MeshFile *mesh);
+
+// The group called `name`. An error (ERROR_INPUT) names `path`, lists the groups that exist with
+// their dimension, and suggests the nearest name. `dimension`: the one wanted; another is an error.
+const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const char *name,
+                                 int32_t dimension, Error *err);
+
+// A row of ELEMENT_KINDS.
+typedef struct ElementInfo {
+    int32_t dim, node_count, corner_count;
+    int32_t gmsh_type;
+    uint8_t vtk_type;
+    const char *name;   // "Q4"; static storage
+} ElementInfo;
+
+const ElementInfo *element_info(ElementKind kind);
+int32_t element_dim(ElementKind kind);
+int32_t element_node_count(ElementKind kind);
+int32_t element_corner_count(ElementKind kind);
+const char *element_name(ElementKind kind);
+
+#endif

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The module amontons_gmsh, the only file that knows gmsh: loading libgmsh takes longer than
+// reading a mesh. Each gmsh array is copied into counted memory and freed at once.
+#include "base/memory.h"
+#include "io/mesh/mesh_raw.h"
+
+#include <errno.h>
+#include <gmshc.h>
+#include <limits.h>
+#include <locale.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+// SCRIPT_NAME_SIZE: "/proc/self/fd/" and an int. MESH_ADAPT_QUADS: a value of Mesh.Algorithm.
+enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8, LOCALE_SIZE = 200 };
+enum { MSH_TRI_3 = 2, MSH_QUA_4 = 3, MSH_QUA_8 = 16 };   // gmsh's element types
+
+// gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
+static const char *first_error(char **log, size_t count)
+{
+    static const char mark[] = "Error: ";
+    for (size_t k = 0; k < count; k++)
+        if (strncmp(log[k], mark, sizeof mark - 1) == 0) return log[k] + sizeof mark - 1;
+    return NULL;
+}
+
+// Two `Physical Curve("top")` in a .geo: gmsh says "Physical curve 4 already exists", without the
+// name. Finds that name; false when the error is another one.
+static bool find_repeated_name(const char *error, char name[GROUP_NAME_SIZE])
+{
+    static const char *const words[] = {"point", "curve", "surface"};
+    char word[16];
+    int number = 0, status = 0;
+    char *found = NULL;
+    if (sscanf(error, "Physical %15s %d already exists", word, &number) != 2) return false;
+    for (int dimension = 0; dimension < 3; dimension++)
+        if (strcmp(word, words[dimension]) == 0)
+            gmshModelGetPhysicalName(dimension, number, &found, &status);
+    snprintf(name, GROUP_NAME_SIZE, "%s", found ? found : "");
+    gmshFree(found);
+    return name[0] != '\0';
+}
+
+// Sets an error from the log's first message: the later ones mostly follow from it.
+static void fail_with_log(const MeshRawRequest *request, const char *doing, Error *err)
+{
+    char **log = NULL, name[GROUP_NAME_SIZE];
+    size_t count = 0;
+    int status = 0;
+    gmshLoggerGet(&log, &count, &status);
+    const char *error = first_error(log, count);
+    if (error && find_repeated_name(error, name))
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%s: the physical name '%s' is used twice (give all its curves in one group)",
+                  request->path, name);
+    else
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s: gmsh failed while %s: %s",
+                  request->path, doing, error ? error : "it does not say why");
+    for (size_t k = 0; k < count; k++) gmshFree(log[k]);
+    gmshFree(log);
+}
+
+// True when gmsh logged an error, even where the call itself claimed success.
+static bool gmsh_complained(void)
+{
+    char *message = NULL;
+    int status = 0;
+    gmshLoggerGetLastError(&message, &status);
+    bool complained = status == 0 && message && message[0];
+    gmshFree(message);
+    return complained;
+}
+
+// Starts gmsh without its configuration files (a user's must not change our mesh), silent, with one
+// thread (so that the same .geo gives the same mesh), and with a log.
+static bool gmsh_begin(Error *err)
+{
+    char name[] = "gmsh", *argv[] = {name, NULL};
+    int status = 0;
+    gmshInitialize(1, argv, 0, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
+    gmshOptionSetNumber("General.Terminal", 0, &status);
+    gmshOptionSetNumber("General.NumThreads", 1, &status);
+    gmshLoggerStart(&status);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Ends the session; the next one finds no model, no options and no log of this one.
+static void gmsh_end(void)
+{
+    int status = 0;
+    gmshLoggerStop(&status);
+    gmshFinalize(&status);
+}
+
+// A script in memory that sets the parameters and includes the .geo: DefineConstant does not change
+// what has a value. (gmsh would keep -setnumber for every later session of the process.) Returns
+// its descriptor, -1 on failure; `name` becomes the name to open it by.
+static int open_script(const MeshRawRequest *request, char name[SCRIPT_NAME_SIZE], Error *err)
+{
+    char path[PATH_MAX];
+    int script = memfd_create("parameters.geo", MFD_CLOEXEC);
+    if (!realpath(request->path, path) || script < 0)
+        FAIL(err, ERROR_FILE, "%s: its parameters cannot be set: %s", request->path,
+             strerror(errno));
+    if (strchr(path, '"'))
+        FAIL(err, ERROR_INPUT, "%s: gmsh cannot include a file with a quote in its path", path);
+    for (int32_t k = 0; k < request->parameter_count; k++) {
+        const MeshParameter *parameter = &request->parameters[k];
+        if (parameter->text[0])
+            dprintf(script, "%s = \"%s\";\n", parameter->name, parameter->text);
+        else
+            dprintf(script, "%s = %.17g;\n", parameter->name, parameter->value);
+    }
+    dprintf(script, "Include \"%s\";\n", path);
+    snprintf(name, SCRIPT_NAME_SIZE, "/proc/self/fd/%d", script);
+cleanup:
+    return script;
+}
+
+// Opens the file, through a script where there are parameters. gmsh reports some errors by status,
+// some in its log only.
+static bool gmsh_open(const MeshRawRequest *request, Error *err)
+{
+    char name[SCRIPT_NAME_SIZE];
+    int status = 0, script = -1;
+    if (request->parameter_count > 0) {
+        script = open_script(request, name, err);
+        TRY(error_is_clean(err));
+    }
+    gmshOpen(script >= 0 ? name : request->path, &status);
+    if (status || gmsh_complained()) fail_with_log(request, "reading it", err);
+cleanup:
+    if (script >= 0) close(script);
+    return error_is_clean(err);
+}
+
+// Afterwards gmsh holds a mesh in two dimensions.
+static bool gmsh_load(const MeshRawRequest *request, Error *err)
+{
+    int status = 0;
+    double algorithm = 0;
+    TRY(gmsh_open(request, err));
+    if (!request->generate) goto cleanup;
+    if (request->opened) request->opened();
+    gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
+    if (status == 0 && algorithm == MESH_ADAPT_QUADS)
+        FAIL(err, ERROR_INPUT,
+             "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for quadrilaterals "
+             "Mesh.RecombinationAlgorithm = 3 with it",
+             request->path);
+    // Meshing threads that throw would end the program: let them log, and look at the log.
+    gmshOptionSetNumber("General.AbortOnError", 0, &status);
+    gmshModelMeshGenerate(2, &status);
+    if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Halves every edge `splits` times. gmsh makes linear elements of it, which get their order back;
+// new nodes are put onto the geometry where there is one (a .geo).
+static bool gmsh_split(const MeshRawRequest *request, Error *err)
+{
+    int *types = NULL, status = 0, order = 1;
+    size_t count = 0;
+    if (request->splits == 0) return true;
+    gmshModelMeshGetElementTypes(&types, &count, 2, -1, &status);
+    for (size_t k = 0; k < count; k++) {
+        if (types[k] != MSH_TRI_3 && types[k] != MSH_QUA_4) order = 2;
+        if (types[k] == MSH_QUA_8) gmshOptionSetNumber("Mesh.SecondOrderIncomplete", 1, &status);
+    }
+    for (int32_t k = 0; k < request->splits && status == 0; k++) gmshModelMeshRefine(&status);
+    if (status == 0 && order > 1) gmshModelMeshSetOrder(order, &status);
+    if (status || gmsh_complained()) fail_with_log(request, "splitting its cells", err);
+    gmshFree(types);
+    return error_is_clean(err);
+}
+
+// gmsh's tags are size_t, ours int64_t.
+static bool copy_tags(const size_t *from, size_t count, int64_t **to, Error *err)
+{
+    int64_t *copy = NEW_ARRAY(int64_t, (int64_t)count, err);
+    if (copy)
+        for (size_t k = 0; k < count; k++) copy[k] = (int64_t)from[k];
+    *to = copy;
+    return copy != NULL;
+}
+
+// Appends the nodes on entities of one dimension.
+static bool fetch_nodes(int dimension, MeshRaw *raw, Error *err)
+{
+    size_t *tags = NULL, tag_count = 0, value_count = 0, parameter_count = 0;
+    double *values = NULL, *parameters = NULL;
+    int status = 0;
+    gmshModelMeshGetNodes(&tags, &tag_count, &values, &value_count, &parameters, &parameter_count,
+                          dimension, -1, 0, 0, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no nodes (status %d)", status);
+    int64_t old = raw->node_count, total = old + (int64_t)tag_count;
+    int64_t *number = memory_resize(raw->node_number, old, total, sizeof(int64_t), err);
+    if (!number) goto cleanup;
+    raw->node_number = number;
+    uint8_t *on = memory_resize(raw->node_dimension, old, total, sizeof(uint8_t), err);
+    if (!on) goto cleanup;
+    raw->node_dimension = on;
+    double *position = memory_resize(raw->node_position, 3 * old, 3 * total, sizeof(double), err);
+    if (!position) goto cleanup;
+    raw->node_position = position;
+    for (size_t k = 0; k < tag_count; k++) {
+        number[old + (int64_t)k] = (int64_t)tags[k];
+        on[old + (int64_t)k] = (uint8_t)dimension;
+    }
+    if (tag_count) memcpy(position + 3 * old, values, 3 * tag_count * sizeof(double));
+    raw->node_count = total;
+cleanup:
+    gmshFree(tags);
+    gmshFree(values);
+    gmshFree(parameters);
+    return error_is_clean(err);
+}
+
+// gmsh's name and node count of the block's type.
+static bool name_type(RawBlock *block, Error *err)
+{
+    char *name = NULL;
+    double *local = NULL;
+    size_t local_count = 0;
+    int dimension = 0, order = 0, nodes = 0, primary = 0, status = 0;
+    gmshModelMeshGetElementProperties(block->gmsh_type, &name, &dimension, &order, &nodes, &local,
+                                      &local_count, &primary, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not know its type %d", block->gmsh_type);
+    snprintf(block->type_name, sizeof block->type_name, "%s", name);
+    block->nodes_per_element = nodes;
+cleanup:
+    gmshFree(name);
+    gmshFree(local);
+    return error_is_clean(err);
+}
+
+// Appends the blocks of one entity.
+static bool fetch_elements(int dimension, int entity, MeshRaw *raw, Error *err)
+{
+    int *types = NULL, status = 0;
+    size_t type_count = 0, tag_lists = 0, node_lists = 0;
+    size_t **tags = NULL, *tag_counts = NULL, **nodes = NULL, *node_counts = NULL;
+    gmshModelMeshGetElements(&types, &type_count, &tags, &tag_counts, &tag_lists, &nodes,
+                             &node_counts, &node_lists, dimension, entity, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no elements (status %d)", status);
+    for (size_t k = 0; k < type_count; k++) {
+        RawBlock *blocks =
+            memory_resize(raw->blocks, raw->block_count, raw->block_count + 1, sizeof *blocks, err);
+        if (!blocks) goto cleanup;
+        raw->blocks = blocks;
+        RawBlock *block = &blocks[raw->block_count++];
+        *block = (RawBlock){.dimension = dimension, .entity = entity, .gmsh_type = types[k]};
+        TRY(name_type(block, err));
+        block->count = (int64_t)tag_counts[k];
+        TRY(copy_tags(tags[k], tag_counts[k], &block->number, err));
+        TRY(copy_tags(nodes[k], node_counts[k], &block->nodes, err));
+    }
+cleanup:
+    for (size_t k = 0; k < tag_lists; k++) gmshFree(tags[k]);
+    for (size_t k = 0; k < node_lists; k++) gmshFree(nodes[k]);
+    gmshFree(types);
+    gmshFree(tags);
+    gmshFree(tag_counts);
+    gmshFree(nodes);
+    gmshFree(node_counts);
+    return error_is_clean(err);
+}
+
+// One entity after the other, as the groups of an element are those of its entity.
+static bool fetch_all_elements(MeshRaw *raw, Error *err)
+{
+    int *pairs = NULL, status = 0;
+    size_t count = 0;
+    gmshModelGetEntities(&pairs, &count, -1, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no entities (status %d)", status);
+    for (size_t k = 0; k + 1 < count; k += 2) TRY(fetch_elements(pairs[k], pairs[k + 1], raw, err));
+cleanup:
+    gmshFree(pairs);
+    return error_is_clean(err);
+}
+
+// Asks for entities only: asking gmsh for a group's nodes costs 60-100 ms on a large body.
+static bool fetch_group(const char *path, int dimension, int number, RawGroup *group, Error *err)
+{
+    char *name = NULL;
+    int *entities = NULL, status = 0;
+    size_t count = 0;
+    *group = (RawGroup){.dimension = dimension, .number = number};
+    gmshModelGetPhysicalName(dimension, number, &name, &status);
+    if (name && strlen(name) >= sizeof group->name)
+        FAIL(err, ERROR_INPUT, "%s: the physical name '%s' is longer than %d bytes", path, name,
+             (int)sizeof group->name - 1);
+    if (name) snprintf(group->name, sizeof group->name, "%s", name);
+    gmshModelGetEntitiesForPhysicalGroup(dimension, number, &entities, &count, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "%s: gmsh does not give group %d", path, number);
+    group->entities = NEW_ARRAY(int32_t, (int64_t)count, err);
+    if (!group->entities) goto cleanup;
+    group->entity_count = (int32_t)count;
+    for (size_t k = 0; k < count; k++) group->entities[k] = entities[k];
+cleanup:
+    gmshFree(name);
+    gmshFree(entities);
+    return error_is_clean(err);
+}
+
+// Every group of every dimension.
+static bool fetch_groups(const char *path, MeshRaw *raw, Error *err)
+{
+    int *pairs = NULL, status = 0;
+    size_t count = 0;
+    gmshModelGetPhysicalGroups(&pairs, &count, -1, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no physical groups (status %d)", status);
+    raw->groups = NEW_ARRAY(RawGroup, (int64_t)count / 2, err);
+    if (!raw->groups) goto cleanup;
+    for (size_t k = 0; k + 1 < count; k += 2)
+        TRY(fetch_group(path, pairs[k], pairs[k + 1], &raw->groups[raw->group_count++], err));
+cleanup:
+    gmshFree(pairs);
+    return error_is_clean(err);
+}
+
+// gmsh has one session a process.
+static pthread_mutex_t session = PTHREAD_MUTEX_INITIALIZER;
+
+// gmsh sets LC_NUMERIC to "C" and leaves it so. before: setlocale's answer before it started.
+static void restore_numeric_locale(const char *before)
+{
+    const char *now = setlocale(LC_NUMERIC, NULL);
+    if (now && strcmp(now, before) != 0) setlocale(LC_NUMERIC, before);
+}
+
+__attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequest *request,
+                                                               MeshRaw *raw, Error *err)
+{
+    bool begun = false;
+    char locale[LOCALE_SIZE];
+    *raw = (MeshRaw){0};
+    pthread_mutex_lock(&session);
+    snprintf(locale, sizeof locale, "%s", setlocale(LC_NUMERIC, NULL));
+    TRY(begun = gmsh_begin(err));
+    TRY(gmsh_load(request, err));
+    TRY(gmsh_split(request, err));
+    for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
+    TRY(fetch_all_elements(raw, err));
+    TRY(fetch_groups(request->path, raw, err));
+cleanup:
+    if (begun) gmsh_end();
+    restore_numeric_locale(locale);
+    pthread_mutex_unlock(&session);
+    return error_is_clean(err);
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A mesh as gmsh's API delivers it, between the gmsh module (io/mesh/mesh_file_module) and
+// io/mesh/mesh_read or io/mesh/mesh_apart, which need not know gmsh's headers; and its conversion
+// to a MeshFile.
+#ifndef AMONTONS_IO_MESH_MESH_RAW_H
+#define AMONTONS_IO_MESH_MESH_RAW_H
+
+#include "base/error.h"
+#include "io/mesh/mesh_file.h"
+
+#include <stdint.h>
+
+// The elements of one type on one geometrical entity (a point, curve, surface or volume).
+typedef struct RawBlock {
+    int32_t dimension, entity;   // of the entity; its tag
+    int32_t gmsh_type;   // 3 quad4, ...
+    int32_t nodes_per_element;
+    char type_name[GROUP_NAME_SIZE];   // gmsh's: "Quadrilateral 4"
+    int64_t count;
+    int64_t *number;   // [count] element tags; owned
+    int64_t *nodes;   // [count * nodes_per_element] node tags; owned
+} RawBlock;
+
+typedef struct RawGroup {
+    int32_t dimension, number;   // physical tag
+    char name[GROUP_NAME_SIZE];   // empty: none
+    int32_t entity_count;
+    int32_t *entities;   // [entity_count] tags of entities of that dimension; owned
+} RawGroup;
+
+typedef struct MeshRaw {
+    double version;   // of the .msh format, 2.2 or 4.1; 0: a .geo
+    int64_t node_count;
+    int64_t *node_number;   // [node_count] tags; owned
+    uint8_t *node_dimension;   // [node_count] of the entity the node is on; owned
+    double *node_position;   // [node_count * 3]; owned
+    int32_t block_count;
+    RawBlock *blocks;   // [block_count]; owned
+    int32_t group_count;
+    RawGroup *groups;   // [group_count]; owned
+} MeshRaw;
+
+// What the module is asked for.
+typedef struct MeshRawRequest {
+    const char *path;
+    bool generate;   // a .geo: mesh it in 2D
+    const MeshParameter *parameters;   // [parameter_count] all known to the .geo
+    int32_t parameter_count;
+    int32_t splits;   // so many times every edge is halved afterwards
+    void (*opened)(void);   // called when the file is read and meshing begins; NULL: nobody
+} MeshRawRequest;
+
+// The module's entry: runs gmsh from start to finish, so that a second call finds it clean. Errors
+// are gmsh's first message, with the file's name. *raw is destroyed by the caller.
+typedef bool (*MeshRawReader)(const MeshRawRequest *request, MeshRaw *raw, Error *err);
+bool amontons_gmsh_read(const MeshRawRequest *request, MeshRaw *raw, Error *err);
+
+void mesh_raw_destroy(MeshRaw *raw);
+
+// Picks the surface elements (where physical surfaces exist: theirs, as gmsh does when it saves a
+// mesh), the nodes and the groups. Nodes and elements are ordered by gmsh's tags, so that a .geo
+// and the .msh made from it give the same arrays. Errors (ERROR_INPUT) name `path`.
+bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err);
+
+#endif

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What can be checked of a mesh file before gmsh reads it: gmsh opens a missing file as an empty
+// model, takes junk for a script, and reads a file that was cut off inside its last number.
+#include "io/mesh/mesh_file.h"
+
+#include "base/apart.h"
+#include "base/memory.h"
+#include "base/module.h"
+#include "base/text.h"
+#include "io/files/open_file.h"
+#include "io/mesh/geo_commands.h"
+#include "io/mesh/geo_parameters.h"
+#include "io/mesh/mesh_apart.h"
+#include "io/mesh/mesh_cache.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+// CHUNK_SIZE: bytes read at once when looking for the end mark. HEAD_LINES: how far down the head
+// is looked for (comments may precede it).
+enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, SPLITS_MAX = 6 };
+
+// --- before gmsh --------------------------------------------------------------------------------
+
+// What the system says of the path, before anybody opens it.
+static bool check_file(const char *path, Error *err)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
+    if (status.st_size == 0) FAIL(err, ERROR_INPUT, "%s: is empty", path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// gmsh runs what does not begin like a mesh as a script, whatever its name ends with.
+static bool check_begin(FILE *file, const char *path, Error *err)
+{
+    char line[16] = "";
+    bool mesh = fgets(line, sizeof line, file) &&
+                (strncmp(line, "$MeshFormat", 11) == 0 || strncmp(line, "$Comments", 9) == 0);
+    if (!mesh)
+        FAIL(err, ERROR_INPUT,
+             "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
+             path);
+    rewind(file);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Finds $MeshFormat among the first lines and the version on the line after it.
+static bool read_version(FILE *file, const char *path, double *version, Error *err)
+{
+    char line[256];
+    for (int32_t k = 0; k < HEAD_LINES && fgets(line, sizeof line, file); k++) {
+        if (strncmp(line, "$MeshFormat", strlen("$MeshFormat")) != 0) continue;
+        if (!fgets(line, sizeof line, file) || (*version = strtod(line, NULL)) <= 0)
+            FAIL(err, ERROR_INPUT, "%s: is truncated: no version after $MeshFormat", path);
+        goto cleanup;
+    }
+    FAIL(err, ERROR_INPUT, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)",
+         path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// True when `mark` occurs from the file's present position on.
+static bool file_holds(FILE *file, const char *mark, char *chunk)
+{
+    size_t width = strlen(mark), kept = 0, got = 0;
+    while ((got = fread(chunk + kept, 1, CHUNK_SIZE - kept, file)) > 0) {
+        size_t filled = kept + got;
+        if (memmem(chunk, filled, mark, width)) return true;
+        kept = filled < width - 1 ? filled : width - 1;
+        memmove(chunk, chunk + filled - kept, kept);
+    }
+    return false;
+}
+
+// A .msh must have its head, and the mark that ends the elements: without it the file was cut off.
+static bool check_msh(const char *path, double *version, Error *err)
+{
+    char *chunk = NULL;
+    FILE *file = open_stream(path, err);
+    TRY(file);
+    TRY(check_begin(file, path, err));
+    TRY(read_version(file, path, version, err));
+    if (!(chunk = NEW_ARRAY(char, CHUNK_SIZE, err))) goto cleanup;
+    if (!file_holds(file, "$EndElements", chunk))
+        FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
+             path);
+cleanup:
+    memory_free(chunk);
+    if (file) fclose(file);
+    return error_is_clean(err);
+}
+
+// A request with parameters of our own choice: an array, since `refine` may leave the list.
+typedef struct Parameters {
+    MeshParameter *list;   // [count]; owned
+    int32_t count;
+} Parameters;
+
+static bool is_refine(const MeshParameter *parameter)
+{
+    return strcmp(parameter->name, "refine") == 0 && !parameter->text[0];
+}
+
+// Takes `refine` out of the list: nothing that reads the file knows it, so its cells are split.
+// ERROR_INPUT: not a power of two.
+static bool take_refine(const char *path, Parameters *given, int32_t *splits, Error *err)
+{
+    int32_t kept = 0;
+    *splits = 0;
+    for (int32_t k = 0; k < given->count; k++) {
+        if (!is_refine(&given->list[k])) {
+            given->list[kept++] = given->list[k];
+            continue;
+        }
+        int exponent = 0;
+        double part = frexp(given->list[k].value, &exponent);
+        *splits = exponent - 1;
+        if (part != 0.5 || *splits < 0 || *splits > SPLITS_MAX)
+            FAIL(err, ERROR_INPUT,
+                 "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
+                 "2, 4, ... %d%s",
+                 path, given->list[k].value, 1 << SPLITS_MAX,
+                 text_ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
+    }
+    given->count = kept;
+cleanup:
+    return error_is_clean(err);
+}
+
+// gmsh would ignore a parameter that the script does not take.
+static bool check_geo(const char *path, Parameters *given, int32_t *splits, Error *err)
+{
+    GeoParameters known = {0};
+    bool refines = false;
+    TRY(geo_parameters_read(path, &known, err));
+    for (int32_t k = 0; k < known.count; k++)
+        refines = refines || strcmp(known.items[k].name, "refine") == 0;
+    if (!refines) TRY(take_refine(path, given, splits, err));
+    TRY(geo_parameters_check(&known, path, given->list, given->count, err));
+cleanup:
+    geo_parameters_destroy(&known);
+    return error_is_clean(err);
+}
+
+static bool read_raw(const MeshRawRequest *request, MeshRaw *raw, Error *err)
+{
+    if (apart_is_wanted()) return mesh_apart_read(request, raw, err);
+    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
+    return read && read(request, raw, err);
+}
+
+// By gmsh, and kept for the next time.
+static bool read_anew(const MeshRawRequest *request, double version, const char *key,
+                      MeshFile *mesh, Error *err)
+{
+    MeshRaw raw = {0};
+    TRY(read_raw(request, &raw, err));
+    raw.version = version;
+    TRY(mesh_raw_convert(&raw, request->path, mesh, err));
+    mesh_cache_store(key, mesh);
+cleanup:
+    mesh_raw_destroy(&raw);
+    return error_is_clean(err);
+}
+
+bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
+                    MeshFile *mesh, Error *err)
+{
+    char key[HASH_TEXT_SIZE];
+    bool found = false;
+    MeshRawRequest request = {.path = path, .generate = text_ends_with(path, ".geo")};
+    Parameters given = {.count = parameter_count};
+    double version = 0;
+    *mesh = (MeshFile){0};
+    if (!request.generate && !text_ends_with(path, ".msh"))
+        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
+    TRY((given.list = NEW_ARRAY(MeshParameter, parameter_count, err)));
+    if (parameter_count > 0)
+        memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
+    TRY(check_file(path, err));
+    const char *trusted = getenv("AMONTONS_TRUST");
+    if (!trusted || !*trusted) TRY(geo_commands_refuse(path, request.generate, err));
+    if (request.generate)
+        TRY(check_geo(path, &given, &request.splits, err));
+    else
+        TRY(check_msh(path, &version, err) && take_refine(path, &given, &request.splits, err));
+    if (!request.generate && given.count > 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: parameters ('%s') need a .geo; a .msh is meshed already, and knows `refine` alone",
+            path, given.list[0].name);
+    request.parameters = given.list;
+    request.parameter_count = given.count;
+    TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
+    TRY(mesh_cache_load(key, mesh, &found, err));
+    if (found)
+        mesh->origin = MESH_OF_CACHE;
+    else
+        TRY(read_anew(&request, version, key, mesh, err));
+cleanup:
+    memory_free(given.list);
+    return error_is_clean(err);
+}

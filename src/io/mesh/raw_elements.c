@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Of a raw mesh points, edges, elements of no group and copies are left out; elements of a kind
+// that we do not have are refused by name. The order is by element tag, whatever gmsh's is.
+#include "io/mesh/raw_elements.h"
+
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// gmsh's numbers for what points and curves are made of; surfaces are in ELEMENT_KINDS.
+enum { GMSH_POINT = 15, GMSH_LINE_2 = 1, GMSH_LINE_3 = 8, KIND_LIST_SIZE = 64 };
+
+// The ElementKind of a gmsh type, -1: none of ours.
+static int32_t kind_of_type(int32_t gmsh_type)
+{
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+        if (element_info((ElementKind)kind)->gmsh_type == gmsh_type) return kind;
+    return -1;
+}
+
+// Tags of entities are signed in some files: the sign is the orientation.
+bool raw_group_holds(const RawGroup *group, const RawBlock *block)
+{
+    if (group->dimension != block->dimension) return false;
+    for (int32_t k = 0; k < group->entity_count; k++)
+        if (abs(group->entities[k]) == block->entity) return true;
+    return false;
+}
+
+int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < raw->group_count; k++) count += raw_group_holds(&raw->groups[k], block);
+    return count;
+}
+
+// Whether the file says which surfaces count.
+static bool has_surface_group(const MeshRaw *raw)
+{
+    for (int32_t k = 0; k < raw->group_count; k++)
+        if (raw->groups[k].dimension == 2) return true;
+    return false;
+}
+
+// By element tag.
+static int compare_numbers(const void *a, const void *b)
+{
+    const RawElement *first = a, *second = b;
+    return (first->number > second->number) - (first->number < second->number);
+}
+
+// By node tags, so that copies of one element come together; among copies the lowest tag first.
+static int compare_nodes(const void *a, const void *b)
+{
+    const RawElement *first = a, *second = b;
+    if (first->count != second->count) return first->count < second->count ? -1 : 1;
+    for (int32_t k = 0; k < first->count; k++)
+        if (first->nodes[k] != second->nodes[k]) return first->nodes[k] < second->nodes[k] ? -1 : 1;
+    return compare_numbers(a, b);
+}
+
+// Format 2.2 writes an element once for each of its physical groups: keeps the first copy.
+static void drop_copies(RawElements *elements)
+{
+    int32_t kept = 0;
+    if (elements->count == 0) return;   // no array to sort
+    qsort(elements->items, (size_t)elements->count, sizeof *elements->items, compare_nodes);
+    for (int32_t k = 0; k < elements->count; k++) {
+        const RawElement *item = &elements->items[k];
+        RawElement *last = kept > 0 ? &elements->items[kept - 1] : NULL;
+        if (last && item->count == last->count &&
+            memcmp(item->nodes, last->nodes, (size_t)item->count * sizeof *item->nodes) == 0)
+            last->copies++;
+        else
+            elements->items[kept++] = *item;
+    }
+    elements->count = kept;
+}
+
+// Appends the elements of one block; they go on pointing into it. INT32_MAX / ELEMENT_NODES_MAX
+// elements keep every index into element_nodes within int32_t.
+static bool append_block(RawElements *elements, const RawBlock *block, int32_t groups, Error *err)
+{
+    int64_t total = elements->count + block->count;
+    if (total > INT32_MAX / ELEMENT_NODES_MAX)
+        FAIL(err, ERROR_INPUT, "%lld elements are too many", (long long)total);
+    RawElement *items = memory_resize(elements->items, elements->count, total, sizeof *items, err);
+    if (!items) goto cleanup;
+    elements->items = items;
+    for (int64_t k = 0; k < block->count; k++)
+        items[elements->count++] =
+            (RawElement){.number = block->number[k],
+                         .nodes = block->nodes + k * block->nodes_per_element,
+                         .count = block->nodes_per_element,
+                         .kind = kind_of_type(block->gmsh_type),
+                         .copies = 1,
+                         .groups = groups};
+cleanup:
+    return error_is_clean(err);
+}
+
+// By tag, as gmsh mostly delivers them.
+static void sort_elements(RawElements *elements, bool may_repeat)
+{
+    if (may_repeat) drop_copies(elements);
+    for (int32_t k = 1; k < elements->count; k++)
+        if (elements->items[k - 1].number > elements->items[k].number) {
+            qsort(elements->items, (size_t)elements->count, sizeof *elements->items,
+                  compare_numbers);
+            break;
+        }
+}
+
+// "T3, T6, Q4, Q8, Q9", for messages.
+static void list_kinds(char list[KIND_LIST_SIZE])
+{
+    int length = 0;
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+        length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s",
+                           length ? ", " : "", element_name((ElementKind)kind));
+}
+
+// picked: empty before; its elements point into `raw`, which must outlive them. Where the file has
+// physical surfaces only their elements count, else all that are flat.
+bool raw_pick_surface(const MeshRaw *raw, const char *path, RawElements *picked, Error *err)
+{
+    bool by_group = has_surface_group(raw), may_repeat = false;
+    int64_t others = 0;
+    char allowed[KIND_LIST_SIZE];
+    list_kinds(allowed);
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        const RawBlock *block = &raw->blocks[k];
+        if (block->dimension == 3)
+            FAIL(err, ERROR_INPUT,
+                 "%s: holds %lld volume elements (%s); a plane mesh of %s is wanted", path,
+                 (long long)block->count, block->type_name, allowed);
+        int32_t groups = block->dimension == 2 ? raw_block_groups(raw, block) : 0;
+        if (block->dimension != 2 || (by_group && groups == 0)) {
+            others += block->count;
+            continue;
+        }
+        if (kind_of_type(block->gmsh_type) < 0)
+            FAIL(err, ERROR_INPUT,
+                 "%s: element %lld is of a kind that is not supported, %s; allowed are %s", path,
+                 (long long)(block->count ? block->number[0] : 0), block->type_name, allowed);
+        may_repeat = may_repeat || groups > 1;
+        TRY(append_block(picked, block, groups, err));
+    }
+    if (picked->count == 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: has no surface elements%s (%lld nodes, %lld other elements); was it meshed in 2D, "
+            "and is the surface in a physical group?",
+            path, by_group ? " in its physical surfaces" : "", (long long)raw->node_count,
+            (long long)others);
+    sort_elements(picked, may_repeat);
+cleanup:
+    return error_is_clean(err);
+}
+
+// copies: how often an element came; groups: how often it should have.
+bool raw_check_copies(const char *path, const char *name, const RawElements *elements, Error *err)
+{
+    for (int32_t k = 0; k < elements->count; k++)
+        if (elements->items[k].copies < elements->items[k].groups)
+            FAIL(
+                err, ERROR_INPUT,
+                "%s: group '%s' shares an elementary number with another group, so gmsh "
+                "cannot "
+                "tell whose element %lld is; give each group its own (the second tag of an element "
+                "in format 2.2), or save as format 4.1",
+                path, name, (long long)elements->items[k].number);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Edges of more than three nodes (order 3 on) are refused here, before their surface elements, as a
+// message about the group says more.
+bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
+                    RawElements *picked, Error *err)
+{
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        const RawBlock *block = &raw->blocks[k];
+        if (!raw_group_holds(from, block)) continue;
+        if (block->gmsh_type != GMSH_POINT && block->gmsh_type != GMSH_LINE_2 &&
+            block->gmsh_type != GMSH_LINE_3)
+            FAIL(err, ERROR_INPUT,
+                 "%s: group '%s' has elements of a kind that is not supported, %s", path, name,
+                 block->type_name);
+        TRY(append_block(picked, block, raw_block_groups(raw, block), err));
+    }
+    sort_elements(picked, true);
+cleanup:
+    return error_is_clean(err);
+}

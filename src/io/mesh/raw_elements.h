@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lists of elements picked from a raw mesh: those of the body, or those of one group. Called by
+// io/mesh/mesh_convert only.
+#ifndef AMONTONS_IO_MESH_RAW_ELEMENTS_H
+#define AMONTONS_IO_MESH_RAW_ELEMENTS_H
+
+#include "base/error.h"
+#include "io/mesh/mesh_raw.h"
+
+#include <stdint.h>
+
+// One element: where it stands in the raw blocks.
+typedef struct RawElement {
+    int64_t number;
+    const int64_t *nodes;   // its node tags, in the block
+    int32_t count;   // of nodes
+    int32_t kind;   // ElementKind; -1 for points and lines
+    int32_t copies;   // how often the file gives it
+    int32_t groups;   // in how many physical groups its entity is
+} RawElement;
+
+typedef struct RawElements {
+    int32_t count;
+    RawElement *items;   // [count]; owned
+} RawElements;
+
+// The block's entity is in the group.
+bool raw_group_holds(const RawGroup *group, const RawBlock *block);
+// In how many groups of its dimension a block's entity is.
+int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block);
+
+// The elements of the body by ascending number: of the physical surfaces, or of every surface where
+// there are none. ERROR_INPUT: none, volumes, or a kind that is not in ELEMENT_KINDS.
+bool raw_pick_surface(const MeshRaw *raw, const char *path, RawElements *picked, Error *err);
+
+// The points or edges of a group, by ascending number; `name` for messages.
+bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
+                    RawElements *picked, Error *err);
+
+// Format 2.2 says group and entity of each element; gmsh keeps the group by entity only. Where two
+// groups share an entity's number by accident, gmsh would give each the edges of both: ERROR_INPUT.
+bool raw_check_copies(const char *path, const char *name, const RawElements *elements, Error *err);
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cells go to `path`.part, many at once; csv_finish gives it its name and reports the first
+// failure, so that a caller who writes a thousand cells asks once.
+#include "io/text/csv_writer.h"
+
+#include "base/memory.h"
+#include "io/files/part_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct CsvWriter {
+    PartFile file;
+    Error first;   // the first failure
+    bool in_row;   // a cell stands on the line already
+    size_t waiting;   // bytes of `bytes` that are not written yet
+    char bytes[1 << 16];
+};
+
+CsvWriter *csv_create(const char *path, Error *err)
+{
+    CsvWriter *csv = NEW_ARRAY(CsvWriter, 1, err);
+    if (!csv) return NULL;
+    if (part_file_create(&csv->file, path, err)) return csv;
+    memory_free(csv);
+    return NULL;
+}
+
+// After the first failure nothing is written.
+static void flush(CsvWriter *csv)
+{
+    if (error_is_clean(&csv->first))
+        part_file_write(&csv->file, csv->bytes, (int64_t)csv->waiting, &csv->first);
+    csv->waiting = 0;
+}
+
+static void put(CsvWriter *csv, const char *bytes, size_t count)
+{
+    while (count > 0) {
+        size_t fits = sizeof csv->bytes - csv->waiting;
+        if (fits > count) fits = count;
+        memcpy(csv->bytes + csv->waiting, bytes, fits);
+        csv->waiting += fits;
+        bytes += fits;
+        count -= fits;
+        if (csv->waiting == sizeof csv->bytes) flush(csv);
+    }
+}
+
+static void begin_cell(CsvWriter *csv)
+{
+    if (csv->in_row) put(csv, ",", 1);
+    csv->in_row = true;
+}
+
+// RFC 4180, 2.6 and 2.7: a cell with a comma, a quote or a line end stands in quotes.
+void csv_text(CsvWriter *csv, const char *text)
+{
+    begin_cell(csv);
+    if (!strpbrk(text, ",\"\n\r")) {
+        put(csv, text, strlen(text));
+        return;
+    }
+    put(csv, "\"", 1);
+    for (const char *quote = strchr(text, '"'); quote; quote = strchr(text, '"')) {
+        put(csv, text, (size_t)(quote - text) + 1);   // a quote inside is doubled
+        put(csv, "\"", 1);
+        text = quote + 1;
+    }
+    put(csv, text, strlen(text));
+    put(csv, "\"", 1);
+}
+
+void csv_number(CsvWriter *csv, double value)
+{
+    char digits[40] = "";
+    for (int precision = 6; isfinite(value) && precision <= 17; precision++) {
+        snprintf(digits, sizeof digits, "%.*g", precision, value);
+        if (strtod(digits, NULL) == value) break;
+    }
+    csv_text(csv, digits);
+}
+
+void csv_end_row(CsvWriter *csv)
+{
+    put(csv, "\n", 1);
+    csv->in_row = false;
+}
+
+bool csv_finish(CsvWriter *csv, Error *err)
+{
+    flush(csv);
+    bool good = error_is_clean(&csv->first);
+    if (!good) *err = csv->first;
+    good = good && part_file_commit(&csv->file, err);
+    csv_abandon(csv);
+    return good;
+}
+
+void csv_abandon(CsvWriter *csv)
+{
+    if (csv) part_file_discard(&csv->file);
+    memory_free(csv);
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/text/html_writer.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "io/files/part_file.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BUFFER_SIZE = 1 << 16, MARKUP_SIZE = 2000, CHUNK = 3 * 1000 };
+
+struct HtmlWriter {
+    PartFile file;
+    Error first;   // the first failure
+    int64_t size;   // bytes so far
+    int32_t used;   // bytes of the buffer
+    char buffer[BUFFER_SIZE];
+};
+
+HtmlWriter *html_create(const char *path, bool any, Error *err)
+{
+    HtmlWriter *html = NEW_ARRAY(HtmlWriter, 1, err);
+    if (!html) return NULL;
+    if (part_file_replace(&html->file, path, any, err)) return html;
+    memory_free(html);
+    return NULL;
+}
+
+// After the first failure nothing is written.
+static void flush(HtmlWriter *html)
+{
+    if (error_is_clean(&html->first))
+        part_file_write(&html->file, html->buffer, html->used, &html->first);
+    html->used = 0;
+}
+
+static void put(HtmlWriter *html, const char *bytes, size_t count)
+{
+    html->size += (int64_t)count;
+    while (count > 0) {
+        size_t room = (size_t)(BUFFER_SIZE - html->used), part = count < room ? count : room;
+        memcpy(html->buffer + html->used, bytes, part);
+        html->used += (int32_t)part;
+        bytes += part;
+        count -= part;
+        if (html->used == BUFFER_SIZE) flush(html);
+    }
+}
+
+void html_markup(HtmlWriter *html, const char *format, ...)
+{
+    char words[MARKUP_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
+    if (length < 0 || length >= MARKUP_SIZE)
+        error_set(&html->first, ERROR_COMPUTE, __FILE__, __LINE__, "markup of %d bytes", length);
+    else
+        put(html, words, (size_t)length);
+}
+
+void html_raw(HtmlWriter *html, const char *markup)
+{
+    put(html, markup, strlen(markup));
+}
+
+// NULL: the character stands for itself.
+static const char *escape(unsigned char letter)
+{
+    switch (letter) {
+    case '&':
+        return "&amp;";
+    case '<':
+        return "&lt;";
+    case '>':
+        return "&gt;";
+    case '"':
+        return "&quot;";
+    case '\'':
+        return "&#39;";
+    default:
+        return (letter < ' ' && letter != '\n' && letter != '\t') || letter == 127 ? "\uFFFD"
+                                                                                   : NULL;
+    }
+}
+
+void html_text(HtmlWriter *html, const char *text)
+{
+    while (*text) {
+        int32_t length = text_utf8_length(text);
+        const char *escaped = length == 1 ? escape((unsigned char)*text) : NULL;
+        if (length == 0) escaped = "\uFFFD";
+        if (escaped)
+            put(html, escaped, strlen(escaped));
+        else
+            put(html, text, (size_t)length);
+        text += length ? length : 1;
+    }
+}
+
+void html_number(HtmlWriter *html, double value, int32_t digits)
+{
+    char words[40];
+    if (!isfinite(value)) {
+        put(html, "\u2013", strlen("\u2013"));
+        return;
+    }
+    snprintf(words, sizeof words, "%.*g", digits, fabs(value));
+    char *power = strchr(words, 'e');
+    if (power) *power = 0;
+    html_markup(html, "%s%s", value < 0 ? "\u2212" : "", words);
+    if (!power) return;
+    int exponent = atoi(power + 1);
+    html_markup(html, "\u202f\u00d7\u202f10<sup>%s%d</sup>", exponent < 0 ? "\u2212" : "",
+                abs(exponent));
+}
+
+void html_base64(const uint8_t *bytes, int64_t size, char *text)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (int64_t k = 0; k < size; k += 3) {
+        int64_t left = size - k;
+        uint32_t three = (uint32_t)bytes[k] << 16 | (left > 1 ? (uint32_t)bytes[k + 1] << 8 : 0) |
+                         (left > 2 ? bytes[k + 2] : 0);
+        *text++ = letters[three >> 18];
+        *text++ = letters[three >> 12 & 63];
+        *text++ = left > 1 ? letters[three >> 6 & 63] : '=';
+        *text++ = left > 2 ? letters[three & 63] : '=';
+    }
+    *text = 0;
+}
+
+void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t size)
+{
+    char text[4 * CHUNK / 3 + 1];
+    html_markup(html, "data:%s;base64,", type);
+    for (int64_t at = 0; at < size; at += CHUNK) {
+        int64_t count = size - at < CHUNK ? size - at : CHUNK;
+        html_base64((const uint8_t *)bytes + at, count, text);
+        put(html, text, strlen(text));
+    }
+}
+
+int64_t html_size(const HtmlWriter *html)
+{
+    return html->size;
+}
+
+bool html_finish(HtmlWriter *html, Error *err)
+{
+    flush(html);
+    bool good = error_is_clean(&html->first);
+    if (!good) *err = html->first;
+    good = good && part_file_commit(&html->file, err);
+    html_abandon(html);
+    return good;
+}
+
+void html_abandon(HtmlWriter *html)
+{
+    if (html) part_file_discard(&html->file);
+    memory_free(html);
+}

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The document grows in memory and goes to disk in one piece: run.json has some kilobytes.
+#include "io/text/json_writer.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "io/files/part_file.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    DEPTH_MAX = 32,   // open objects and lists; run.json has five
+    FIRST_CAPACITY = 4096,   // bytes of text before the first growth
+    INDENT = 2   // columns a level
+};
+
+// An object or list that is not yet ended.
+typedef struct JsonLevel {
+    bool is_list;
+    bool one_line;   // so far it holds plain values only
+    int32_t count;   // items written
+} JsonLevel;
+
+struct JsonWriter {
+    PartFile file;
+    Error first;   // the first failure
+    char *text;   // [capacity], of which `length` are written; owned
+    int64_t length, capacity;
+    int32_t depth;   // open levels; levels[0] is the document itself
+    JsonLevel levels[DEPTH_MAX + 1];
+};
+
+// After the first failure nothing is added.
+static void append_bytes(JsonWriter *json, const char *bytes, int64_t count)
+{
+    if (!error_is_clean(&json->first)) return;
+    if (json->length + count > json->capacity) {
+        int64_t capacity = 2 * (json->length + count);   // doubled: copied twice on average
+        char *longer = memory_resize(json->text, json->length, capacity, 1, &json->first);
+        if (!longer) return;
+        json->text = longer;
+        json->capacity = capacity;
+    }
+    memcpy(json->text + json->length, bytes, (size_t)count);
+    json->length += count;
+}
+
+static void append_text(JsonWriter *json, const char *text)
+{
+    append_bytes(json, text, (int64_t)strlen(text));
+}
+
+// And the indentation of the level that is open.
+static void append_new_line(JsonWriter *json)
+{
+    append_text(json, "\n");
+    for (int32_t column = 0; column < INDENT * json->depth; column++) append_text(json, " ");
+}
+
+// A JSON string, escaped by RFC 8259, section 7, and DEL. A file name may hold any bytes: those
+// that are not UTF-8, at which a parser would stop, become the replacement character.
+static void append_escaped(JsonWriter *json, const char *value)
+{
+    append_text(json, "\"");
+    const unsigned char *next = (const unsigned char *)value;
+    while (*next) {
+        int32_t length = text_utf8_length((const char *)next);
+        char escaped[8] = {0};
+        if (length == 0)
+            snprintf(escaped, sizeof escaped, "\xEF\xBF\xBD");   // U+FFFD, replacement
+        else if (*next == '"' || *next == '\\')
+            snprintf(escaped, sizeof escaped, "\\%c", *next);
+        else if (*next == '\n')
+            snprintf(escaped, sizeof escaped, "\\n");
+        else if (*next == '\t')
+            snprintf(escaped, sizeof escaped, "\\t");
+        else if (*next < 0x20 || *next == 0x7F)
+            snprintf(escaped, sizeof escaped, "\\u%04x", *next);
+        if (escaped[0])
+            append_text(json, escaped);
+        else
+            append_bytes(json, (const char *)next, length);
+        next += length > 0 ? length : 1;
+    }
+    append_text(json, "\"");
+}
+
+// Comma, line and key before a value or before the bracket of a level.
+static void begin_item(JsonWriter *json, const char *key, bool is_plain)
+{
+    JsonLevel *level = &json->levels[json->depth];
+    if (json->depth == 0 && level->count > 0)
+        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "%s: more than one value at the top", json->file.path);
+    if (json->depth > 0 && level->is_list == (key != NULL))
+        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
+                  key ? "a key inside a list" : "no key inside an object");
+    if (!is_plain) level->one_line = false;   // from here on
+    if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
+    if (json->depth > 0 && !level->one_line) append_new_line(json);
+    level->count++;
+    if (key) {
+        append_escaped(json, key);
+        append_text(json, ": ");
+    }
+}
+
+// Beyond DEPTH_MAX the document has failed, and `depth` stays.
+static void begin_level(JsonWriter *json, const char *key, bool is_list)
+{
+    begin_item(json, key, false);
+    append_text(json, is_list ? "[" : "{");
+    if (json->depth == DEPTH_MAX) {
+        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "%s: more than %d levels of nesting", json->file.path, DEPTH_MAX);
+        return;
+    }
+    json->levels[++json->depth] = (JsonLevel){.is_list = is_list, .one_line = is_list};
+}
+
+// The file is opened at once: a folder that cannot be written to shows before anything is computed.
+JsonWriter *json_create(const char *path, Error *err)
+{
+    JsonWriter *json = NEW_ARRAY(JsonWriter, 1, err);
+    if (!json) return NULL;
+    if (path) TRY(part_file_create(&json->file, path, err));
+    json->capacity = FIRST_CAPACITY;
+    json->text = NEW_ARRAY(char, json->capacity, err);
+    if (!json->text) goto cleanup;
+    return json;
+cleanup:
+    json_abandon(json);
+    return NULL;
+}
+
+void json_begin_object(JsonWriter *json, const char *key)
+{
+    begin_level(json, key, false);
+}
+
+void json_begin_list(JsonWriter *json, const char *key)
+{
+    begin_level(json, key, true);
+}
+
+// A list of plain values ends on its line.
+void json_end(JsonWriter *json)
+{
+    if (json->depth == 0) {
+        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: an end without a beginning",
+                  json->file.path);
+        return;
+    }
+    JsonLevel level = json->levels[json->depth--];
+    if (level.count > 0 && !level.one_line) append_new_line(json);
+    append_text(json, level.is_list ? "]" : "}");
+}
+
+void json_text(JsonWriter *json, const char *key, const char *value)
+{
+    begin_item(json, key, true);
+    if (value)
+        append_escaped(json, value);
+    else
+        append_text(json, "null");
+}
+
+void json_number(JsonWriter *json, const char *key, double value)
+{
+    char digits[32] = "null";
+    // 15 digits are always right, 17 always enough (IEEE 754 double): the fewest that read back.
+    for (int32_t precision = 15; isfinite(value) && precision <= 17; precision++) {
+        snprintf(digits, sizeof digits, "%.*g", precision, value);
+        if (strtod(digits, NULL) == value) break;
+    }
+    begin_item(json, key, true);
+    append_text(json, digits);
+}
+
+void json_integer(JsonWriter *json, const char *key, int64_t value)
+{
+    char digits[32];
+    snprintf(digits, sizeof digits, "%" PRId64, value);
+    begin_item(json, key, true);
+    append_text(json, digits);
+}
+
+void json_boolean(JsonWriter *json, const char *key, bool value)
+{
+    begin_item(json, key, true);
+    append_text(json, value ? "true" : "false");
+}
+
+// A missing end is a bug of the caller; the file would not be JSON.
+static bool end_document(JsonWriter *json, Error *err)
+{
+    if (json->depth != 0 || json->levels[0].count != 1)
+        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: the document is not whole",
+                  json->file.path);
+    if (!error_is_clean(&json->first) && error_is_clean(err)) *err = json->first;
+    return error_is_clean(err);
+}
+
+bool json_finish(JsonWriter *json, Error *err)
+{
+    append_text(json, "\n");
+    TRY(end_document(json, err));
+    TRY(part_file_write(&json->file, json->text, json->length, err));
+    TRY(part_file_commit(&json->file, err));
+cleanup:
+    json_abandon(json);
+    return error_is_clean(err);
+}
+
+char *json_take(JsonWriter *json, Error *err)
+{
+    char *text = NULL;
+    append_bytes(json, "\n", 2);   // with the end of the text
+    TRY(end_document(json, err));
+    text = json->text;
+    json->text = NULL;
+cleanup:
+    json_abandon(json);
+    return text;
+}
+
+void json_abandon(JsonWriter *json)
+{
+    if (!json) return;
+    part_file_discard(&json->file);
+    memory_free(json->text);
+    memory_free(json);
+}

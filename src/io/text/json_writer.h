@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Writes one JSON document into a file, atomically: the final name appears when all is on disk.
+// Numbers keep 17 digits where needed; NaN and infinities, which JSON does not have, become null.
+// Indented by two spaces; a list of plain values stands on one line (RFC 8259).
+#ifndef AMONTONS_IO_TEXT_JSON_WRITER_H
+#define AMONTONS_IO_TEXT_JSON_WRITER_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+typedef struct JsonWriter JsonWriter;
+
+// `key` is NULL inside a list and at the top. The first failure is kept and reported by finish.
+JsonWriter *json_create(const char *path, Error *err);   // path NULL: for json_take
+void json_begin_object(JsonWriter *json, const char *key);
+void json_begin_list(JsonWriter *json, const char *key);
+void json_end(JsonWriter *json);   // of the innermost object or list
+void json_text(JsonWriter *json, const char *key, const char *value);   // NULL: null
+void json_number(JsonWriter *json, const char *key, double value);
+void json_integer(JsonWriter *json, const char *key, int64_t value);
+void json_boolean(JsonWriter *json, const char *key, bool value);
+bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
+// In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either
+// way.
+char *json_take(JsonWriter *json, Error *err);
+void json_abandon(JsonWriter *json);   // removes what was written; NULL is fine
+
+#endif

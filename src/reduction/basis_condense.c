@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// With A_qq = L L' and Z = L^-1 [A_qb  load_q]: S = A_bb - Z_b' Z_b, the energy is Z_f' Z_f.
+#include "reduction/basis_condense.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+#include "base/share.h"
+
+#include <string.h>
+
+enum {
+    WIDE = 64,   // columns of a product
+    STRETCH = 1024,   // numbers that are added up at once
+    ALONE = 20000   // entries of Z below which a thread takes as long as it saves
+};
+
+typedef struct Condensation {
+    int64_t m, r;
+    const double *lower;   // [r^2] L
+    double *z;   // [r * (m + 1)]
+    double *schur;   // [m^2]
+} Condensation;
+
+static void divide_half(void *context, int32_t which)
+{
+    const Condensation *all = context;
+    int64_t half = all->m / 2, first = which ? half : 0, end = which ? all->m + 1 : half;
+    dense_lower_divide(all->lower, (int32_t)all->r, (int32_t)(end - first),
+                       all->z + first * all->r);
+}
+
+// Rows from a block's first column down.
+static void square_half(void *context, int32_t which)
+{
+    const Condensation *all = context;
+    int64_t m = all->m, r = all->r;
+    for (int64_t from = which * WIDE; from < m; from += 2 * WIDE) {
+        int64_t columns = m - from < WIDE ? m - from : WIDE;
+        const double *z = all->z + from * r;
+        dense_multiply_transposed_rows(dense_view(z, r, m - from), dense_view(z, r, columns), -1, 1,
+                                       all->schur + from * (m + 1), m);
+    }
+}
+
+static void in_two(void (*half)(void *context, int32_t which), Condensation *all)
+{
+    if (all->m * all->r >= ALONE) {
+        share_in_two(half, all);
+    } else {
+        half(all, 0);
+        half(all, 1);
+    }
+}
+
+// out := sum of factor * term, those that are there, stretch by stretch in the cache.
+static void combine(double *const terms[BULK_TERMS], const double *factor, int64_t count,
+                    double *out)
+{
+    for (int64_t from = 0; from < count; from += STRETCH) {
+        int64_t end = from + STRETCH < count ? from + STRETCH : count;
+        memset(out + from, 0, (size_t)(end - from) * sizeof *out);
+        for (int term = 0; term < BULK_TERMS; term++) {
+            const double *values = terms[term];
+            double share = factor[term];
+            for (int64_t i = from; values && share != 0 && i < end; i++)
+                out[i] += share * values[i];
+        }
+    }
+}
+
+bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
+                    bool *definite, Error *err)
+{
+    int64_t m = basis->interface_count, r = basis->interior_count;
+    double *interior = NEW_ARRAY(double, r *r, err), *z = NEW_ARRAY(double, r *(m + 1), err);
+    double *beside = NEW_ARRAY(double, m *r, err);
+    if (!interior || !z || !beside) goto cleanup;
+    combine(basis->interior, factor, r * r, interior);
+    combine(basis->beside, factor, m * r, beside);
+    combine(basis->statics, factor, m * m, schur);
+    dense_transpose(dense_view(beside, m, r), z, r);
+    memcpy(z + m * r, basis->load + m, (size_t)r * sizeof *z);
+    if (!(*definite = dense_cholesky(interior, (int32_t)r))) goto cleanup;
+    Condensation all = {m, r, interior, z, schur};
+    in_two(divide_half, &all);
+    in_two(square_half, &all);
+    dense_mirror(schur, m);
+    *energy = dense_dot(z + m * r, z + m * r, (int32_t)r);
+cleanup:
+    memory_free(interior);
+    memory_free(z);
+    memory_free(beside);
+    return error_is_clean(err);
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Nodes are put in order along a direction in which hardly any two are abreast.
+#include "reduction/mirror_nodes.h"
+
+#include "base/memory.h"
+#include "fem/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SLANT = 0.6180339887498949;   // of the direction: no ratio of small numbers
+
+// Between a node and its image, over the length.
+static const double APART = 3e-9;
+
+typedef struct Place {
+    double along;
+    int32_t node;
+} Place;
+
+static double along(int32_t dim, const double *at)
+{
+    double sum = at[0], part = 1;
+    for (int32_t d = 1; d < dim; d++) sum += (part *= SLANT) * at[d];
+    return sum;
+}
+
+static int by_place(const void *left, const void *right)
+{
+    double a = ((const Place *)left)->along, b = ((const Place *)right)->along;
+    return (a > b) - (a < b);
+}
+
+static bool are_close(int32_t dim, const double *one, const double *other, double apart)
+{
+    for (int32_t d = 0; d < dim; d++)
+        if (!(fabs(one[d] - other[d]) <= apart)) return false;
+    return true;
+}
+
+// What is looked through.
+typedef struct Nodes {
+    int32_t dim, count;
+    const double *position;   // [count * dim]
+    Place *places;   // [count] in order; owned
+    double apart;
+} Nodes;
+
+// The node at a place, or -1.
+static int32_t node_at(const Nodes *nodes, const double *at)
+{
+    MeshPlace corner;
+    for (int32_t d = 0; d < DIM_MAX; d++) corner[d] = nodes->apart;
+    double reach = along(nodes->dim, corner), from = along(nodes->dim, at) - reach;
+    int32_t first = 0, end = nodes->count;
+    while (first < end) {
+        int32_t middle = first + (end - first) / 2;
+        if (nodes->places[middle].along < from)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (int32_t k = first; k < nodes->count && nodes->places[k].along <= from + 2 * reach; k++) {
+        int32_t node = nodes->places[k].node;
+        const double *there = nodes->position + node_dof(nodes->dim, node, 0);
+        if (are_close(nodes->dim, there, at, nodes->apart)) return node;
+    }
+    return -1;
+}
+
+// Both into the middle: x over the mirror, all else alike.
+static void put_together(int32_t dim, double sum, double *here, double *there)
+{
+    here[0] = (here[0] + (sum - there[0])) / 2;
+    there[0] = sum - here[0];
+    for (int32_t d = 1; d < dim; d++) there[d] = here[d] = (here[d] + there[d]) / 2;
+}
+
+bool mirror_nodes_find(int32_t dim, double *position, int32_t nodes, int32_t *image, bool *found,
+                       Error *err)
+{
+    double least = INFINITY, most = -INFINITY;
+    Nodes all = {dim, nodes, position, NEW_ARRAY(Place, nodes, err), 0};
+    if (!all.places) return false;
+    for (int32_t i = 0; i < nodes; i++) {
+        const double *at = position + node_dof(dim, i, 0);
+        all.places[i] = (Place){along(dim, at), i};
+        least = fmin(least, at[0]);
+        most = fmax(most, at[0]);
+    }
+    double sum = least + most;
+    all.apart = APART * (most - least);
+    qsort(all.places, (size_t)nodes, sizeof *all.places, by_place);
+    *found = true;
+    for (int32_t i = 0; *found && i < nodes; i++) {
+        MeshPlace across;
+        memcpy(across, position + node_dof(dim, i, 0), (size_t)dim * sizeof(double));
+        across[0] = sum - across[0];
+        image[i] = node_at(&all, across);
+        *found = image[i] >= 0;
+    }
+    for (int32_t i = 0; *found && i < nodes; i++) *found = image[image[i]] == i;
+    for (int32_t i = 0; *found && i < nodes; i++)
+        if (image[i] >= i)
+            put_together(dim, sum, position + node_dof(dim, i, 0),
+                         position + node_dof(dim, image[i], 0));
+    memory_free(all.places);
+    return true;
+}

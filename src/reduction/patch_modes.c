@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "reduction/patch_modes.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TOGETHER = 48 };   // columns whose image is formed at once
+
+// Of the largest energy of some fields: what has less is looked at again when the others are taken
+// out, or half of its digits would be lost.
+static const double DIGITS = 1e-8;
+
+// Of the squares of some fields: taken out once more where less is left.
+static const double LITTLE = 1e-4;
+
+void patch_modes_destroy(PatchModes *modes)
+{
+    memory_free(modes->dofs);
+    sparse_pattern_destroy(&modes->pattern);
+    memory_free(modes->stiffness);
+    memory_free(modes->damping);
+    memory_free(modes->field);
+    memory_free(modes->image);
+    *modes = (PatchModes){0};
+}
+
+bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err)
+{
+    *room = (FarRoom){.rows = NEW_ARRAY(double, size *columns, err),
+                      .next = NEW_ARRAY(double, size *columns, err),
+                      .parts = NEW_ARRAY(double, (size + columns) * columns, err),
+                      .sparse = NEW_ARRAY(double, size *SPARSE_WIDE, err),
+                      .energies = NEW_ARRAY(double, columns *columns, err),
+                      .values = NEW_ARRAY(double, columns, err),
+                      .eigen = NEW_ARRAY(double, dense_eigen_work((int32_t)columns), err)};
+    return error_is_clean(err);
+}
+
+void far_room_destroy(FarRoom *room)
+{
+    double *const owned[] = {room->rows,   room->next,     room->parts, room->sparse,
+                             room->values, room->energies, room->eigen};
+    for (size_t k = 0; k < sizeof owned / sizeof *owned; k++) memory_free(owned[k]);
+    *room = (FarRoom){0};
+}
+
+// Not zeroed: what is not written to stays without memory behind it.
+static bool lengthen(double **columns, int64_t filled, int64_t needed, Error *err)
+{
+    double *longer = memory_bytes(needed * (int64_t)sizeof *longer, err);
+    if (!longer) return false;
+    if (filled > 0) memcpy(longer, *columns, (size_t)filled * sizeof *longer);
+    memory_free(*columns);
+    *columns = longer;
+    return true;
+}
+
+bool patch_modes_make_room(PatchModes *modes, int32_t columns, Error *err)
+{
+    int64_t size = modes->size, filled = size * modes->count;
+    int64_t room = modes->room, needed = modes->count + columns;
+    if (needed <= room) return true;
+    if (needed < 2 * room) needed = 2 * room;
+    if (!lengthen(&modes->field, filled, size * needed, err) ||
+        !lengthen(&modes->image, filled, size * needed, err))
+        return false;
+    modes->room = (int32_t)needed;
+    return true;
+}
+
+static double square_sum(const double *values, int64_t count)
+{
+    double sum = 0;
+    for (int64_t k = 0; k < count; k++) sum += values[k] * values[k];
+    return sum;
+}
+
+// Fields less what F has of them, and their image. Twice where little is left: what rounding put
+// back is large beside it.
+static void take_out(const PatchModes *modes, int64_t columns, FarRoom *room)
+{
+    int64_t size = modes->size, count = modes->count;
+    DenseView fields = dense_view(room->rows, size, columns);
+    for (bool again = count > 0; again;) {
+        double before = square_sum(room->rows, size * columns);
+        dense_multiply_transposed(dense_view(modes->image, size, count), fields, 1, 0, room->parts);
+        dense_multiply(dense_view(modes->field, size, count),
+                       dense_view(room->parts, count, columns), -1, 1, room->rows);
+        double after = square_sum(room->rows, size * columns);
+        again = after > 0 && after < LITTLE * before;
+    }
+    sparse_apply_many(&modes->pattern, modes->stiffness, room->rows, columns, room->next,
+                      room->sparse);
+}
+
+// New columns of F and its image: those of the rows times eigenvectors of their energies; how many,
+// `most` of them. -1: LAPACK finds none. *again: some have few digits.
+static int32_t take_up(PatchModes *modes, int32_t columns, int32_t most, double least,
+                       FarRoom *room, bool *again)
+{
+    int64_t size = modes->size, c = columns, first = c, end = size * modes->count;
+    double *energies = room->energies, *values = room->values;
+    DenseView fields = dense_view(room->rows, size, c), image = dense_view(room->next, size, c);
+    dense_multiply_transposed(fields, image, 1, 0, energies);
+    if (!dense_eigen(energies, columns, values, room->eigen)) return -1;
+    double enough = fmax(least, DIGITS * values[c - 1]);
+    while (first > c - most && values[first - 1] > enough) first--;
+    *again = first > 0 && values[first - 1] > least;
+    for (int64_t j = first; j < c; j++)
+        for (int64_t i = 0; i < c; i++) energies[j * c + i] /= sqrt(values[j]);
+    DenseView kept = dense_view(energies + first * c, c, c - first);
+    if (first < c) {
+        dense_multiply(fields, kept, 1, 0, modes->field + end);
+        dense_multiply(image, kept, 1, 0, modes->image + end);
+    }
+    modes->count += (int32_t)(c - first);
+    return (int32_t)(c - first);
+}
+
+bool patch_modes_add(PatchModes *modes, DenseView fields, double least, FarRoom *room,
+                     int32_t *added)
+{
+    int64_t size = modes->size, columns = fields.columns;
+    bool again = true;
+    *added = 0;
+    for (int64_t j = 0; j < columns; j++)
+        for (int64_t i = 0; i < size; i++)
+            room->rows[j * size + i] = fields.values[j * fields.rows + modes->dofs[i]];
+    while (again && *added < columns) {
+        take_out(modes, columns, room);
+        int32_t most = (int32_t)columns - *added;
+        int32_t taken = take_up(modes, (int32_t)columns, most, least, room, &again);
+        if (taken < 0) return false;
+        *added += taken;
+    }
+    return true;
+}
+
+bool patch_modes_project(const PatchModes *modes, const double *mass,
+                         double *const square[BULK_TERMS], Error *err)
+{
+    int64_t size = modes->size, count = modes->count;
+    double *image = NEW_ARRAY(double, size *TOGETHER, err);
+    double *work = NEW_ARRAY(double, size *SPARSE_WIDE, err);
+    for (int64_t from = 0; image && work && from < count; from += TOGETHER) {
+        int64_t columns = count - from < TOGETHER ? count - from : TOGETHER,
+                at = from * (count + 1);
+        const double *field = modes->field + from * size;
+        DenseView rest = dense_view(field, size, count - from),
+                  part = dense_view(image, size, columns);
+        dense_multiply_transposed_rows(rest, dense_view(modes->image + from * size, size, columns),
+                                       1, 0, square[BULK_STIFFNESS] + at, count);
+        sparse_apply_many(&modes->pattern, modes->damping, field, columns, image, work);
+        dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_DAMPING] + at, count);
+        for (int64_t j = 0; j < columns; j++)
+            for (int64_t i = 0; i < size; i++)
+                image[j * size + i] = mass[modes->dofs[i]] * field[j * size + i];
+        dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_MASS] + at, count);
+    }
+    for (int term = 0; term < BULK_TERMS; term++) dense_mirror(square[term], count);
+    memory_free(image);
+    memory_free(work);
+    return error_is_clean(err);
+}

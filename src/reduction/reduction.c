@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A greedy basis whose error is known where it is built. At each training point (viscosity,
+// inertia), with S of the full mesh from its factor and S_r of what the basis holds so far, the
+// eigenvectors of
+//
+//     (S_r - S) y = mu S y,    y_j' S y_k = 1 if j = k, else 0,
+//
+// are the boundary motions (of the interface) with the largest errors, mu the relative error of
+// each. The difference of responses e = R_r y - R y, with R y the response of the full mesh,
+// vanishes on the interface, has the energy e'A e = mu and is A-orthogonal to Phi and to the other
+// e. So adding exactly the e with mu above the tolerance leaves no error above it at this point,
+// with the smallest number of new vectors.
+#include "reduction/reduction.h"
+
+#include "base/dense.h"
+#include "base/largest_eigen.h"
+#include "base/memory.h"
+#include "reduction/basis_condense.h"
+#include "reduction/basis_finish.h"
+#include "reduction/basis_renew.h"
+#include "reduction/factors_ahead.h"
+#include "reduction/far_field.h"
+#include "reduction/growing_basis.h"
+#include "reduction/inertias.h"
+#include "reduction/training_points.h"
+
+#include <math.h>
+#include <string.h>
+
+// A new mode is what is left of a response when the others are taken out. If its energy is smaller
+// than the response's by more than this, it is formed by the mesh, which takes three times as long
+// as all else: rounding of the reduced matrices stays below some 4e-14 of this. At a tolerance of
+// 2e-2 the factor is 3e4 at most, at 2e-3 1e7. Where energies differ as it is (several materials,
+// or C unlike K by more than UNLIKE) it is always done.
+static const double LOSS_MAX = 5e4, UNLIKE = 4;
+
+// S_r - S has no negative eigenvalue but for rounding. From this part of the allowed error on the
+// basis has lost too many digits.
+static const double NEGATIVE_MAX = 1e-3;
+
+// Work of one build.
+typedef struct Builder {
+    BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
+    const ReductionDef *def;
+    GrowingBasis basis;
+    ReducedBulk *reduced;   // not owned
+    TrainingPoints training;
+    OperatorTerms terms[TRAINING_POINTS_MAX];   // [training.count] of its points
+    FactorsAhead *ahead;   // of these
+    double load_energy;   // at a point, of the basis's response to the unit load
+    const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
+    double *excess;   // [m^2] S_r - S
+    double *values;   // [m] eigenvalues
+    double *eigen_work;   // [dense_eigen_work(m)]
+    BulkOperator mesh;   // the whole, where nothing is replaced
+    FarBlock far_block;
+    FarField far;   // far.block NULL: nothing is replaced
+} Builder;
+
+// All but the reduced bulk.
+static void builder_destroy(Builder *work)
+{
+    factors_ahead_destroy(work->ahead);
+    basis_destroy(&work->basis);
+    memory_free(work->excess);
+    memory_free(work->values);
+    memory_free(work->eigen_work);
+    bulk_operator_destroy(&work->mesh);
+    far_field_destroy(&work->far);
+    far_block_destroy(&work->far_block);
+}
+
+static bool builder_create(Builder *work, Error *err)
+{
+    int32_t m = work->full->interface_count;
+    TRY(basis_create(work->full, &work->def->scales, &work->basis, err));
+    work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
+    work->values = NEW_ARRAY(double, m, err);
+    work->eigen_work = NEW_ARRAY(double, dense_eigen_work(m), err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static double allowed_error(const Builder *work, ParameterPoint point)
+{
+    return parameter_error_allowed(&work->training, point, work->def->tolerance);
+}
+
+// Where few boundary motions are above `allowed`, or none. In place of the next eigenvalue is a
+// bound of it, 1 % above it at most, or a thousandth of what is allowed; in that of the first one
+// `least`.
+static bool compare_largest(Builder *work, const double *schur, double allowed, double least,
+                            bool *found, Error *err)
+{
+    int64_t m = work->basis.interface_count;
+    LargestEigenDef def = {.size = (int32_t)m,
+                           .a = work->excess,
+                           .b = schur,
+                           .lower = work->lower,
+                           .above = fmin(allowed, 1),
+                           .least = least,
+                           .work = work->eigen_work};
+    LargestEigen largest;
+    TRY(largest_eigen_find(&def, &largest, found, err));
+    if (!*found) goto cleanup;
+    int64_t first = m - largest.count;
+    memcpy(work->values + first, largest.values, (size_t)(m - first) * sizeof *largest.values);
+    memcpy(work->excess + first * m, largest.vectors,
+           (size_t)((m - first) * m) * sizeof *largest.vectors);
+    work->values[first - 1] = largest.next;
+    work->values[0] = least;
+cleanup:
+    largest_eigen_destroy(&largest);
+    return error_is_clean(err);
+}
+
+// Solves (S_r - S) y = mu S y, S = L L': mu ascending in `values`, those above `allowed`, the next
+// one and the first; L'y of those above in the last columns of `excess`, which is S_r before.
+static bool compare(Builder *work, const double *schur, double allowed, double least, Error *err)
+{
+    int32_t m = work->basis.interface_count;
+    bool found = false;
+    dense_add_scaled(-1, schur, m * m, work->excess);
+    TRY(compare_largest(work, schur, allowed, least, &found, err));
+    if (found) goto cleanup;
+    dense_divide_both_sides(work->lower, m, work->excess);
+    if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
+        FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
+cleanup:
+    return error_is_clean(err);
+}
+
+// Responses of the full mesh to the last `wanted` columns of `excess`, scaled so that what they
+// differ by from the basis's has energy 1.
+static bool take_responses(Builder *work, InterfaceOperator *full, int32_t wanted,
+                           ResponseBlock *next, Error *err)
+{
+    int64_t m = work->basis.interface_count;
+    double *first = work->excess + (m - wanted) * m;
+    double *pushed = NEW_ARRAY(double, m *wanted, err);
+    if (!pushed) return false;
+    for (int64_t k = 0; k < wanted; k++)
+        for (int64_t i = 0; i < m; i++) first[k * m + i] /= sqrt(work->values[m - wanted + k]);
+    memcpy(pushed, first, (size_t)(m * wanted) * sizeof *pushed);
+    dense_lower_multiply(work->lower, (int32_t)m, wanted, pushed);   // S y = L L' (L^-T z) = L z
+    dense_lower_divide_transposed(work->lower, (int32_t)m, wanted, first);
+    for (int64_t k = 0; k < wanted; k++) {
+        memcpy(next->reaction + k * (m + 1), pushed + k * m, (size_t)m * sizeof *pushed);
+        memcpy(next->boundary + k * (m + 1), first + k * m, (size_t)m * sizeof *pushed);
+    }
+    memory_free(pushed);
+    return interface_operator_respond(full, first, wanted, next->field, err);
+}
+
+// The response to the load as the block's last column, scaled likewise: dropped unless the basis
+// lacks more than `allowed` of its energy.
+static void take_load(const Builder *work, const FactoredPoint *full, double allowed,
+                      ResponseBlock *next)
+{
+    int64_t dofs = work->full->dof_count, m = work->basis.interface_count;
+    double *x = next->field + (next->count - 1) * dofs;
+    double *reaction = next->reaction + (next->count - 1) * (m + 1);
+    // The load does less work on a Galerkin response than on the exact one, by the energy of the
+    // difference.
+    double energy = dense_dot(full->held, work->basis.responses.unit_load, (int32_t)dofs);
+    double missing = energy - work->load_energy;
+    if (!(missing > allowed * energy)) {
+        next->count--;
+        return;
+    }
+    for (int64_t k = 0; k < dofs; k++) x[k] = full->held[k] / sqrt(missing);
+    for (int64_t k = 0; k < m; k++) reaction[k] = -full->pull[k] / sqrt(missing);
+    reaction[m] = 1 / sqrt(missing);
+}
+
+static bool condense_basis(Builder *work, ParameterPoint point, bool *definite, Error *err)
+{
+    const double factor[] = {[BULK_STIFFNESS] = 1 - point.viscosity,
+                             [BULK_DAMPING] = point.viscosity,
+                             [BULK_MASS] = point.inertia};
+    return basis_condense(&work->basis, factor, work->excess, &work->load_energy, definite, err);
+}
+
+// Compares S_r with `schur`, S at the point. *negative: a Galerkin projection is too stiff, never
+// too soft; this one is, so it is none any more.
+static bool compare_at(Builder *work, ParameterPoint point, const double *schur, bool *negative,
+                       Error *err)
+{
+    double allowed = allowed_error(work, point);
+    double least = -NEGATIVE_MAX * allowed - parameter_error_allowed(&work->training, point, 0);
+    bool definite = false;
+    TRY(condense_basis(work, point, &definite, err));
+    if (definite) TRY(compare(work, schur, allowed, least, err));
+    *negative = !definite || work->values[0] < least;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Likewise, with the basis renewed where it has to be.
+static bool compare_well(Builder *work, ParameterPoint point, const double *schur, Error *err)
+{
+    bool negative = false;
+    TRY(compare_at(work, point, schur, &negative, err));
+    if (!negative) goto cleanup;
+    TRY(basis_renew(&work->basis, 0, err));
+    TRY(compare_at(work, point, schur, &negative, err));
+    if (negative) FAIL(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
+cleanup:
+    return error_is_clean(err);
+}
+
+// Adds what the basis lacks at `point`; *left: the error of S there afterwards.
+static bool train_at(Builder *work, ParameterPoint point, const FactoredPoint *full, double *left,
+                     Error *err)
+{
+    int32_t m = work->basis.interface_count, wanted = 0;
+    double allowed = allowed_error(work, point);
+    work->lower = interface_operator_schur_lower(full->full);
+    TRY(compare_well(work, point, interface_operator_schur(full->full), err));
+    // The error of what is added becomes 0; what is left is that of the first boundary motion not
+    // added.
+    while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
+    *left = wanted < m ? fmax(work->values[m - 1 - wanted], 0) : 0;
+    ResponseBlock *next = responses_next(&work->basis.responses, point, wanted + 1, err);
+    if (!next) goto cleanup;
+    TRY(take_responses(work, full->full, wanted, next, err));
+    take_load(work, full, allowed, next);
+    if (next->count > 0) TRY(basis_extend(&work->basis, err));
+cleanup:
+    if (!error_is_clean(err)) error_context(err, "at inertia %g", point.inertia);
+    return error_is_clean(err);
+}
+
+// The thread begins while the basis is started.
+static bool list_training_points(Builder *work, double slowest, Error *err)
+{
+    const Responses *responses = &work->basis.responses;
+    training_points_list(&work->def->materials, &work->def->scales, slowest,
+                         inertia_element(work->full->bulk, &work->def->scales,
+                                         work->full->interface_dofs, work->full->interface_count),
+                         &work->reduced->errors, &work->training);
+    work->basis.responses.inertia_least = slowest / 20;
+    for (int32_t k = 0; k < work->training.count; k++)
+        work->terms[k] = parameter_terms(work->training.points[k].point, &work->def->scales);
+    FactorsAheadDef def = {.system = work->full,
+                           .load = responses->unit_load,
+                           .terms = work->terms,
+                           .count = work->training.count};
+    return factors_ahead_create(&def, &work->ahead, err);
+}
+
+static bool train_basis(Builder *work, Error *err)
+{
+    ReductionErrors *errors = &work->reduced->errors;
+    for (int32_t k = 0; k < work->training.count; k++) {
+        TrainingPoint now = work->training.points[k];
+        FactoredPoint full;
+        double left = 0;
+        TRY(factors_ahead_next(work->ahead, &full, err));
+        TRY(train_at(work, now.point, &full, &left, err));
+        // What the last one added is looked at, too.
+        if (k == work->training.count - 1) TRY(train_at(work, now.point, &full, &left, err));
+        errors->error[now.level] = fmax(errors->error[now.level], left);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Far beyond an element S is the interface's own mass: the mass matrix is diagonal.
+static bool compare_beyond(Builder *work, Error *err)
+{
+    ReductionErrors *errors = &work->reduced->errors;
+    const BulkOperator *full = work->full;
+    int64_t m = full->interface_count;
+    ParameterPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
+    double *schur = NEW_ARRAY(double, m *m, err), *lower = NEW_ARRAY(double, m *m, err);
+    if (!schur || !lower) goto cleanup;
+    for (int64_t j = 0; j < m; j++) {
+        double mass = full->bulk->mass[full->interface_dofs[j]] / work->def->scales.mass;
+        schur[j * (m + 1)] = point.inertia * mass;
+        lower[j * (m + 1)] = sqrt(schur[j * (m + 1)]);
+    }
+    work->lower = lower;
+    TRY(compare_well(work, point, schur, err));
+    errors->error[errors->count - 1] = fmax(work->values[m - 1], 0);
+cleanup:
+    memory_free(schur);
+    memory_free(lower);
+    return error_is_clean(err);
+}
+
+// S of C alone.
+static bool find_viscous(Builder *work, Error *err)
+{
+    int64_t m = work->basis.interface_count;
+    double *viscous = work->reduced->viscous = NEW_ARRAY(double, m *m, err);
+    bool definite = false;
+    if (!viscous || !condense_basis(work, (ParameterPoint){1, 0}, &definite, err)) return false;
+    if (!definite) FAIL(err, ERROR_COMPUTE, "the viscous interior is not positive definite");
+    memcpy(viscous, work->excess, (size_t)(m * m) * sizeof *viscous);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool is_uniform(const Materials *materials)
+{
+    ViscousTimes times = materials_viscous_range(materials);
+    return materials->count == 1 && fabs(log(times.volume / times.shear)) < log(UNLIKE);
+}
+
+// What is far from the interface comes back into the modes.
+static bool expand_modes(Builder *work, Error *err)
+{
+    const FarField *far = &work->far;
+    ReducedBulk *reduced = work->reduced;
+    double *near = reduced->modes, *modes = NULL;
+    int64_t size = far->mesh_dofs;
+    reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
+    if (modes) far_field_expand(far, near, reduced->count, modes, err);
+    memory_free(near);
+    return error_is_clean(err);
+}
+
+// The far field's own error is part of what is allowed at each level; statics are the mesh's own.
+static void add_far_field(const Builder *work)
+{
+    const FarField *far = &work->far;
+    ReducedBulk *reduced = work->reduced;
+    int64_t m = reduced->interface_count;
+    reduced->full_dofs = far->mesh_dofs;
+    memcpy(reduced->stiffness, far->block->stiffness, (size_t)(m * m) * sizeof(double));
+    for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
+        ParameterPoint point = {.inertia = reduced->errors.inertia[level]};
+        reduced->errors.error[level] += far->block->error * allowed_error(work, point);
+    }
+}
+
+static bool build_on(Builder *work, Error *err)
+{
+    const ReductionDef *def = work->def;
+    InterfaceOperator *statics = NULL;
+    OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
+    double slowest = work->far_block.samples.slowest;   // where the whole mesh was looked at
+    TRY(builder_create(work, err));
+    if (slowest > 0) TRY(list_training_points(work, slowest, err));
+    if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
+    if (!(slowest > 0)) {
+        TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
+        TRY(list_training_points(work, slowest, err));
+    }
+    work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
+    TRY(basis_start(&work->basis, statics, err));
+    TRY(train_basis(work, err));
+    TRY(compare_beyond(work, err));
+    TRY(find_viscous(work, err));
+    TRY(basis_finish(&work->basis, def->modes, work->reduced, err));
+    if (def->modes && work->far.block) TRY(expand_modes(work, err));
+    if (work->far.block) add_far_field(work);
+cleanup:
+    interface_operator_destroy(statics);
+    return error_is_clean(err);
+}
+
+static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
+                        Error *err)
+{
+    const ReductionDef *def = work->def;
+    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
+    FarBlock *block = &work->far_block;
+    TRY(far_block_create(bulk, interface_dofs, m, &far_def, block, err));
+    if (block->patch_count == 0) goto cleanup;
+    work->far.block = block;
+    TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
+    TRY(far_field_measure(&work->far, block, err));
+    if (block->patch_count == 0) work->far.block = NULL;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
+                     const ReductionDef *def, ReducedBulk *reduced, Error *err)
+{
+    Builder work = {.def = def, .reduced = reduced};
+    *reduced = (ReducedBulk){.scales = def->scales};
+    if (interface_count >= FAR_INTERFACE)
+        TRY(replace_far(&work, bulk, interface_dofs, interface_count, err));
+    work.full = work.far.block ? &work.far.system : &work.mesh;
+    if (!work.far.block)
+        TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &work.mesh, err));
+    TRY(build_on(&work, err));
+cleanup:
+    builder_destroy(&work);
+    if (!error_is_clean(err)) error_context(err, "while reducing the bulk");
+    return error_is_clean(err);
+}

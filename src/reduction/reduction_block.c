@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "reduction/reduction_block.h"
+
+#include "base/memory.h"
+#include "reduction/mirror_nodes.h"
+
+#include <math.h>
+
+// Numbers of order 1 are rounded to this grid: far finer than an element, far coarser than
+// rounding. Its steps are powers of 2, so that no length that one draws is half a step, which
+// rounding could push either way.
+static const double GRID = 0x1p30;
+
+// Scenes whose numbers differ by rounding get the same. Should this fail for a node (within 1e-16
+// of a half step) a basis is built twice, and both are right.
+static double put_on_grid(double value)
+{
+    return round(value * GRID) / GRID + 0.0;   // never -0
+}
+
+// Likewise by 30 bits: a region may be softer than the mean by any factor.
+static double keep_bits(double value)
+{
+    int power;
+    double part = frexp(value, &power);
+    return ldexp(put_on_grid(part), power);
+}
+
+// E, eta1 + eta2 and rho over those of the mean.
+static Materials normalise(const Materials *given)
+{
+    Materials made = *given;
+    const Material *mean = &given->mean;
+    double eta = mean->eta1 + mean->eta2;
+    double share = put_on_grid(mean->eta1 / eta);
+    made.mean.young = made.mean.density = 1;
+    made.mean.eta1 = share;
+    made.mean.eta2 = 1 - share;
+    made.list[0] = made.mean;
+    for (int32_t k = 0; made.count > 1 && k < made.count; k++) {
+        const Material *from = &given->list[k];
+        made.list[k] = (Material){.young = keep_bits(from->young / mean->young),
+                                  .poisson = from->poisson,
+                                  .density = keep_bits(from->density / mean->density),
+                                  .eta1 = keep_bits(from->eta1 / eta),
+                                  .eta2 = keep_bits(from->eta2 / eta),
+                                  .plane_strain = from->plane_strain};
+    }
+    return made;
+}
+
+void reduction_block_destroy(ReductionBlock *block)
+{
+    memory_free(block->position);
+    memory_free(block->image);
+    bulk_destroy(&block->bulk);
+    *block = (ReductionBlock){0};
+}
+
+// A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
+static bool find_images(ReductionBlock *block, int32_t dim, int32_t nodes, Error *err)
+{
+    bool found = false;
+    block->image = NEW_ARRAY(int32_t, nodes, err);
+    if (!block->image || !mirror_nodes_find(dim, block->position, nodes, block->image, &found, err))
+        return false;
+    if (found) return true;
+    memory_free(block->image);
+    block->image = NULL;
+    return true;
+}
+
+// Assembled from the rounded positions and viscosities: M, C and K are exactly those of one block,
+// in which a rigid motion has no energy. The load is the scene's nodal load over its largest,
+// rounded.
+bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
+                            double load_size, ReductionBlock *block, Error *err)
+{
+    double length = mesh->x_max - mesh->x_min;
+    *block = (ReductionBlock){.materials = normalise(materials)};
+    int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
+    block->position = NEW_ARRAY(double, numbers, err);
+    if (!block->position) goto cleanup;
+    for (int64_t k = 0; k < numbers; k++) {
+        double start = k % mesh->dim == 0 ? mesh->x_min : 0;
+        block->position[k] = put_on_grid((mesh->position[k] - start) / length);
+    }
+    TRY(find_images(block, mesh->dim, mesh->node_count, err));
+    Mesh scaled = *mesh;   // borrows all but the positions
+    scaled.position = block->position;
+    TRY(bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err));
+    for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
+        if (bulk->held[dof]) bulk_hold(dof, &block->bulk);
+        block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of several materials all numbers, and where each is.
+static void hash_materials(const Materials *materials, const Mesh *mesh, Hash *hash)
+{
+    hash_number(hash, materials->list[0].poisson);
+    hash_number(hash, materials->list[0].plane_strain);
+    hash_number(hash, materials->list[0].eta1);
+    if (materials->count == 1) return;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        hash_number(hash, one->young);
+        hash_number(hash, one->poisson);
+        hash_number(hash, one->density);
+        hash_number(hash, one->eta1);
+        hash_number(hash, one->eta2);
+    }
+    hash_bytes(hash, mesh->region, (size_t)mesh->element_count);
+}
+
+// All that K, C, M, f and the split into interface and interior follow from; not gmsh's node and
+// element numbers, nor the names of groups.
+void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const int32_t *dofs,
+                          int32_t dof_count, Hash *hash)
+{
+    const Bulk *bulk = &block->bulk;
+    size_t unknowns = (size_t)bulk->dof_count, elements = (size_t)mesh->element_count;
+    hash_materials(&block->materials, mesh, hash);
+    hash_bytes(hash, block->position, unknowns * sizeof *block->position);
+    hash_bytes(hash, mesh->kind, elements);
+    hash_bytes(hash, mesh->first_node, (elements + 1) * sizeof *mesh->first_node);
+    hash_bytes(hash, mesh->element_nodes,
+               (size_t)mesh->first_node[elements] * sizeof *mesh->element_nodes);
+    if (mesh->mean_next) hash_bytes(hash, mesh->mean_next, elements * sizeof *mesh->mean_next);
+    hash_bytes(hash, bulk->load, unknowns * sizeof *bulk->load);
+    hash_bytes(hash, bulk->held, unknowns);
+    hash_bytes(hash, dofs, (size_t)dof_count * sizeof *dofs);
+}

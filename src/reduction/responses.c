@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// For a response x at (b, i) and z at (c, j),
+//
+//     x' ((1 - b) K + b C + i M) z = r_x' z_b + t_x f'z
+//     x' ((1 - c) K + c C + j M) z = r_z' x_b + t_z f'x
+//
+// are two equations for x'K z, x'C z, x'M z. So one product by the mesh is enough, where the points
+// differ. (Without a third term this is how a Loewner matrix is made of samples: Mayo and Antoulas,
+// Linear Algebra Appl. 425, 2007.)
+#include "reduction/responses.h"
+
+#include "base/dense_threaded.h"
+#include "base/memory.h"
+#include "base/share.h"
+
+#include <math.h>
+#include <string.h>
+
+// The factor between two inertias, or the part of 1 between two viscosities, from which on two
+// equations are as good as independent.
+static const double FAR = 4;
+
+static void block_destroy(ResponseBlock *block)
+{
+    memory_free(block->boundary);
+    memory_free(block->reaction);
+    *block = (ResponseBlock){0};
+}
+
+void responses_destroy(Responses *responses)
+{
+    for (int32_t k = 0; k <= responses->block_count; k++) block_destroy(&responses->blocks[k]);
+    for (int32_t k = 0; k < responses->shelf_count; k++) memory_free(responses->shelves[k].field);
+    memory_free(responses->unit_load);
+    for (int which = 0; which < 2; which++) {
+        memory_free(responses->image[which]);
+        memory_free(responses->work[which]);
+    }
+    *responses = (Responses){0};
+}
+
+bool responses_create(const BulkOperator *full, const BulkScales *scales, Responses *responses,
+                      Error *err)
+{
+    const Bulk *bulk = full->bulk;
+    *responses = (Responses){.full = full, .scales = *scales, .shelf_count = 2, .shelf_of = {0, 1}};
+    responses->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
+    for (int which = 0; which < 2; which++) {
+        responses->image[which] =
+            NEW_ARRAY(double, (int64_t)bulk->dof_count *RESPONSES_TOGETHER, err);
+        responses->work[which] = NEW_ARRAY(double, (int64_t)bulk->dof_count *SPARSE_WIDE, err);
+    }
+    if (!error_is_clean(err)) goto cleanup;
+    // Without a load every response to it is 0, in any unit.
+    double scale = scales->load > 0 ? scales->load : 1;
+    for (int32_t k = 0; k < bulk->dof_count; k++) responses->unit_load[k] = bulk->load[k] / scale;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Those that are multiplied by the same matrix (needed_products) stand together.
+static int kind_of(ParameterPoint point)
+{
+    return point.viscosity < 0.5 ? 0 : 1;
+}
+
+// A new shelf has room for many blocks; memory that is never written to is never there.
+static double *shelf_room(Responses *responses, int kind, int64_t columns, Error *err)
+{
+    int32_t which = responses->shelf_of[kind];
+    ResponseShelf *shelf = &responses->shelves[which];
+    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
+    if (shelf->filled + columns <= shelf->room) return shelf->field + shelf->filled * dofs;
+    if (shelf->filled == 0) memory_free(shelf->field);
+    if (shelf->filled > 0) which = responses->shelf_of[kind] = responses->shelf_count++;
+    shelf = &responses->shelves[which];
+    *shelf = (ResponseShelf){.room = columns > m ? columns : m};
+    shelf->field = memory_bytes(dofs * shelf->room * (int64_t)sizeof(double), err);
+    if (!shelf->field) shelf->room = 0;
+    return shelf->field;
+}
+
+ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_t columns,
+                              Error *err)
+{
+    ResponseBlock *block = &responses->blocks[responses->block_count];
+    int64_t rows = responses->full->interface_count + 1;
+    responses_drop(responses);
+    if (responses->block_count == RESPONSE_BLOCKS_MAX)
+        FAIL(err, ERROR_LIBRARY, "more than %d points to reduce the bulk at", RESPONSE_BLOCKS_MAX);
+    *block = (ResponseBlock){.point = point, .first = responses->count, .count = columns};
+    block->field = shelf_room(responses, kind_of(point), columns, err);
+    block->boundary = NEW_ARRAY(double, rows *columns, err);
+    block->reaction = NEW_ARRAY(double, rows *columns, err);
+cleanup:
+    return error_is_clean(err) ? block : NULL;
+}
+
+void responses_keep(Responses *responses)
+{
+    const ResponseBlock *block = &responses->blocks[responses->block_count++];
+    responses->count += block->count;
+    responses->shelves[responses->shelf_of[kind_of(block->point)]].filled += block->count;
+}
+
+void responses_drop(Responses *responses)
+{
+    block_destroy(&responses->blocks[responses->block_count]);
+}
+
+// y = K x / E, C x / eta or M x / (rho L^2) on the full mesh, of `columns` columns.
+static void apply(const Responses *responses, BulkTerm term, DenseView x, double *work, double *y)
+{
+    double scale = term == BULK_STIFFNESS ? responses->scales.stiffness
+                   : term == BULK_DAMPING ? responses->scales.damping
+                                          : responses->scales.mass;
+    bulk_operator_apply_many(responses->full, term, x.values, x.columns, y, work);
+    for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
+}
+
+// The products by the mesh that two points need, as bits of their terms. M costs next to nothing
+// and is enough where viscosities differ: what is lost then goes with the root of the quotient of
+// inertias. Where only inertia differs it gives M, the point with less of it that of K and C which
+// weighs more there, and the lighter one is multiplied.
+static unsigned needed_products(const Responses *responses, ParameterPoint old, ParameterPoint new)
+{
+    bool ascends = old.inertia < new.inertia;
+    ParameterPoint low = ascends ? old : new, high = ascends ? new : old;
+    unsigned mass = 1u << BULK_MASS;
+    unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
+    if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return mass;
+    bool apart = high.inertia > fmax(FAR * low.inertia, responses->inertia_least);
+    return apart ? light : mass | light;
+}
+
+// What two threads do to each half of the next block's columns.
+typedef struct Multiplication {
+    const Responses *responses;
+    double *const *gram;
+} Multiplication;
+
+// Blocks whose fields stand side by side: multiplied as one.
+typedef struct Run {
+    const double *field;
+    int64_t columns;
+    int32_t count;
+    const ResponseBlock *blocks[RESPONSE_BLOCKS_MAX + 1];   // [count]
+} Run;
+
+// Puts the products of a run with `image`, the columns of the next block `from` on, into their
+// places. Of the next block itself only rows from `from` on: the products are symmetric.
+static void multiply_run(const Multiplication *all, Run *run, DenseView image, int64_t from,
+                         double *product, double *gram)
+{
+    const Responses *responses = all->responses;
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t rows = responses->count + next->count;
+    dense_multiply_transposed(dense_view(run->field, image.rows, run->columns), image, 1, 0,
+                              product);
+    for (int32_t k = 0; k < run->count; k++) {
+        const ResponseBlock *block = run->blocks[k];
+        int64_t skipped = block == next ? from : 0, count = block->count - skipped;
+        double *out = gram + from * rows + block->first + skipped;
+        for (int64_t j = 0; j < image.columns; j++)
+            memcpy(out + j * rows, product + j * run->columns, (size_t)count * sizeof *out);
+        product += count;
+    }
+    *run = (Run){0};
+}
+
+// All blocks of a kind that need this product.
+static void multiply_kind(const Multiplication *all, int kind, BulkTerm term, int32_t which,
+                          int64_t from, int64_t columns)
+{
+    const Responses *responses = all->responses;
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t dofs = responses->full->dof_count;
+    DenseView image = dense_view(responses->image[which], dofs, columns);
+    double *product = responses->product[which], *gram = all->gram[term];
+    Run run = {0};
+    for (int32_t k = 0; k <= responses->block_count; k++) {
+        const ResponseBlock *block = &responses->blocks[k];
+        int64_t skipped = block == next ? from : 0;
+        const double *field = block->field + skipped * dofs;
+        unsigned needed = needed_products(responses, block->point, next->point);
+        if (kind_of(block->point) != kind || !(needed & 1u << term)) continue;
+        bool beside = run.count > 0 && field == run.field + run.columns * dofs;
+        if (run.count > 0 && !beside) multiply_run(all, &run, image, from, product, gram);
+        if (run.count == 0) run.field = field;
+        run.blocks[run.count++] = block;
+        run.columns += block->count - skipped;
+    }
+    if (run.count > 0) multiply_run(all, &run, image, from, product, gram);
+}
+
+static void multiply_columns(const Multiplication *all, int32_t which, int64_t from,
+                             int64_t columns)
+{
+    const Responses *responses = all->responses;
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t dofs = responses->full->dof_count;
+    unsigned needed = 0;
+    for (int32_t k = 0; k <= responses->block_count; k++)
+        needed |= needed_products(responses, responses->blocks[k].point, next->point);
+    for (int term = 0; term < BULK_TERMS; term++) {
+        if (!(needed & 1u << term)) continue;
+        apply(responses, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
+              responses->work[which], responses->image[which]);
+        for (int kind = 0; kind < 2; kind++)
+            multiply_kind(all, kind, (BulkTerm)term, which, from, columns);
+    }
+}
+
+// Pass by pass in turn: the work of a pass falls with its number.
+static void multiply_half(void *context, int32_t which)
+{
+    const Multiplication *all = context;
+    int64_t columns = all->responses->blocks[all->responses->block_count].count;
+    int64_t passes = 2 * ((columns + 2 * RESPONSES_TOGETHER - 1) / (2 * RESPONSES_TOGETHER));
+    for (int64_t pass = which; pass < passes; pass += 2) {
+        int64_t from = columns * pass / passes, to = columns * (pass + 1) / passes;
+        if (to > from) multiply_columns(all, which, from, to - from);
+    }
+}
+
+// Solves the equations at the head for the products that are not `known`; a, b: those at the older
+// and at the new point.
+static void complete_pair(ParameterPoint old, ParameterPoint new, unsigned known, double a,
+                          double b, double *const g[BULK_TERMS])
+{
+    const double p[BULK_TERMS] = {1 - old.viscosity, old.viscosity, old.inertia};
+    const double q[BULK_TERMS] = {1 - new.viscosity, new.viscosity, new.inertia};
+    int unknown[BULK_TERMS], count = 0;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        if (known & 1u << term) {
+            a -= p[term] * *g[term];
+            b -= q[term] * *g[term];
+        } else {
+            unknown[count++] = term;
+        }
+    }
+    int y = unknown[0], z = unknown[count - 1];
+    if (count == 1) {
+        *g[y] = p[y] > q[y] ? a / p[y] : b / q[y];
+        return;
+    }
+    double determinant = p[y] * q[z] - p[z] * q[y];
+    *g[y] = (q[z] * a - p[z] * b) / determinant;
+    *g[z] = (p[y] * b - q[y] * a) / determinant;
+}
+
+// The products of a block with the next one that the mesh was not asked for. a, b: [its count *
+// added] work.
+static void complete_block(const Responses *responses, const ResponseBlock *block, double *a,
+                           double *b, double *const gram[BULK_TERMS])
+{
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t m = responses->full->interface_count, rows = responses->count + next->count;
+    unsigned known = needed_products(responses, block->point, next->point);
+    dense_multiply_transposed_threaded(dense_view(block->reaction, m + 1, block->count),
+                                       dense_view(next->boundary, m + 1, next->count), 1, 0, a);
+    dense_multiply_transposed_threaded(dense_view(block->boundary, m + 1, block->count),
+                                       dense_view(next->reaction, m + 1, next->count), 1, 0, b);
+    for (int64_t j = 0; j < next->count; j++) {
+        for (int64_t i = block == next ? j : 0; i < block->count; i++) {
+            int64_t at = j * rows + block->first + i, own = j * block->count + i;
+            double *const g[BULK_TERMS] = {gram[0] + at, gram[1] + at, gram[2] + at};
+            complete_pair(block->point, next->point, known, a[own], b[own], g);
+        }
+    }
+}
+
+static void mirror_own(const Responses *responses, double *gram)
+{
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t rows = responses->count + next->count;
+    for (int64_t j = 0; j < next->count; j++)
+        for (int64_t i = 0; i < j; i++)
+            gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
+}
+
+bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Error *err)
+{
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
+    int64_t rows = responses->count + next->count;
+    Multiplication by_mesh = {responses, gram};
+    double *a = NEW_ARRAY(double, rows * next->count, err);
+    double *b = NEW_ARRAY(double, rows * next->count, err);
+    for (int which = 0; which < 2; which++)
+        responses->product[which] = NEW_ARRAY(double, rows *RESPONSES_TOGETHER, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int64_t j = 0; j < next->count; j++)
+        next->boundary[j * (m + 1) + m] =
+            dense_dot(next->field + j * dofs, responses->unit_load, (int32_t)dofs);
+    share_in_two(multiply_half, &by_mesh);
+    for (int32_t k = 0; k <= responses->block_count; k++)
+        complete_block(responses, &responses->blocks[k], a, b, gram);
+    for (int term = 0; term < BULK_TERMS; term++) mirror_own(responses, gram[term]);
+cleanup:
+    for (int which = 0; which < 2; which++) {
+        memory_free(responses->product[which]);
+        responses->product[which] = NULL;
+    }
+    memory_free(a);
+    memory_free(b);
+    return error_is_clean(err);
+}
+
+// Rows of `c` that belong to a block stand `count` apart.
+void responses_combine(const Responses *responses, double factor, const double *c, int64_t columns,
+                       double *y)
+{
+    int64_t dofs = responses->full->dof_count;
+    for (int32_t k = 0; k < responses->block_count; k++) {
+        const ResponseBlock *block = &responses->blocks[k];
+        dense_multiply_rows(dense_view(block->field, dofs, block->count), c + block->first,
+                            responses->count, columns, factor, y);
+    }
+}
+
+void responses_project(const Responses *responses, BulkTerm term, const double *z, int64_t columns,
+                       double *image, double *product)
+{
+    int64_t dofs = responses->full->dof_count;
+    apply(responses, term, dense_view(z, dofs, columns), responses->work[0], image);
+    for (int32_t k = 0; k < responses->block_count; k++) {
+        const ResponseBlock *block = &responses->blocks[k];
+        dense_multiply_transposed_rows(dense_view(block->field, dofs, block->count),
+                                       dense_view(image, dofs, columns), 1, 0,
+                                       product + block->first, responses->count);
+    }
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "reduction/training_points.h"
+
+#include <math.h>
+
+// Levels of inertia that the basis is built at, a factor of LEVEL_RATIO apart at most, from
+// LEVEL_LOWEST times the slowest mode of the interior, below which it follows like a spring, to
+// that of one element. Then those between two of them are treated likewise, so that two levels are
+// a factor of 10 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
+static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
+
+// K and C are isotropic, so the static response at a viscosity depends on the quotients of A's
+// areal and shear moduli alone, of all regions. At a viscosity v each is its elastic value times
+// 1 - v + v t, t its viscous time, and no quotient changes more than that of the longest and the
+// shortest time. The basis is built at viscosities where that quotient differs by this factor at
+// most, and at the lowest inertia, where the whole block moves, half way between, too.
+// (With eta2 = eta1 in plane stress the two ends suffice elsewhere.)
+static const double VISCOSITY_RATIO = 2;
+
+// Where inertia acts within an element the mesh itself has an error, of about a quarter of
+// inertia's share (a thin layer in linear elements with lumped mass). A tolerance of 0.01 allows a
+// tenth of it.
+static const double MESH_SHARE = 2.5;
+
+// Errors of S below this are its rounding.
+static const double ERROR_LEAST = 1e-10;
+
+// Where regions differ in eta/E, C may be far softer or stiffer than K: slower and faster modes.
+static void widen(const Materials *materials, double unit, double *slowest, double *element_inertia)
+{
+    ViscousTimes range = materials_viscous_range(materials);
+    *slowest *= fmin(1, unit * range.volume);
+    *element_inertia *= fmax(1, unit * range.shear);
+}
+
+// Ascending: even ones are built at first, odd ones lie between, the last beyond.
+static void list_levels(double slowest, double element_inertia, ReductionErrors *errors)
+{
+    // On a mesh of a few elements the slowest mode is hardly below that of one element.
+    double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO);
+    double parts = log(element_inertia / lowest) / log(LEVEL_RATIO);
+    int32_t steps = (int32_t)fmin(ceil(parts), (REDUCTION_LEVELS_MAX - 2) / 2);
+    for (int32_t k = 0; k <= 2 * steps; k++)
+        errors->inertia[k] = lowest * pow(element_inertia / lowest, k / (2.0 * steps));
+    errors->inertia[2 * steps + 1] = LEVEL_BEYOND * element_inertia;
+    errors->count = 2 * steps + 2;
+}
+
+// The viscosity at which the quotient named at VISCOSITY_RATIO has gone the `part` of its way from
+// K to C: (1 - v + v volume) = quotient (1 - v + v shear).
+static double viscosity_at(double part, double volume, double shear)
+{
+    if (part <= 0 || part >= 1 || fabs(volume / shear - 1) < 1e-9) return part;
+    double quotient = pow(volume / shear, part);
+    return (1 - quotient) / (1 - quotient + quotient * shear - volume);
+}
+
+// volume, shear: the viscous times of the two moduli, normalised, of all regions.
+static void normalised_times(const Materials *materials, const BulkScales *scales, double *volume,
+                             double *shear)
+{
+    ViscousTimes range = materials_viscous_range(materials);
+    double unit = scales->stiffness / scales->damping;
+    *volume = unit * range.volume;
+    *shear = unit * range.shear;
+}
+
+static int32_t viscosity_steps(double volume, double shear)
+{
+    double parts = ceil(fabs(log(volume / shear)) / log(VISCOSITY_RATIO));
+    return (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1);
+}
+
+int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
+                             double *viscosity)
+{
+    double volume = 0, shear = 0;
+    normalised_times(materials, scales, &volume, &shear);
+    int32_t steps = viscosity_steps(volume, shear);
+    for (int32_t k = 0; k <= steps; k++)
+        viscosity[k] = viscosity_at((double)k / steps, volume, shear);
+    return steps + 1;
+}
+
+double parameter_error_allowed(const TrainingPoints *training, ParameterPoint point,
+                               double tolerance)
+{
+    double share = point.inertia / training->element_inertia;
+    return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
+}
+
+OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales)
+{
+    return (OperatorTerms){.mass = point.inertia / scales->mass,
+                           .damping = point.viscosity / scales->damping,
+                           .stiffness = (1 - point.viscosity) / scales->stiffness};
+}
+
+static void add(TrainingPoints *training, const ReductionErrors *errors, double viscosity,
+                int32_t level)
+{
+    training->points[training->count++] =
+        (TrainingPoint){{viscosity, errors->inertia[level]}, level};
+}
+
+// Every other level first: at those between them less is missing.
+void training_points_list(const Materials *materials, const BulkScales *scales, double slowest,
+                          double element_inertia, ReductionErrors *errors, TrainingPoints *training)
+{
+    double volume = 0, shear = 0;
+    normalised_times(materials, scales, &volume, &shear);
+    int32_t steps = viscosity_steps(volume, shear);
+    if (materials->count > 1)
+        widen(materials, scales->stiffness / scales->damping, &slowest, &element_inertia);
+    list_levels(slowest, element_inertia, errors);
+    *training = (TrainingPoints){.element_inertia = element_inertia};
+    for (int32_t pass = 0; pass < 2; pass++) {
+        for (int32_t level = pass; level < errors->count - 1; level += 2)
+            for (int32_t k = 0; k <= steps; k++)
+                add(training, errors, viscosity_at((double)k / steps, volume, shear), level);
+        for (int32_t k = 0; pass == 0 && k < steps; k++)
+            add(training, errors, viscosity_at((k + 0.5) / steps, volume, shear), 0);
+    }
+}

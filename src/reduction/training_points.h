@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The points of the parameter domain of reduction/reduction at which a basis is built and its error
+// is measured. Called by
+// reduction/reduction.
+#ifndef AMONTONS_REDUCTION_TRAINING_POINTS_H
+#define AMONTONS_REDUCTION_TRAINING_POINTS_H
+
+#include "reduction/interface_operator.h"
+#include "fem/material.h"
+
+// A = (1 - viscosity) K + viscosity C + inertia M, normalised.
+typedef struct ParameterPoint {
+    double viscosity, inertia;
+} ParameterPoint;
+
+enum {
+    TRAINING_VISCOSITIES_MAX = 12,
+    TRAINING_POINTS_MAX = (REDUCTION_LEVELS_MAX + 1) * TRAINING_VISCOSITIES_MAX
+};
+
+typedef struct TrainingPoint {
+    ParameterPoint point;
+    int32_t level;   // which of ReductionErrors it tells of
+} TrainingPoint;
+
+typedef struct TrainingPoints {
+    double element_inertia;   // where mass takes over within an element
+    int32_t count;
+    TrainingPoint points[TRAINING_POINTS_MAX];   // [count] in this order
+} TrainingPoints;
+
+// slowest: the inertia at which the slowest mode of the interior is in balance; element_inertia:
+// the largest K/M of one unknown. Fills the levels of `errors`, too.
+void training_points_list(const Materials *materials, const BulkScales *scales, double slowest,
+                          double element_inertia, ReductionErrors *errors,
+                          TrainingPoints *training);
+
+// What the ends and steps in viscosity are: viscosity [TRAINING_VISCOSITIES_MAX] ascending; their
+// number.
+int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
+                             double *viscosity);
+
+// The relative error of S that is allowed at a point; at a tolerance of 0 that of rounding.
+double parameter_error_allowed(const TrainingPoints *training, ParameterPoint point,
+                               double tolerance);
+
+// The point as factors of the scene's own M, C and K.
+OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales);
+
+#endif

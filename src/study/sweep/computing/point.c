@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The files of a sweep's point, and their names.
+#include "study/sweep/computing/point.h"
+
+#include "base/computation.h"
+#include "base/memory.h"
+#include "io/files/text_file.h"
+#include "io/mesh/mesh_source.h"
+#include "io/text/json_reader.h"
+#include "io/text/json_writer.h"
+#include "scene/keys.h"
+#include "study/sweep/reading/study_point.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { REPORT_BYTES_MAX = 1 << 28 };
+
+// The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
+// makes of it with this point's parameters, every time.
+static bool hash_mesh(const Scene *scene, PointMesh *mesh, Error *err)
+{
+    MeshFile made = {0};
+    bool whole = false;
+    if (strcmp(mesh->path, scene->mesh.file) == 0) return true;
+    mesh->hash = hash_start();
+    TRY(mesh_source_hash(scene->mesh.file, NULL, 0, &mesh->hash, &whole, err));
+    if (whole) {
+        memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
+    } else {
+        Error failed = {0};   // it will be this point's own, when it is computed
+        if (mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
+                           &made, &failed))
+            mesh_file_hash(&made, &mesh->hash);
+    }
+cleanup:
+    mesh_file_destroy(&made);
+    return error_is_clean(err);
+}
+
+static bool key_counts(const char *key)
+{
+    return strcmp(key, "title") != 0 && strcmp(key, "mesh.file") != 0;
+}
+
+// What computes it, the mesh by its content; the title and the path of the mesh do not count.
+bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
+{
+    Hash hash = computation_hash();
+    TRY(hash_mesh(scene, mesh, err));
+    hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
+    TRY(scene_hash(scene, key_counts, &hash, err));
+    hash_write(&hash, text);
+cleanup:
+    return error_is_clean(err);
+}
+
+static int compare_hashes(const void *a, const void *b)
+{
+    const HashedPoint *one = a, *other = b;
+    int order = strcmp(one->hash, other->hash);
+    return order != 0 ? order : one->point - other->point;
+}
+
+// A study may have a million points: none is compared with all others.
+bool points_sort(Sweep *sweep, PointsByHash *points, Error *err)
+{
+    int32_t count = sweep->study.point_count;
+    *points = (PointsByHash){.sweep = sweep, .list = NEW_ARRAY(HashedPoint, count, err)};
+    if (!points->list) return false;
+    for (int32_t k = 0; k < count; k++) points->list[k] = (HashedPoint){sweep->points[k].hash, k};
+    qsort(points->list, (size_t)count, sizeof *points->list, compare_hashes);
+    return true;
+}
+
+int32_t points_look_up(const PointsByHash *points, const char *hash)
+{
+    int32_t low = 0, count = points->sweep->study.point_count, high = count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (strcmp(points->list[middle].hash, hash) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    bool found = low < count && strcmp(points->list[low].hash, hash) == 0;
+    return found ? points->list[low].point : -1;
+}
+
+void points_note_place(void *context, const char *hash, ReportPlace place)
+{
+    const PointsByHash *points = context;
+    int32_t point = points_look_up(points, hash);
+    if (point >= 0) points->sweep->points[point].place = place;
+}
+
+bool points_find_same(Sweep *sweep, Error *err)
+{
+    PointsByHash sorted;
+    if (!points_sort(sweep, &sorted, err)) return false;
+    for (int32_t k = 0, first = 0; k < sweep->study.point_count; k++) {
+        const HashedPoint *list = sorted.list;
+        if (strcmp(list[k].hash, list[first].hash) != 0) first = k;
+        sweep->points[list[k].point].same_as = list[first].point;
+    }
+    memory_free(sorted.list);
+    return true;
+}
+
+bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err)
+{
+    double accuracy = sweep->points[point].accuracy;
+    TRY(study_point_scene(&sweep->study, point, scene, err));
+    scene->reduction.runs = sweep->points[point].runs;
+    if (accuracy > 0) scene->accuracy.mu = accuracy;
+cleanup:
+    return error_is_clean(err);
+}
+
+// By hash, not by number: a study that is changed finds its old points again.
+static void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
+{
+    snprintf(folder, POINT_PATH_SIZE, "%s/points/%s", sweep->folder, sweep->points[point].hash);
+}
+
+// The file whose presence makes a point finished.
+static void report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
+{
+    point_folder(sweep, point, path);
+    strcat(path, "/run.json");
+}
+
+// Missing is no error; unreadable is.
+char *point_report(const Sweep *sweep, int32_t point, Error *err)
+{
+    const SweepPoint *first = &sweep->points[sweep->points[point].same_as];
+    if (sweep->reports.open)
+        return first->place.size > 0 ? reports_read(&sweep->reports, first->place, err) : NULL;
+    char path[POINT_PATH_SIZE + 16], *bytes = NULL;
+    int32_t size = 0;
+    report_path(sweep, point, path);
+    if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
+    return bytes;
+}
+
+// An interrupted run is not finished, though it left a run.json.
+PointStatus point_status(const char *report)
+{
+    char status[20] = "", failure[40] = "";
+    if (!report || !json_find_text(report, "status", status, sizeof status)) return POINT_PENDING;
+    if (strcmp(status, "done") == 0) return POINT_DONE;
+    json_find_text(report, "failure", failure, sizeof failure);
+    return strcmp(failure, amontons_error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING
+                                                                      : POINT_FAILED;
+}
+
+const char *point_status_name(PointStatus status)
+{
+    static const char *const names[] = {
+        [POINT_PENDING] = "pending", [POINT_DONE] = "done", [POINT_FAILED] = "failed"};
+    return names[status];
+}
+
+// Of a run that was cut off. Short ones have none.
+static void checkpoint_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
+{
+    point_folder(sweep, point, path);
+    strcat(path, "/checkpoint.bin");
+}
+
+// run.json, which alone makes a point finished; anew: and what it could be gone on with from.
+void point_remove(Sweep *sweep, int32_t point, bool anew)
+{
+    sweep->points[point].place = (ReportPlace){0};
+    if (sweep->reports.open) return;
+    char path[POINT_PATH_SIZE + 16];
+    report_path(sweep, point, path);
+    unlink(path);   // the rest is the next run's to overwrite
+    if (!anew) return;
+    checkpoint_path(sweep, point, path);
+    unlink(path);
+}
+
+// For a ReportCallback: the text is the point's only where memory is.
+static void take_report(const char *json, void *context)
+{
+    char **report = context;
+    Error ignored = {0};
+    memory_free(*report);   // of a run on another mesh
+    *report = memory_text(json, &ignored);
+}
+
+// Without any file.
+static bool run_for_table(const Scene *scene, char **report, Error *err)
+{
+    RunSummary summary;
+    RunOptions options = {.on_report = take_report, .context = report};
+    bool done = amontons_run(scene, &options, &summary, err);
+    if (!*report) return done;
+    json_drop(*report, "scene");
+    json_drop(*report, "results.events");
+    json_compact(*report);
+    return done;
+}
+
+bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err)
+{
+    SweepPoint *at = &sweep->points[point];
+    return reports_add(&sweep->reports, at->hash, report, &at->place, err);
+}
+
+// An ordinary run, which goes on with what was cut off or is written over what an earlier try may
+// have left in the folder.
+bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
+{
+    char folder[POINT_PATH_SIZE], checkpoint[POINT_PATH_SIZE + 16];
+    RunSummary summary;
+    RunOptions options = {.folder = folder, .overwrite = true};
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    *report = NULL;
+    TRY(scene);
+    point_folder(sweep, point, folder);
+    TRY(point_scene(sweep, point, scene, err));
+    if (sweep->reports.open) {
+        TRY(run_for_table(scene, report, err));
+        goto cleanup;
+    }
+    checkpoint_path(sweep, point, checkpoint);
+    options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
+    if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;
+    if (err->code != ERROR_INPUT) goto cleanup;
+    *err = (Error){0};   // a checkpoint of another basis, or damaged: from the start
+    options.resume = false;
+    TRY(amontons_run(scene, &options, &summary, err));
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// Has the scene in it like every run.json, so that it can be run again by hand.
+bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const char *message,
+                         Error *err)
+{
+    char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16], *report = NULL;
+    bool table = sweep->reports.open;
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    JsonWriter *json = NULL;
+    TRY(scene);
+    TRY(point_scene(sweep, point, scene, err));
+    point_folder(sweep, point, folder);
+    if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
+    report_path(sweep, point, path);
+    TRY((json = json_create(table ? NULL : path, err)));
+    json_begin_object(json, NULL);
+    json_text(json, "status", "failed");
+    json_text(json, "failure", failure);
+    json_text(json, "message", message);
+    json_text(json, "version", AMONTONS_VERSION);
+    if (!table) scene_write_json(scene, json, "scene", folder);
+    json_end(json);
+    if (!table) TRY(json_finish(json, err));
+    if (!table) goto cleanup;
+    TRY((report = json_take(json, err)));
+    json_compact(report);
+    TRY(point_keep(sweep, point, report, err));
+cleanup:
+    memory_free(report);
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// What does not fit into POINT_WORDS_SIZE is left out, key by key.
+void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE])
+{
+    size_t used = 0;
+    words[0] = 0;
+    for (int32_t k = 0; k < sweep->study.column_count; k++) {
+        char text[160];
+        double number = 0;
+        study_scene_value(scene, sweep->study.columns[k], text, sizeof text, &number);
+        int length = snprintf(words + used, POINT_WORDS_SIZE - used, "%s%s=%s", used ? " " : "",
+                              sweep->study.columns[k], *text ? text : "none");
+        if (length < 0 || (size_t)length >= POINT_WORDS_SIZE - used) break;
+        used += (size_t)length;
+    }
+}

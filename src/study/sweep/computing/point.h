@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A sweep, its points, and their files. An interrupted point is not finished.
+//
+//     DIR/points/<hash>/run.json   one finished point, under a hash of its full scene
+//     DIR/reports                  in its place one file for all points, with `keep: table`
+//     DIR/sweep.csv, DIR/sweep.h5  the table, a row a point in the study's order
+//     DIR/ranking.csv              the same points, the best first, where the study asks (`rank`)
+//     DIR/figures/*.png            pictures of the ranking and of the study's `plot`
+//     DIR/slurm/                   scripts and output of the elements, with --slurm
+//     DIR/lock                     one sweep at a time
+//
+// A point is an ordinary run: with `output.history: true` in the study its folder holds all of a
+// result. It is finished when its run.json exists.
+#ifndef AMONTONS_STUDY_SWEEP_COMPUTING_POINT_H
+#define AMONTONS_STUDY_SWEEP_COMPUTING_POINT_H
+
+#include "amontons.h"
+#include "base/hash.h"
+#include "study/sweep/computing/reports.h"
+#include "study/sweep/reading/study.h"
+
+typedef enum PointStatus { POINT_PENDING, POINT_DONE, POINT_FAILED } PointStatus;
+
+typedef struct SweepPoint {
+    PointStatus status;
+    char hash[HASH_TEXT_SIZE];
+    int32_t same_as;   // an earlier point with the same scene; its own index: none
+    int32_t baseline;   // the point that `rank` measures it against; -1: none
+    bool reused;   // was finished when the sweep began
+    ReportPlace place;   // of its report, with `keep: table`
+    int32_t runs;   // points that step on the same basis, this one too (block_counts)
+    double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
+    bool settled;   // a smaller accuracy is of no use
+    bool refined;   // its result has that accuracy,
+    double moved;   // and its value moved by so many of the error bars before, the most of a round
+    double seconds;   // in this sweep
+} SweepPoint;
+
+typedef struct Sweep {
+    const SweepOptions *options;   // not owned
+    Study study;   // owned
+    char folder[AMONTONS_PATH_SIZE];
+    Reports reports;   // open: `keep: table`
+    int lock;   // file descriptor; -1: none
+    SweepPoint *points;   // [study.point_count]; owned
+    double started;   // wall clock, s
+    bool checked;   // what the study records is in run.json
+    int32_t planned;   // points to compute or to find: all, and those computed again
+    int32_t computed, failed, finished;
+    int32_t refined;   // of those computed: again, for their rank
+} Sweep;
+
+enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
+// The mesh file hashed last: one shared by all points is read once. Begins zeroed.
+typedef struct PointMesh {
+    Hash hash;
+    char path[SCENE_TEXT_SIZE];
+} PointMesh;
+
+// The scene of a point as it is to be computed: the study's, with the point's accuracy and runs.
+bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
+// A name for all that decides what a point comes to: version, mesh file, every key but the title.
+bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
+// The points sorted by hash, equal ones by number.
+typedef struct HashedPoint {
+    const char *hash;   // not owned
+    int32_t point;
+} HashedPoint;
+
+typedef struct PointsByHash {
+    Sweep *sweep;   // not owned
+    HashedPoint *list;   // [study.point_count]; memory_free
+} PointsByHash;
+
+bool points_sort(Sweep *sweep, PointsByHash *points, Error *err);
+int32_t points_look_up(const PointsByHash *points, const char *hash);   // the first; -1: none
+// For a ReportFound; context: PointsByHash.
+void points_note_place(void *points, const char *hash, ReportPlace place);
+// Of points with the same hash the first one is `same_as` of all.
+bool points_find_same(Sweep *sweep, Error *err);
+// run.json of the point (memory_free); NULL without an error when there is none.
+char *point_report(const Sweep *sweep, int32_t point, Error *err);
+PointStatus point_status(const char *report);   // of a run.json, or NULL
+const char *point_status_name(PointStatus status);   // "pending"; static storage
+void point_remove(Sweep *sweep, int32_t point, bool anew);
+// In this process. *report: with `keep: table` what run.json would hold, but for the scene and the
+// list of events, on one line (memory_free); else NULL.
+bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err);
+bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err);   // in the sweep's
+// run.json for a point that left none: `failure` in a word or two, `message` in full.
+bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const char *message,
+                         Error *err);
+// "load.pressure=0.003 mesh.set.nx=40"
+void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE]);
+
+#endif

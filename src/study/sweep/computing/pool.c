@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Computes pending points in child processes, each of which computes one point after the other: to
+// start a process costs as much as a tenth of a small point. A crash costs one point only: the next
+// one gets a new process. What a child is to compute it reads from a socket; there it says that a
+// point has ended, with the message that could not be written to run.json. When the socket closes,
+// the child has ended.
+#include "study/sweep/computing/pool.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/process.h"
+#include "study/sweep/computing/tally.h"
+
+#include <errno.h>
+#include <malloc.h>
+#include <poll.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum {
+    JOBS_MAX = 1024,
+    WAKE_MS = 200,   // how often the stop flag is looked at
+    MEMORY_KEPT = 1 << 26,   // bytes
+    POINTS_EACH = 256   // of a child: whatever a library does not free goes with it
+};
+
+typedef struct Worker {
+    pid_t process;   // 0: none
+    int socket;   // our end
+    int32_t point;   // under way; -1: none
+    int32_t given;   // points so far
+    double started;   // the point; wall clock, s
+} Worker;
+
+// A point has ended; `size` bytes of its report follow.
+typedef struct Reply {
+    char message[ERROR_MESSAGE_SIZE];   // empty: it ended well, or its report says how
+    int32_t size;   // 0: its report is run.json, or there is none
+} Reply;
+
+// Processes, not threads: the libraries below keep states of their own (gmsh, HDF5), and a crash
+// must not take its neighbours along.
+typedef struct Pool {
+    Sweep *sweep;
+    int32_t size;   // workers at a time
+    Worker *workers;   // [size]; owned
+    struct pollfd *polled;   // [size]; owned
+    int32_t next, step;   // point to look at for the next worker; to the one behind it
+} Pool;
+
+// Whether all of it came before the other end was closed.
+static bool read_whole(int socket, void *bytes, size_t size)
+{
+    char *next = bytes;
+    while (size > 0) {
+        ssize_t count = read(socket, next, size);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        next += count;
+        size -= (size_t)count;
+    }
+    return true;
+}
+
+static bool send_whole(int socket, const void *bytes, size_t size)
+{
+    const char *next = bytes;
+    while (size > 0) {
+        ssize_t count = send(socket, next, size, MSG_NOSIGNAL);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        next += count;
+        size -= (size_t)count;
+    }
+    return true;
+}
+
+// --- in the child -------------------------------------------------------------------------------
+
+// Never returns. The child dies with its parent, and by the signals that the parent handles.
+static void be_child(const Sweep *sweep, int socket, pid_t parent)
+{
+    int32_t point;
+    signal(SIGTERM, SIG_DFL);
+    signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
+    mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
+    while (read_whole(socket, &point, sizeof point)) {
+        Error err = {0};
+        Reply reply = {0};
+        char *report = NULL;
+        if (!point_run(sweep, point, &report, &err))
+            memcpy(reply.message, err.message, sizeof reply.message);
+        reply.size = report ? (int32_t)strlen(report) : 0;
+        bool sent = send_whole(socket, &reply, sizeof reply) &&
+                    send_whole(socket, report, (size_t)reply.size);
+        memory_free(report);
+        if (!sent) _exit(1);
+    }
+    _exit(0);
+}
+
+// --- in the parent ------------------------------------------------------------------------------
+
+// The child's pid is compared with ours after the fork (be_child): a parent that died in between
+// would leave it without one.
+static bool start_worker(Pool *pool, Worker *worker, Error *err)
+{
+    int ends[2] = {-1, -1};
+    pid_t parent = getpid();
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+        FAIL(err, ERROR_FILE, "cannot open a socket: %s", strerror(errno));
+    *worker = (Worker){.process = fork(), .socket = ends[0], .point = -1};
+    if (worker->process == 0) {
+        close(ends[0]);
+        be_child(pool->sweep, ends[1], parent);
+    }
+    close(ends[1]);
+    if (worker->process < 0) {
+        int cause = errno;
+        worker->process = 0;
+        close(ends[0]);
+        FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Takes what a point left, or else says why it left nothing: the message of its child, or how that
+// ended (as process_wait has it).
+static bool note_result(Pool *pool, const Worker *of, const char *said, int ending, Error *err)
+{
+    const char *failure = *said ? "not begun" : "crashed";
+    char message[ERROR_MESSAGE_SIZE], how[200];
+    double seconds = clock_seconds() - of->started;
+    bool left = false;
+    process_describe(ending, how, sizeof how);
+    TRY(sweep_take_ended(pool->sweep, of->point, seconds, &left, err));
+    if (left) goto cleanup;
+    if (*said)
+        snprintf(message, sizeof message, "%s", said);
+    else
+        snprintf(message, sizeof message, "the process ended %s, without a word", how);
+    TRY(sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Waits for the child, which ends by itself once it has nothing to read, and frees its worker. The
+// status as process_wait has it.
+static int reap(Worker *worker)
+{
+    shutdown(worker->socket, SHUT_WR);   // also where another child has a copy of it
+    int ending = process_wait(worker->process, NULL);
+    close(worker->socket);
+    worker->process = 0;
+    return ending;
+}
+
+// Gives an idle worker the next pending point; without one it stays idle. A child that cannot be
+// written to has died: that shows when it is read.
+static bool give_point(Pool *pool, Worker *worker, Error *err)
+{
+    Sweep *sweep = pool->sweep;
+    while (pool->next < sweep->study.point_count && !sweep_is_waiting(sweep, pool->next))
+        pool->next++;
+    if (pool->next >= sweep->study.point_count) return true;
+    if (worker->process && worker->given == POINTS_EACH) reap(worker);
+    if (!worker->process) TRY(start_worker(pool, worker, err));
+    worker->point = pool->next;
+    pool->next += pool->step;
+    worker->given++;
+    worker->started = clock_seconds();
+    send(worker->socket, &worker->point, sizeof worker->point, MSG_NOSIGNAL);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool fill_workers(Pool *pool, Error *err)
+{
+    for (int32_t k = 0; k < pool->size; k++) {
+        Worker *worker = &pool->workers[k];
+        if (!worker->process || worker->point < 0) TRY(give_point(pool, worker, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// *report: what follows the reply; NULL: nothing. false: the child has ended.
+static bool receive(int socket, Reply *reply, char **report, Error *err)
+{
+    if (!read_whole(socket, reply, sizeof *reply)) return false;
+    if (reply->size <= 0) return true;
+    *report = memory_array((int64_t)reply->size + 1, 1, err);
+    return *report && read_whole(socket, *report, (size_t)reply->size);
+}
+
+// The next point is handed out before the result of the last is looked at.
+static bool read_worker(Pool *pool, Worker *worker, Error *err)
+{
+    Reply reply = {0};
+    Worker before = *worker;
+    Error unable = {0};
+    char *report = NULL;
+    int ending = 0;
+    bool whole = receive(worker->socket, &reply, &report, err);
+    if (whole)
+        worker->point = -1;
+    else
+        ending = reap(worker);
+    if (before.point < 0) goto cleanup;
+    give_point(pool, worker, &unable);
+    if (whole && report) TRY(point_keep(pool->sweep, before.point, report, err));
+    TRY(note_result(pool, &before, reply.message, ending, err));
+    if (!error_is_clean(&unable)) *err = unable;
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+// Waits for output or the end of any worker. *running: how many there are.
+static bool read_workers(Pool *pool, int32_t *running, Error *err)
+{
+    *running = 0;
+    for (int32_t k = 0; k < pool->size; k++) {
+        const Worker *worker = &pool->workers[k];
+        pool->polled[k] =
+            (struct pollfd){.fd = worker->process ? worker->socket : -1, .events = POLLIN};
+        *running += worker->process != 0 && worker->point >= 0;
+    }
+    if (*running == 0) return true;
+    if (poll(pool->polled, (nfds_t)pool->size, WAKE_MS) <= 0) return true;
+    for (int32_t k = 0; k < pool->size; k++)
+        if (pool->polled[k].revents) TRY(read_worker(pool, &pool->workers[k], err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// A point that was written before the signal came is finished like any other.
+static void end_workers(Pool *pool)
+{
+    for (int32_t k = 0; k < pool->size; k++) {
+        Error ignored = {0};   // the caller tells why the pool ends
+        Worker *worker = &pool->workers[k];
+        bool left = false;
+        if (!worker->process) continue;
+        kill(worker->process, SIGTERM);
+        reap(worker);
+        if (worker->point >= 0)
+            sweep_take_ended(pool->sweep, worker->point, clock_seconds() - worker->started, &left,
+                             &ignored);
+    }
+}
+
+// Children are watched by poll, not by signals: a pipe closes however its child ends.
+bool pool_run(Sweep *sweep, const PoolDef *def, Error *err)
+{
+    int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;
+    Pool pool = {.sweep = sweep, .size = def->workers, .step = def->step};
+    if (pool.size < 1) pool.size = cores > 0 ? cores : 1;
+    if (pool.size > JOBS_MAX) pool.size = JOBS_MAX;
+    TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));
+    TRY((pool.polled = NEW_ARRAY(struct pollfd, pool.size, err)));
+    do {
+        TRY(sweep_check_stop(sweep, err));
+        TRY(fill_workers(&pool, err));
+        TRY(read_workers(&pool, &running, err));
+    } while (running > 0);
+cleanup:
+    if (pool.workers) end_workers(&pool);
+    memory_free(pool.workers);
+    memory_free(pool.polled);
+    return error_is_clean(err);
+}

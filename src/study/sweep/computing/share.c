@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An element is a pool of one worker over its share: a crash costs one point, as on one's own
+// computer. It writes whole lines, so what is there when Slurm ends it is as good as the rest.
+#include "study/sweep/computing/share.h"
+
+#include "base/memory.h"
+#include "io/files/part_file.h"
+#include "io/files/text_file.h"
+#include "study/sweep/computing/pool.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SHARE_PATH_SIZE = POINT_PATH_SIZE + 64, SHARE_BYTES_MAX = 1 << 28 };
+
+static void share_path(const Sweep *sweep, int32_t share, const char *what,
+                       char path[SHARE_PATH_SIZE])
+{
+    snprintf(path, SHARE_PATH_SIZE, "%s/slurm/share-%d.%s", sweep->folder, share, what);
+}
+
+bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
+                 int32_t step, Error *err)
+{
+    char path[SHARE_PATH_SIZE], *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    share_path(sweep, share, "points", path);
+    if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
+    for (int32_t k = share; k < count; k += step)
+        fprintf(file, "%d %s %d\n", points[k], sweep->points[points[k]].hash,
+                sweep->points[points[k]].runs);
+    if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
+    TRY(part_file_put(path, text, (int64_t)size, err));
+cleanup:
+    free(text);
+    return error_is_clean(err);
+}
+
+// --- in the process of the element --------------------------------------------------------------
+
+// Marks the point of a line as waiting. Its scene must have the hash that it had when the sweep
+// began: a study that was changed meanwhile would answer another question.
+static bool add_point(Sweep *sweep, char **line, PointMesh *mesh, Scene *scene, Error *err)
+{
+    char *hash = NULL;
+    long point = strtol(*line, &hash, 10);
+    if (*hash != ' ' || point < 0 || point >= sweep->study.point_count)
+        FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", sweep->study.path);
+    SweepPoint *at = &sweep->points[point];
+    TRY(point_scene(sweep, (int32_t)point, scene, err));
+    TRY(point_hash(scene, mesh, at->hash, err));
+    if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
+        FAIL(err, ERROR_INPUT, "the study, its scene or a mesh was changed after the sweep began");
+    at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, NULL, 10);
+    at->same_as = (int32_t)point;
+    *line = strchr(hash, '\n');
+    *line = *line ? *line + 1 : hash + strlen(hash);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_points(Sweep *sweep, const char *path, Error *err)
+{
+    PointMesh mesh = {0};
+    char *text = NULL;
+    int32_t size = 0;
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
+    for (int32_t k = 0; k < sweep->study.point_count; k++) sweep->points[k].same_as = -1;
+    TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
+    for (char *line = text; *line;) TRY(add_point(sweep, &line, &mesh, scene, err));
+cleanup:
+    memory_free(text);
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+bool share_run(Sweep *sweep, int32_t share, Error *err)
+{
+    char path[SHARE_PATH_SIZE];
+    PoolDef one = {.workers = 1, .step = 1};
+    share_path(sweep, share, "points", path);
+    TRY(read_points(sweep, path, err));
+    share_path(sweep, share, "reports", path);
+    TRY(reports_open(&sweep->reports, path, true, err));
+    sweep->checked = true;   // what is recorded: by the sweep
+    TRY(pool_run(sweep, &one, err));
+cleanup:
+    reports_close(&sweep->reports);
+    return error_is_clean(err);
+}
+
+// --- in the sweep's -----------------------------------------------------------------------------
+
+typedef struct Taking {
+    Sweep *sweep;
+    Reports from;
+    ReportFound found;
+    void *context;
+    Error *err;
+} Taking;
+
+// For a ReportFound.
+static void take_line(void *context, const char *hash, ReportPlace place)
+{
+    Taking *taking = context;
+    char *report = NULL;
+    if (!error_is_clean(taking->err)) return;
+    report = reports_read(&taking->from, place, taking->err);
+    if (report && reports_add(&taking->sweep->reports, hash, report, &place, taking->err))
+        taking->found(taking->context, hash, place);
+    memory_free(report);
+}
+
+bool share_take(Sweep *sweep, int32_t share, ReportFound found, void *context, Error *err)
+{
+    Taking taking = {.sweep = sweep, .found = found, .context = context, .err = err};
+    char path[SHARE_PATH_SIZE];
+    share_path(sweep, share, "reports", path);
+    if (access(path, F_OK) == 0) {
+        TRY(reports_open(&taking.from, path, false, err));
+        TRY(reports_list(&taking.from, take_line, &taking, err));
+    }
+    unlink(path);
+    share_path(sweep, share, "points", path);
+    unlink(path);
+cleanup:
+    reports_close(&taking.from);
+    return error_is_clean(err);
+}
+
+bool share_take_all(Sweep *sweep, ReportFound found, void *context, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/slurm", sweep->folder);
+    DIR *folder = opendir(path);
+    if (!folder) return true;   // Slurm was never asked
+    for (const struct dirent *entry; (entry = readdir(folder));) {
+        int share = -1;
+        if (sscanf(entry->d_name, "share-%d.points", &share) == 1 && share >= 0)
+            TRY(share_take(sweep, share, found, context, err));
+    }
+cleanup:
+    closedir(folder);
+    return error_is_clean(err);
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A share: the points that one element of a Slurm array computes, where `keep: table` says that
+// they take less time than an element's start.
+//
+//     DIR/slurm/share-7.points    a line a point: its number and its hash
+//     DIR/slurm/share-7.reports   what it has computed, as DIR/reports
+#ifndef AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H
+#define AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H
+
+#include "study/sweep/computing/point.h"
+
+// points[first], points[first + step], ... ([count] in all): a share of each part of the study, for
+// points near to each other take as long.
+bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
+                 int32_t step, Error *err);
+// In the element. The sweep has a study, a folder and options, and nothing else.
+bool share_run(Sweep *sweep, int32_t share, Error *err);
+// What the share has left goes to the sweep's reports, and its files go. found: as in reports_list,
+// with places in the sweep's.
+bool share_take(Sweep *sweep, int32_t share, ReportFound found, void *context, Error *err);
+// The same for shares of an earlier sweep that was killed.
+bool share_take_all(Sweep *sweep, ReportFound found, void *context, Error *err);
+
+#endif

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A point's result is its run.json, as with the pool; only for an element that left none the state
+// that Slurm reports decides (slurm_jobs).
+//
+// With `keep: table` points are far shorter than the start of an element: an element computes a
+// share of them (study/sweep/computing/share), so many as take some minutes. What it left undone
+// stays pending, for the next sweep.
+#include "study/sweep/computing/slurm.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "io/files/folder.h"
+#include "io/files/open_file.h"
+#include "io/files/text_file.h"
+#include "io/text/json_reader.h"
+#include "study/sweep/computing/element.h"
+#include "study/sweep/computing/pool.h"
+#include "study/sweep/computing/share.h"
+#include "study/sweep/computing/slurm_jobs.h"
+#include "study/sweep/computing/tally.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double LOOK_PAUSE = 2;   // s between two looks at the queue
+static const double STOP_PAUSE = 0.1;   // s between two looks at the stop flag
+static const double SHARE_SECONDS = 240;   // that an element takes over its share, about
+enum { TRIED_MAX = 20 };   // points whose time is looked at to cut shares
+static const double REPORT_PAUSE = 10;   // s that a file system shared by nodes may take to show a
+    // run.json after its element has ended
+
+typedef struct Element {
+    int32_t point;   // with `keep: table` the first of its share
+    bool taken;   // its result is counted
+    bool listed, ended;   // by squeue, at the last look
+    char state[SLURM_WORD_SIZE], reason[SLURM_REASON_SIZE];   // as squeue lists them
+    double gone_since;   // wall clock, s; 0: not gone
+} Element;
+
+typedef struct SlurmArray {
+    char id[SLURM_WORD_SIZE];
+    int32_t first, count;   // elements
+} SlurmArray;
+
+typedef struct SlurmRun {
+    Sweep *sweep;
+    SlurmJobs jobs;   // owned, like the rest
+    int32_t waiting_count, *waiting;   // points to compute
+    int32_t count, left;   // elements; those not taken
+    Element *elements;   // [count]; element k computes waiting[k], waiting[k + count], ...
+    PointsByHash points;   // with `keep: table`
+    int32_t undone;   // points that elements left so
+    char cause[ERROR_MESSAGE_SIZE];   // of the first of them
+    int32_t array_count;
+    SlurmArray *arrays;   // [array_count]
+} SlurmRun;
+
+// As many arrays as MaxArraySize requires; array k's elements are `count` from `first` on.
+static bool submit_all(SlurmRun *run, Error *err)
+{
+    int32_t limit = slurm_array_limit(&run->jobs);
+    char script[POINT_PATH_SIZE], list[POINT_PATH_SIZE], name[40];
+    run->array_count = (run->count + limit - 1) / limit;
+    TRY((run->arrays = NEW_ARRAY(SlurmArray, run->array_count, err)));
+    for (int32_t k = 0; run->sweep->study.keep_table && k < run->count; k++)
+        TRY(share_write(run->sweep, k, run->waiting, run->waiting_count, run->count, err));
+    for (int32_t k = 0; k < run->array_count; k++) {
+        SlurmArray *array = &run->arrays[k];
+        array->first = k * limit;
+        array->count = run->count - array->first < limit ? run->count - array->first : limit;
+        snprintf(name, sizeof name, "array-%d.json", k);
+        slurm_path(&run->jobs, name, list, sizeof list);
+        snprintf(name, sizeof name, "array-%d.sh", k);
+        slurm_path(&run->jobs, name, script, sizeof script);
+        TRY(elements_write(run->sweep, list, run->waiting, array->first, array->count, err));
+        TRY(slurm_write_script(script, list, err));
+        TRY(slurm_submit(&run->jobs, script, array->count, run->sweep->options, array->id, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- waiting ------------------------------------------------------------------------------------
+
+static void note_line(SlurmRun *run, const SlurmLine *line)
+{
+    for (int32_t k = 0; k < run->array_count; k++) {
+        const SlurmArray *array = &run->arrays[k];
+        if (strcmp(array->id, line->id) != 0 || line->index < 0 || line->index >= array->count)
+            continue;
+        Element *element = &run->elements[array->first + line->index];
+        element->listed = true;
+        element->ended = slurm_is_end(line->state);
+        memcpy(element->state, line->state, sizeof element->state);
+        memcpy(element->reason, line->reason, sizeof element->reason);
+    }
+}
+
+static bool look_at_queue(SlurmRun *run, bool *answered, Error *err)
+{
+    SlurmLine line;
+    char *rest = NULL;
+    TRY(slurm_list(&run->jobs, answered, err));
+    if (!*answered) goto cleanup;
+    for (int32_t k = 0; k < run->count; k++)
+        run->elements[k].listed = run->elements[k].ended = false;
+    while (slurm_next_line(&run->jobs, &rest, &line)) note_line(run, &line);
+cleanup:
+    return error_is_clean(err);
+}
+
+// "123_4", what Slurm calls element `k`.
+static void job_name(const SlurmRun *run, int32_t k, char name[SLURM_JOB_SIZE])
+{
+    for (int32_t a = 0; a < run->array_count; a++) {
+        const SlurmArray *array = &run->arrays[a];
+        if (k < array->first || k >= array->first + array->count) continue;
+        snprintf(name, SLURM_JOB_SIZE, "%s_%d", array->id, k - array->first);
+    }
+}
+
+// The last line of what the element printed; "" where there is none.
+static void last_words(const SlurmRun *run, const char *job, char *words, size_t size)
+{
+    Error ignored = {0};
+    char path[POINT_PATH_SIZE], file[SLURM_JOB_SIZE + 8], *text = NULL;
+    int32_t length = 0;
+    *words = 0;
+    snprintf(file, sizeof file, "%s.out", job);
+    slurm_path(&run->jobs, file, path, sizeof path);
+    if (access(path, R_OK) != 0 || !text_file_read(path, 1 << 20, &text, &length, &ignored)) return;
+    while (length && text[length - 1] == '\n') text[--length] = 0;
+    const char *line = strrchr(text, '\n');
+    if (*text) snprintf(words, size, ": %.1000s", line ? line + 1 : text);
+    memory_free(text);
+}
+
+// How element `k` ended, in Slurm's words and its own last ones. One that was cancelled before it
+// began is no longer listed.
+static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SIZE])
+{
+    const Element *element = &run->elements[k];
+    char state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100], job[SLURM_JOB_SIZE] = "";
+    bool has_reason = *element->reason && strcmp(element->reason, "None") != 0;
+    bool waited = strcmp(element->state, "PENDING") == 0;
+    job_name(run, k, job);
+    int number = slurm_signal(&run->jobs, job);
+    const char *last = *element->state ? element->state : "unknown";
+    if (number > 0)
+        snprintf(state, sizeof state, "%s by signal %d (%s)", last, number, strsignal(number));
+    else if (has_reason)
+        snprintf(state, sizeof state, "%s (%s)", last, element->reason);
+    else
+        snprintf(state, sizeof state, "%s", last);
+    last_words(run, job, words, sizeof words);
+    if (element->ended)
+        snprintf(message, ERROR_MESSAGE_SIZE, "the Slurm job ended as %s%s", state, words);
+    else
+        snprintf(message, ERROR_MESSAGE_SIZE,
+                 "the Slurm job left the queue without a result, last seen as %s%s", state,
+                 waited ? ": cancelled before it began" : words);
+}
+
+// Element `k` has ended without a run.json: its failure is recorded.
+static bool take_lost(SlurmRun *run, int32_t k, Error *err)
+{
+    const Element *element = &run->elements[k];
+    char message[ERROR_MESSAGE_SIZE];
+    bool cancelled = strcmp(element->state, "PENDING") == 0 ||
+                     strcmp(element->state, "CANCELLED") == 0;
+    describe_end(run, k, message);
+    return sweep_take_lost(run->sweep, element->point, NAN, cancelled ? "cancelled" : "crashed",
+                           message, err);
+}
+
+// The points of element `k` that have a result. *undone: how many have none.
+static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, Error *err)
+{
+    Sweep *sweep = run->sweep;
+    bool left = false;
+    *undone = 0;
+    if (sweep->study.keep_table) TRY(share_take(sweep, k, points_note_place, &run->points, err));
+    for (int32_t i = k; i < run->waiting_count; i += run->count) {
+        int32_t point = run->waiting[i];
+        if (!sweep_is_waiting(sweep, point)) continue;
+        TRY(sweep_take_ended(sweep, point, NAN, &left, err));
+        *undone += !left;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Takes what element `k`, which has ended, came to, once it can be seen or need not be waited for.
+static bool take_element(SlurmRun *run, int32_t k, Error *err)
+{
+    Element *element = &run->elements[k];
+    int32_t undone = 0;
+    TRY(take_points(run, k, &undone, err));
+    if (undone > 0) {
+        // Unless Slurm ended it, it wrote one.
+        bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
+                     strcmp(element->reason, "NonZeroExitCode") == 0;
+        if (element->gone_since == 0) element->gone_since = clock_seconds();
+        if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) goto cleanup;
+        if (!run->sweep->study.keep_table)
+            TRY(take_lost(run, k, err));
+        else if (run->undone == 0)
+            describe_end(run, k, run->cause);
+        if (run->sweep->study.keep_table) run->undone += undone;
+    }
+    element->taken = true;
+    run->left--;
+cleanup:
+    return error_is_clean(err);
+}
+
+// squeue is asked every LOOK_PAUSE seconds, the stop flag far more often.
+static bool wait_for_all(SlurmRun *run, Error *err)
+{
+    bool answered = false;
+    while (run->left > 0) {
+        TRY(look_at_queue(run, &answered, err));
+        for (int32_t k = 0; answered && k < run->count; k++) {
+            const Element *element = &run->elements[k];
+            bool gone = !element->listed || element->ended;
+            if (!element->taken && gone) TRY(take_element(run, k, err));
+        }
+        double until = clock_seconds() + LOOK_PAUSE;
+        while (run->left > 0 && clock_seconds() < until) {
+            TRY(sweep_check_stop(run->sweep, err));
+            slurm_pause(STOP_PAUSE);
+        }
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A point that was written before the elements were cancelled is finished like any other.
+static void take_finished(SlurmRun *run)
+{
+    for (int32_t k = 0; k < run->count; k++) {
+        Error ignored = {0};   // the caller tells why the sweep ends
+        int32_t undone = 0;
+        if (!run->elements[k].taken) take_points(run, k, &undone, &ignored);
+    }
+}
+
+// --- the whole ----------------------------------------------------------------------------------
+
+static void end(SlurmRun *run)
+{
+    memory_free(run->waiting);
+    memory_free(run->elements);
+    memory_free(run->arrays);
+    memory_free(run->points.list);
+    slurm_jobs_close(&run->jobs);
+}
+
+// The file `running` exists as long as jobs may be in the queue.
+static bool mark_running(const SlurmRun *run, Error *err)
+{
+    char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
+    slurm_path(&run->jobs, "", path, sizeof path);
+    TRY(folder_make(path, err));
+    slurm_path(&run->jobs, "running", path, sizeof path);
+    int file = open_to_write(path, OPEN_KEPT, why);
+    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+    close(file);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool slurm_end_leftovers(const Sweep *sweep, Error *err)
+{
+    SlurmJobs jobs = {0};
+    char path[POINT_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/slurm/running", sweep->folder);
+    if (access(path, F_OK) != 0) return true;
+    TRY(slurm_jobs_open(sweep->folder, 0, &jobs, err));
+    TRY(slurm_cancel(&jobs, err));
+    unlink(path);
+cleanup:
+    slurm_jobs_close(&jobs);
+    return error_is_clean(err);
+}
+
+// Mean time of some points that are done, without their mesh and basis, which the next ones find in
+// the cache; s. *tried: how many they are.
+static bool mean_time(const Sweep *sweep, int32_t *tried, double *mean, Error *err)
+{
+    double sum = 0;
+    int32_t count = sweep->study.point_count, step = 1 + count / TRIED_MAX;
+    *tried = 0;
+    for (int32_t k = 0; k < count; k++) {
+        double total = 0, mesh = 0, reduce = 0;
+        if (k % step != 0 || sweep->points[k].status != POINT_DONE) continue;
+        char *report = point_report(sweep, k, err);
+        TRY(report);
+        json_find_number(report, "timing_s.total", &total);
+        json_find_number(report, "timing_s.mesh", &mesh);
+        json_find_number(report, "timing_s.reduce", &reduce);
+        memory_free(report);
+        sum += total - mesh - reduce;
+        ++*tried;
+    }
+    *mean = *tried > 0 ? sum / *tried : SHARE_SECONDS;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Shares of some minutes; as many as may run at a time (-j) there are in any case.
+static bool count_shares(const SlurmRun *run, int32_t *shares, Error *err)
+{
+    double mean = 0;
+    int32_t tried = 0;
+    TRY(mean_time(run->sweep, &tried, &mean, err));
+    *shares = (int32_t)ceil(run->waiting_count * fmin(mean / SHARE_SECONDS, 1));
+    if (*shares < run->sweep->options->jobs) *shares = run->sweep->options->jobs;
+    if (*shares > run->waiting_count) *shares = run->waiting_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool list_waiting(SlurmRun *run, Error *err)
+{
+    const Sweep *sweep = run->sweep;
+    TRY((run->waiting = NEW_ARRAY(int32_t, sweep->study.point_count, err)));
+    for (int32_t k = 0; k < sweep->study.point_count; k++)
+        if (sweep_is_waiting(sweep, k)) run->waiting[run->waiting_count++] = k;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool list_elements(SlurmRun *run, Error *err)
+{
+    TRY(list_waiting(run, err));
+    run->count = run->waiting_count;
+    if (run->sweep->study.keep_table && run->count > 0) TRY(count_shares(run, &run->count, err));
+    TRY((run->elements = NEW_ARRAY(Element, run->count, err)));
+    for (int32_t k = 0; k < run->count; k++) run->elements[k].point = run->waiting[k];
+    run->left = run->count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// How long points take is found out here, before shares are cut: some of them, from all over.
+static bool try_some(Sweep *sweep, Error *err)
+{
+    PoolDef some = {.workers = 1, .step = 1 + sweep->study.point_count / TRIED_MAX};
+    return pool_run(sweep, &some, err);
+}
+
+// Also after an error no job of ours stays in the queue: the file `running` is removed only when
+// that is known, and otherwise tells the next sweep to look.
+bool slurm_run(Sweep *sweep, Error *err)
+{
+    SlurmRun run = {.sweep = sweep};
+    Error ignored = {0};
+    char path[POINT_PATH_SIZE];
+    bool out = false;   // jobs may be
+    TRY(slurm_jobs_open(sweep->folder, sweep->study.point_count, &run.jobs, err));
+    if (sweep->study.keep_table) TRY(try_some(sweep, err));
+    if (sweep->study.keep_table) TRY(points_sort(sweep, &run.points, err));
+    TRY(list_elements(&run, err));
+    if (run.count == 0) goto cleanup;
+    TRY(slurm_jobs_check(&run.jobs, err));
+    TRY(mark_running(&run, err));
+    out = true;
+    TRY(submit_all(&run, err));
+    TRY(wait_for_all(&run, err));
+    if (run.undone > 0)
+        FAIL(err, ERROR_INTERRUPT, "%d points are not computed, the same command goes on: %.1500s",
+             run.undone, run.cause);
+cleanup:
+    if (!error_is_clean(err) && out) {
+        out = !slurm_cancel(&run.jobs, &ignored);
+        take_finished(&run);
+    } else {
+        out = false;
+    }
+    slurm_path(&run.jobs, "running", path, sizeof path);
+    if (run.jobs.folder[0] && !out) unlink(path);
+    end(&run);
+    return error_is_clean(err);
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/sweep/computing/tally.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "io/text/json_reader.h"
+#include "study/sweep/computing/record_check.h"
+#include "study/sweep/reading/study_point.h"
+
+#include <math.h>
+
+// What the study ranks by, or mu_M, in the report of a point that is done.
+static void read_quantity(const Study *study, const char *report, SweepView *view)
+{
+    const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
+    const char *path = ranked ? ranked->path : "results.mu_M";
+    char beside[STUDY_NAME_SIZE + 16];
+    double error = NAN;
+    view->quantity = ranked ? ranked->name : "mu_M";
+    if (!report) return;
+    json_find_number(report, path, &view->value);
+    snprintf(beside, sizeof beside, "%s_error", path);
+    json_find_number(report, beside, &error);
+    snprintf(beside, sizeof beside, "%s_known_to", path);
+    if (!json_find_number(report, beside, &view->known_to))
+        view->known_to = isnan(error) ? 0 : error;
+    if (error == view->known_to) view->bar = error;
+}
+
+// Reports to the caller that point `k` has ended and left `report` (NULL: none).
+static void report_point(Sweep *sweep, int32_t k, const char *report)
+{
+    const SweepPoint *point = &sweep->points[k];
+    char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "", warning[8];
+    Error ignored = {0};
+    Scene *scene = NULL;
+    sweep->finished++;
+    if (point->status == POINT_FAILED) sweep->failed++;
+    if (!sweep->options->on_point) return;
+    scene = NEW_ARRAY(Scene, 1, &ignored);
+    if (scene && point_scene(sweep, k, scene, &ignored)) point_words(sweep, scene, words);
+    memory_free(scene);
+    SweepView view = {.words = words,
+                      .mu_M = NAN,
+                      .mu_M_error = NAN,
+                      .value = NAN,
+                      .bar = NAN,
+                      .known_to = NAN,
+                      .seconds = point->seconds,
+                      .seconds_left = NAN,
+                      .finished = sweep->finished,
+                      .failed = sweep->failed,
+                      .points = sweep->planned,
+                      .reused = point->reused};
+    read_quantity(&sweep->study, report, &view);
+    if (report) {
+        json_find_number(report, "results.mu_M", &view.mu_M);
+        json_find_number(report, "results.mu_M_error", &view.mu_M_error);
+        view.warned = json_find_text(report, "warnings.0", warning, sizeof warning);
+    }
+    if (point->status == POINT_FAILED) {
+        if (report) json_find_text(report, "message", message, sizeof message);
+        view.message = message;
+    }
+    if (sweep->computed > 0)
+        view.seconds_left = (clock_seconds() - sweep->started) / sweep->computed *
+                            (sweep->planned - sweep->finished);
+    sweep->options->on_point(&view, sweep->options->context);
+}
+
+// What `record` names must be in the run.json of the first point that is done.
+static bool check_records(Sweep *sweep, int32_t point, const char *report, Error *err)
+{
+    if (sweep->checked || sweep->points[point].status != POINT_DONE) return true;
+    sweep->checked = true;
+    return record_check(&sweep->study, report, err);
+}
+
+// Points finished by an earlier sweep.
+bool sweep_take_finished(Sweep *sweep, Error *err)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        if (point->same_as < k) continue;
+        char *report = point_report(sweep, k, err);
+        TRY(error_is_clean(err));
+        point->status = point_status(report);
+        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
+            point->status = POINT_PENDING;
+        point->reused = point->status != POINT_PENDING;
+        if (point->reused) {
+            report_point(sweep, k, report);
+            check_records(sweep, k, report, err);
+        } else {
+            point_remove(sweep, k, sweep->options->fresh);
+        }
+        memory_free(report);
+        TRY(error_is_clean(err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sweep_check_stop(const Sweep *sweep, Error *err)
+{
+    const volatile sig_atomic_t *stop = sweep->options->stop;
+    if (stop && *stop)
+        FAIL(err, ERROR_INTERRUPT,
+             "interrupted; the same command continues where this one stopped");
+cleanup:
+    return error_is_clean(err);
+}
+
+// A point with the scene of an earlier one is not computed again.
+bool sweep_is_waiting(const Sweep *sweep, int32_t point)
+{
+    return sweep->points[point].status == POINT_PENDING && sweep->points[point].same_as == point;
+}
+
+// Points end in any order; the table keeps the study's.
+bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err)
+{
+    char *report = point_report(sweep, point, err);
+    TRY(error_is_clean(err));
+    *left = point_status(report) != POINT_PENDING;
+    if (!*left) goto cleanup;
+    if (isnan(seconds) && !json_find_number(report, "timing_s.total", &seconds)) seconds = 0;
+    sweep->points[point].status = point_status(report);
+    sweep->points[point].seconds = seconds;
+    sweep->computed++;
+    report_point(sweep, point, report);
+    TRY(check_records(sweep, point, report, err));
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+// The report is read back, so that what is counted is what the next sweep will find.
+bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
+                     const char *message, Error *err)
+{
+    bool left = false;
+    return point_write_failure(sweep, point, failure, message, err) &&
+           sweep_take_ended(sweep, point, seconds, &left, err);
+}
+
+// Before the table, which has a row for each.
+void sweep_share_results(Sweep *sweep)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        const SweepPoint *first = &sweep->points[point->same_as];
+        point->status = first->status;
+        if (point->same_as < k) point->reused = first->status != POINT_PENDING;
+    }
+}
+
+void sweep_summarise(const Sweep *sweep, SweepSummary *summary)
+{
+    *summary = (SweepSummary){.points = sweep->study.point_count,
+                              .computed = sweep->computed,
+                              .refined = sweep->refined,
+                              .seconds = clock_seconds() - sweep->started};
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        const SweepPoint *point = &sweep->points[k];
+        summary->reused += point->reused;
+        summary->failed += point->status == POINT_FAILED;
+        summary->pending += point->status == POINT_PENDING;
+    }
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the files that read a study share.
+#include "study/sweep/reading/study.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Without a unit, and finite.
+bool study_plain_number(const Study *study, YamlNode node, double *value)
+{
+    const char *text = yaml_text(study->file, node);
+    int32_t length = text_number(text, value);
+    return yaml_kind(study->file, node) == YAML_SCALAR && length > 0 && !text[length] &&
+           isfinite(*value);
+}
+
+// -1: no key of this name varies.
+int32_t study_column(const Study *study, const char *name)
+{
+    for (int32_t k = 0; k < study->column_count; k++)
+        if (strcmp(study->columns[k], name) == 0) return k;
+    return -1;
+}
+
+// A key that is given in several places is one column.
+bool study_add_column(Study *study, const char *key, Error *err)
+{
+    if (study_column(study, key) >= 0) return true;
+    if (study->column_count == STUDY_COLUMNS_MAX)
+        FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+    snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
+cleanup:
+    return error_is_clean(err);
+}
+
+// `key` itself, or a map that it is in.
+static bool sets(const char *given, const char *key)
+{
+    size_t length = strlen(given);
+    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
+}
+
+bool study_is_chosen(const Study *study, const char *key)
+{
+    for (int32_t k = 0; k < study->axis_count; k++)
+        if (sets(study->axes[k].key, key)) return true;
+    if (study->cases == YAML_NO_NODE) return false;
+    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
+         one = yaml_next(study->file, one))
+        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
+             item = yaml_next(study->file, item))
+            if (sets(yaml_key(study->file, item), key)) return true;
+    return false;
+}
+
+bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err)
+{
+    int32_t count = 0;
+    TRY((*values = NEW_ARRAY(YamlNode, yaml_count(document, list), err)));
+    for (YamlNode value = yaml_first(document, list); value != YAML_NO_NODE;
+         value = yaml_next(document, value))
+        (*values)[count++] = value;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Also of one half read.
+void study_destroy(Study *study)
+{
+    for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
+    for (int32_t k = 0; k < STUDY_AXES_MAX; k++) memory_free(study->axes[k].values);
+    memory_free(study->case_list);
+    yaml_destroy(study->file);
+    scene_source_close(study->source);
+    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
+}

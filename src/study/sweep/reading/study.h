@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A study: one base scene and how it is varied. Read from a YAML file; the points it stands for are
+// scenes, each made on demand (study_point). study_read reads it, by study_vary and study_wanted.
+//
+//     title: mu_M against pressure
+//     scene: fig1.yaml                          # relative to the study's folder
+//     set: {mesh.set.nx: 40, mesh.set.height: = 0.5 * mesh.set.length}
+//     cases: [{rod.kind: push}, {rod.kind: bonded}]
+//     vary:                                     # the full product, the last key fastest
+//       mesh.set.length: [0.25, 1, 4]
+//       load.pressure: {log: [1e-4, 1e-2], points: 7}
+//     keep: table                               # of points nothing but their numbers
+//     record: [mu_M, period, results.mu_max]
+//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
+//     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
+//
+// A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
+// formulas are worked out last, in the order of the file. Later ones win: the base scene, what
+// every sweep sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas. What varies may be
+// given nowhere else, but in a formula of `cases` over itself.
+#ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_H
+#define AMONTONS_STUDY_SWEEP_READING_STUDY_H
+
+#include "io/text/yaml_document.h"
+#include "scene/scene.h"
+#include "study/sweep/reading/plot_words.h"
+
+enum {
+    STUDY_AXES_MAX = 16,
+    STUDY_COLUMNS_MAX = 64,
+    STUDY_RECORDS_MAX = 64,
+    STUDY_SETTINGS_MAX = 200,   // for a point
+    STUDY_FORMULAS_MAX = 32,
+    STUDY_RANGE_MAX = 10000,   // points of a range
+    STUDY_POINTS_MAX = 1000000,
+    STUDY_PLOTS_MAX = 8,
+};
+
+// A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
+#define STUDY_STANDARD                                                                             \
+    "{time.until.periodic: true, output.history: false, output.fields: none, output.figures: []}"
+
+typedef struct StudyRecord {
+    char name[STUDY_NAME_SIZE];   // of the column
+    char path[STUDY_NAME_SIZE];   // in run.json
+    const char *given_by;   // "record", "by", "x", "y", ...; static storage
+    YamlNode node;   // where the study names it; YAML_NO_NODE: nowhere
+    bool is_shown;   // ranked by or drawn
+} StudyRecord;
+
+typedef struct StudyAxis {
+    char key[STUDY_NAME_SIZE];
+    const YamlDocument *document;   // not owned: the study's, or a range's in `made`
+    YamlNode list;
+    int32_t count;
+    YamlNode *values;   // [count] of the list; owned
+} StudyAxis;
+
+typedef enum RankAgainst { AGAINST_FIRST, AGAINST_BEST, AGAINST_KEYS } RankAgainst;
+
+typedef struct StudyRank {
+    bool wanted;
+    int32_t record;   // ranked by this column of `records`
+    bool lowest;   // is best
+    int32_t top;   // rows to show
+    RankAgainst against;   // what a gain is measured from: the first point, the best, or ...
+    YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else
+    double refine;   // smallest accuracy.mu that points without a decided rank may get; 0: none
+} StudyRank;
+
+typedef struct Study {
+    char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
+    char scene[SCENE_TEXT_SIZE];   // path of the base scene
+    SceneSource *source;   // it; owned
+    YamlDocument *file;   // owned, like the next
+    YamlDocument *made[STUDY_SETTINGS_MAX];   // of ranges, --set and STUDY_STANDARD
+    int32_t made_count;
+    YamlDocument *standard;   // one of `made`
+    SceneSetting overrides[STUDY_SETTINGS_MAX];   // --set; documents in `made`
+    char override_keys[STUDY_SETTINGS_MAX][STUDY_NAME_SIZE];
+    int32_t override_count;
+    YamlNode set, cases;   // YAML_NO_NODE: none
+    int32_t case_count;   // at least 1
+    YamlNode *case_list;   // [case_count] of `cases`; NULL: none; owned
+    int32_t axis_count;
+    StudyAxis axes[STUDY_AXES_MAX];
+    int32_t column_count;   // scene keys that vary, in the order of the file
+    char columns[STUDY_COLUMNS_MAX][STUDY_NAME_SIZE];
+    int32_t record_count;
+    StudyRecord records[STUDY_RECORDS_MAX];
+    int32_t point_count;
+    bool keep_table;   // `keep: table`: points leave no folders
+    StudyRank rank;
+    int32_t plot_count;
+    StudyPlot plots[STUDY_PLOTS_MAX];
+} Study;
+
+void study_destroy(Study *study);   // also of one half read
+
+// --- what the files that read a study share
+// Makes `key` a column, once.
+bool study_add_column(Study *study, const char *key, Error *err);
+// The index in `columns` of the key `name`; -1: it does not vary.
+int32_t study_column(const Study *study, const char *name);
+// Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.
+bool study_is_chosen(const Study *study, const char *key);
+// *values: the children of a list, to be found by number at once (memory_free).
+bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);
+bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
+
+#endif

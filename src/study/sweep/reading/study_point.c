@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The scene of one point of a study: settings are gathered in order, then the formulas are worked
+// out one by one, each over the scene that those before it have changed.
+#include "study/sweep/reading/study_point.h"
+
+#include "base/memory.h"
+#include "scene/formulas.h"
+#include "scene/keys.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct PointSettings {
+    SceneSetting list[STUDY_SETTINGS_MAX];
+    int32_t count;
+    SceneSetting formulas[STUDY_FORMULAS_MAX];
+    int32_t formula_count;
+    YamlDocument *values[STUDY_FORMULAS_MAX];   // of the formulas; owned
+} PointSettings;
+
+// --- values of a scene --------------------------------------------------------------------------
+
+// Twelve digits: what a user typed comes back as it was typed. A key that is not given and has no
+// default (rod.stiffness) has no value: it is not 0.
+void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
+                       double *number)
+{
+    const MeshParameter *parameter = scene_mesh_parameter(scene, key);
+    int32_t index = scene_key_index(key), count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    *words = 0;
+    *number = NAN;
+    if (index >= 0 && keys[index].may_lack && !scene->given[index]) return;
+    if (scene_number(scene, key, number))
+        snprintf(words, (size_t)size, "%.12g", *number);
+    else if (parameter)
+        snprintf(words, (size_t)size, "%s", parameter->text);
+    else if (index >= 0)
+        scene_key_value(&keys[index], scene, words, size);
+    if (index >= 0 && keys[index].type == KEY_FLAG) *number = strcmp(words, "true") == 0;
+}
+
+// --- gathering ----------------------------------------------------------------------------------
+
+// Formulas are put aside, to be worked out when all plain values are in.
+static bool add(PointSettings *settings, const SceneSetting *setting, Error *err)
+{
+    bool is_formula = scene_is_formula(setting->document, setting->node);
+    int32_t room = is_formula ? STUDY_FORMULAS_MAX : STUDY_SETTINGS_MAX;
+    int32_t *count = is_formula ? &settings->formula_count : &settings->count;
+    if (*count == room)
+        FAIL(err, ERROR_INPUT, "more than %d %s for a point of a study", room,
+             is_formula ? "formulas" : "settings");
+    (is_formula ? settings->formulas : settings->list)[(*count)++] = *setting;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool add_map(PointSettings *settings, const YamlDocument *document, YamlNode map, Error *err)
+{
+    if (map == YAML_NO_NODE) return true;
+    for (YamlNode item = yaml_first(document, map); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        SceneSetting setting = {
+            .key = yaml_key(document, item), .document = document, .node = item};
+        TRY(add(settings, &setting, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A formula of `set` that --set replaces is not worked out.
+static void drop_replaced(const Study *study, PointSettings *settings)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < settings->formula_count; k++) {
+        bool replaced = false;
+        for (int32_t i = 0; i < study->override_count; i++)
+            replaced = replaced || strcmp(study->override_keys[i], settings->formulas[k].key) == 0;
+        if (!replaced) settings->formulas[kept++] = settings->formulas[k];
+    }
+    settings->formula_count = kept;
+}
+
+// changes: a map of the study's file that replaces what varies; YAML_NO_NODE: none.
+// Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`. Point p
+// counts through the axes with the last one fastest.
+static bool gather(const Study *study, int32_t point, YamlNode changes, PointSettings *settings,
+                   Error *err)
+{
+    int32_t index[STUDY_AXES_MAX];
+    for (int32_t k = study->axis_count - 1; k >= 0; k--) {
+        index[k] = point % study->axes[k].count;
+        point /= study->axes[k].count;
+    }
+    TRY(add_map(settings, study->standard, YAML_ROOT, err));
+    TRY(add_map(settings, study->file, study->set, err));
+    drop_replaced(study, settings);
+    for (int32_t k = 0; k < study->override_count; k++)
+        TRY(add(settings, &study->overrides[k], err));
+    if (study->case_list) TRY(add_map(settings, study->file, study->case_list[point], err));
+    for (int32_t k = 0; k < study->axis_count; k++) {
+        const StudyAxis *axis = &study->axes[k];
+        SceneSetting setting = {
+            .key = axis->key, .document = axis->document, .node = axis->values[index[k]]};
+        TRY(add(settings, &setting, err));
+    }
+    TRY(add_map(settings, study->file, changes, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Formula `k` over `scene`, which gets its value.
+static bool work_out(const Study *study, PointSettings *settings, int32_t k, Scene *scene,
+                     Error *err)
+{
+    const SceneSetting *formula = &settings->formulas[k];
+    char name[SCENE_TEXT_SIZE + 120];
+    snprintf(name, sizeof name, "%s:%d:%d, value of `%.80s`", study->path,
+             yaml_line(formula->document, formula->node),
+             yaml_column(formula->document, formula->node),
+             yaml_text(formula->document, formula->node));
+    TRY(scene_work_out(scene, formula, name, &settings->values[k], err));
+    SceneSetting setting = {
+        .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
+    TRY(scene_source_add(study->source, &setting, scene, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// The scene is made anew after each formula: the next one may use its value.
+static bool make_scene(const Study *study, int32_t point, YamlNode changes, Scene *scene,
+                       Error *err)
+{
+    PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
+    TRY(settings);
+    TRY(gather(study, point, changes, settings, err));
+    TRY(scene_source_begin(study->source, settings->list, settings->count, scene, err));
+    for (int32_t k = 0; k < settings->formula_count; k++)
+        TRY(work_out(study, settings, k, scene, err));
+cleanup:
+    for (int32_t k = 0; settings && k < settings->formula_count; k++)
+        yaml_destroy(settings->values[k]);
+    memory_free(settings);
+    return error_is_clean(err);
+}
+
+bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+{
+    return make_scene(study, point, YAML_NO_NODE, scene, err);
+}
+
+bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+{
+    return make_scene(study, point, study->rank.baseline, scene, err);
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A study's file: which keys it may have, its title and its scene. study_vary and study_wanted read
+// the rest.
+#include "study/sweep/reading/study_read.h"
+
+#include "base/text.h"
+#include "study/sweep/reading/study_vary.h"
+#include "study/sweep/reading/study_wanted.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define KEYS(X)                                                                                    \
+    X("title") X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot")
+
+// A mistyped key would silently change the study.
+static bool check_keys(const Study *study, Error *err)
+{
+    static const char *const known[] = {
+#define X(name) name,
+        KEYS(X)
+#undef X
+    };
+    enum { COUNT = sizeof known / sizeof known[0] };
+    for (YamlNode item = yaml_first(study->file, YAML_ROOT); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        const char *key = yaml_key(study->file, item);
+        bool is_known = false;
+        for (int32_t k = 0; k < COUNT; k++) is_known = is_known || strcmp(key, known[k]) == 0;
+        if (is_known) continue;
+        int32_t nearest = text_nearest(key, known, COUNT);
+        if (nearest >= 0)
+            yaml_key_error(study->file, item, err,
+                           "%.60s: unknown key of a study; did you mean `%s`?", key,
+                           known[nearest]);
+        else
+            yaml_key_error(study->file, item, err,
+                           "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
+                           "vary, record, keep, rank, plot",
+                           key);
+        return false;
+    }
+    return true;
+}
+
+// text stays as it is where the key is missing.
+static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_SIZE], Error *err)
+{
+    YamlNode node = yaml_look_up(study->file, key);
+    if (node == YAML_NO_NODE) return true;
+    const char *value = yaml_text(study->file, node);
+    bool fits = yaml_kind(study->file, node) == YAML_SCALAR && strlen(value) < SCENE_TEXT_SIZE;
+    if (!fits) return yaml_refuse(study->file, node, key, "a text of at most 511 bytes", err);
+    memcpy(text, value, strlen(value) + 1);
+    return true;
+}
+
+// Relative to the study's folder, whatever the working directory.
+static bool read_scene_path(Study *study, Error *err)
+{
+    char given[SCENE_TEXT_SIZE] = "";
+    TRY(read_text(study, "scene", given, err));
+    if (!*given) {
+        yaml_error(study->file, YAML_ROOT, err,
+                   "scene: must be given: the scene that is varied, as in `scene: fig1.yaml`");
+        goto cleanup;
+    }
+    const char *slash = strrchr(study->path, '/');
+    int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
+    if (snprintf(study->scene, sizeof study->scene, "%.*s%s", folder, study->path, given) >=
+        (int)sizeof study->scene)
+        FAIL(err, ERROR_INPUT, "%s: the path of the scene is longer than 511 bytes", study->path);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_keep(Study *study, Error *err)
+{
+    YamlNode node = yaml_look_up(study->file, "keep");
+    if (node == YAML_NO_NODE) return true;
+    const char *word = yaml_kind(study->file, node) == YAML_SCALAR ? yaml_text(study->file, node)
+                                                                   : "";
+    study->keep_table = strcmp(word, "table") == 0;
+    if (study->keep_table || strcmp(word, "points") == 0) return true;
+    return yaml_refuse(study->file, node, "keep", "points or table", err);
+}
+
+// What is wrong with values shows when scenes are made, point by point (study_point_scene).
+bool study_read(const char *path, const char *const *overrides, int32_t override_count,
+                Study *study, Error *err)
+{
+    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
+    if (strlen(path) >= sizeof study->path)
+        FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
+    memcpy(study->path, path, strlen(path) + 1);
+    TRY(yaml_read(path, &study->file, err));
+    if (yaml_kind(study->file, YAML_ROOT) != YAML_MAP) {
+        yaml_error(study->file, YAML_ROOT, err,
+                   "not a study: a study is a map of keys, as in `scene: fig1.yaml`");
+        goto cleanup;
+    }
+    TRY(check_keys(study, err));
+    TRY(yaml_parse("what a sweep sets", STUDY_STANDARD, 0, &study->made[0], err));
+    study->standard = study->made[study->made_count++];
+    TRY(read_text(study, "title", study->title, err));
+    TRY(read_scene_path(study, err));
+    TRY(study_read_vary(study, overrides, override_count, err));
+    TRY(study_read_wanted(study, err));
+    TRY(read_keep(study, err));
+    TRY(scene_source_open(study->scene, &study->source, err));
+cleanup:
+    return error_is_clean(err);
+}

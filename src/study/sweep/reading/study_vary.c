@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lists are bounded (study.h), so that a typing error ends in a message and not in a week of runs.
+#include "study/sweep/reading/study_vary.h"
+
+#include "base/memory.h"
+#include "scene/formulas.h"
+#include "scene/keys.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char AXIS_ALLOWED[] = "a list of values, {log: [from, to], points: n} or "
+                                   "{linear: [from, to], points: n}";
+
+// The keys that a value given under `key` sets: itself, or those of the map below it.
+static bool add_columns(Study *study, const char *key, const YamlDocument *document, YamlNode node,
+                        Error *err)
+{
+    bool opens = yaml_kind(document, node) == YAML_MAP;
+    bool is_map_of_keys = strcmp(key, "mesh.set") == 0 || strcmp(key, "output.fields") == 0 ||
+                          strcmp(key, "materials") == 0 || strncmp(key, "materials.", 10) == 0 ||
+                          (scene_key_is_group(key) && scene_key_index(key) < 0);
+    if (!opens || !is_map_of_keys) return study_add_column(study, key, err);
+    for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        char path[STUDY_NAME_SIZE];
+        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
+        TRY(add_columns(study, path, document, item, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
+// Whether the key can be set is known here; whether its value is right when a scene is made.
+static bool check_key(const Study *study, YamlNode item, Error *err)
+{
+    const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key), *part;
+    bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
+                    scene_key_above(key, &part) >= 0;
+    if (strlen(key) >= STUDY_NAME_SIZE)
+        yaml_key_error(study->file, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
+    else if (!is_known && nearest)
+        yaml_key_error(study->file, item, err,
+                       "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists "
+                       "them all)",
+                       key, nearest);
+    else if (!is_known)
+        yaml_key_error(study->file, item, err,
+                       "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
+    return error_is_clean(err);
+}
+
+// Formulas make columns, since their values differ from point to point; plain values do not.
+static bool read_set(Study *study, Error *err)
+{
+    study->set = yaml_look_up(study->file, "set");
+    if (study->set == YAML_NO_NODE) return true;
+    if (yaml_kind(study->file, study->set) != YAML_MAP)
+        return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
+    for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        TRY(check_key(study, item, err));
+        if (scene_is_formula(study->file, item))
+            TRY(study_add_column(study, yaml_key(study->file, item), err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Every key of any case is a column; a case without it has the base scene's value there.
+static bool read_cases(Study *study, Error *err)
+{
+    study->case_count = 1;
+    study->cases = yaml_look_up(study->file, "cases");
+    if (study->cases == YAML_NO_NODE) return true;
+    study->case_count = yaml_count(study->file, study->cases);
+    if (yaml_kind(study->file, study->cases) != YAML_LIST || study->case_count == 0)
+        return yaml_refuse(study->file, study->cases, "cases", "a list of maps of the scene's keys",
+                           err);
+    TRY(study_list(study->file, study->cases, &study->case_list, err));
+    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
+         one = yaml_next(study->file, one)) {
+        if (yaml_kind(study->file, one) != YAML_MAP)
+            return yaml_refuse(study->file, one, "cases", "a map of the scene's keys", err);
+        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
+             item = yaml_next(study->file, item)) {
+            TRY(check_key(study, item, err));
+            TRY(add_columns(study, yaml_key(study->file, item), study->file, item, err));
+        }
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- ranges -------------------------------------------------------------------------------------
+
+// {log: [from, to], points: n} or {linear: [from, to], points: n}; ends are met exactly, what lies
+// between is rounded to 6 digits, so that it can be quoted.
+// *text: a YAML list, the caller's to free, so that values of a range are read by the same parser
+// as those in the file.
+static bool write_range(const double bounds[2], bool is_log, int32_t points, char **text,
+                        Error *err)
+{
+    enum { NUMBER_SIZE = 32 };
+    double from = bounds[0], to = bounds[1];
+    *text = NEW_ARRAY(char, (int64_t)points *NUMBER_SIZE + 8, err);
+    if (!*text) return false;
+    int64_t used = 1;
+    (*text)[0] = '[';
+    for (int32_t k = 0; k < points; k++) {
+        double part = points > 1 ? (double)k / (points - 1) : 0;
+        double value = is_log ? from * pow(to / from, part) : from + (to - from) * part;
+        int digits = 6;
+        if (k == 0 || k == points - 1) {
+            value = k == 0 ? from : to;
+            for (digits = 6; digits < 17; digits++) {
+                char trial[NUMBER_SIZE];
+                snprintf(trial, sizeof trial, "%.*g", digits, value);
+                if (strtod(trial, NULL) == value) break;
+            }
+        }
+        used += snprintf(*text + used, NUMBER_SIZE, "%s%.*g", k ? ", " : "", digits, value);
+    }
+    (*text)[used] = ']';
+    return true;
+}
+
+// The document made of it belongs to the study (made), and errors in its values name the range's
+// place.
+static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
+{
+    YamlNode ends = YAML_NO_NODE, points = YAML_NO_NODE;
+    bool is_log = false, is_known = true;
+    double bounds[2] = {0, 0}, count = 0;
+    char *text = NULL, name[SCENE_TEXT_SIZE + 80];
+    for (YamlNode item = yaml_first(study->file, node); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        const char *key = yaml_key(study->file, item);
+        if (strcmp(key, "log") == 0 || strcmp(key, "linear") == 0) {
+            is_known = is_known && ends == YAML_NO_NODE;
+            ends = item;
+            is_log = key[1] == 'o';
+        } else if (strcmp(key, "points") == 0) {
+            points = item;
+        } else {
+            is_known = false;
+        }
+    }
+    if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
+        return yaml_refuse(study->file, node, axis->key, AXIS_ALLOWED, err);
+    YamlNode first = yaml_first(study->file, ends);
+    bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
+                study_plain_number(study, first, &bounds[0]) &&
+                study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
+    if (!good) return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
+    if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
+        return yaml_refuse(study->file, ends, axis->key, "two numbers > 0 in a range of logarithms",
+                           err);
+    if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
+        count > STUDY_RANGE_MAX)
+        return yaml_refuse(study->file, points, axis->key,
+                           "a whole number of points, from 1 to 10000", err);
+    TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
+    snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
+             yaml_line(study->file, node), yaml_column(study->file, node));
+    TRY(yaml_parse(name, text, 0, &study->made[study->made_count], err));
+    axis->document = study->made[study->made_count++];
+    axis->list = YAML_ROOT;
+cleanup:
+    memory_free(text);
+    return error_is_clean(err);
+}
+
+// --- axes ---------------------------------------------------------------------------------------
+
+// A key of `vary`: a list of values, or those of a range, made into a document of their
+// own.
+static bool read_axis(Study *study, YamlNode item, Error *err)
+{
+    StudyAxis *axis = &study->axes[study->axis_count];
+    TRY(check_key(study, item, err));
+    snprintf(axis->key, sizeof axis->key, "%s", yaml_key(study->file, item));
+    axis->document = study->file;
+    axis->list = item;
+    YamlKind kind = yaml_kind(study->file, item);
+    if (kind == YAML_MAP) TRY(read_range(study, item, axis, err));
+    axis->count = yaml_count(axis->document, axis->list);
+    if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
+        return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
+    TRY(study_list(axis->document, axis->list, &axis->values, err));
+    study->axis_count++;
+    for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
+         value = yaml_next(axis->document, value))
+        TRY(add_columns(study, axis->key, axis->document, value, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_vary(Study *study, Error *err)
+{
+    YamlNode vary = yaml_look_up(study->file, "vary");
+    if (vary == YAML_NO_NODE) return true;
+    if (yaml_kind(study->file, vary) != YAML_MAP || yaml_count(study->file, vary) > STUDY_AXES_MAX)
+        return yaml_refuse(study->file, vary, "vary", "a map of at most 16 keys of the scene", err);
+    for (YamlNode item = yaml_first(study->file, vary); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item))
+        TRY(read_axis(study, item, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Whether `node`, given under `key`, gives the key `wanted`: by itself, or in the map it is.
+static bool gives(const YamlDocument *document, const char *key, YamlNode node, const char *wanted)
+{
+    size_t length = strlen(key);
+    char path[STUDY_NAME_SIZE];
+    if (strcmp(key, wanted) == 0) return true;
+    if (strncmp(wanted, key, length) != 0 || wanted[length] != '.') return false;
+    for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
+        if (gives(document, path, item, wanted)) return true;
+    }
+    return false;
+}
+
+// Whether any of its values gives it; the values of a range are numbers.
+static bool axis_gives(const StudyAxis *axis, const char *wanted)
+{
+    for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
+         value = yaml_next(axis->document, value))
+        if (gives(axis->document, axis->key, value, wanted)) return true;
+    return false;
+}
+
+// Refuses a key of `map` (under `what`) that gives the varied key `wanted` once more. A formula
+// over that key itself (= 2 * load.pressure) takes what varies, and is no second value.
+static bool check_map(const Study *study, const char *what, YamlNode map, const char *wanted,
+                      Error *err)
+{
+    if (map == YAML_NO_NODE) return true;
+    for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        if (!gives(study->file, yaml_key(study->file, item), item, wanted)) continue;
+        if (strcmp(what, "cases") == 0 && scene_is_formula(study->file, item) &&
+            strstr(yaml_text(study->file, item), wanted))
+            continue;
+        yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`", wanted,
+                       what);
+        return false;
+    }
+    return true;
+}
+
+// A key has one value at a point, from one place. Cases may replace what `set` gives: it is what
+// the other cases have.
+static bool check_twice(const Study *study, Error *err)
+{
+    YamlNode vary = yaml_look_up(study->file, "vary"), item = YAML_NO_NODE;
+    for (int32_t c = 0; c < study->column_count; c++) {
+        const char *wanted = study->columns[c];
+        int32_t given = 0;
+        if (vary != YAML_NO_NODE) item = yaml_first(study->file, vary);
+        for (int32_t k = 0; k < study->axis_count; k++, item = yaml_next(study->file, item)) {
+            given += axis_gives(&study->axes[k], wanted);
+            if (given < 2) continue;
+            yaml_key_error(study->file, item, err, "%s: varied twice", wanted);
+            return false;
+        }
+        if (given == 0) continue;
+        TRY(check_map(study, "set", study->set, wanted, err));
+        if (study->cases == YAML_NO_NODE) continue;
+        for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
+             one = yaml_next(study->file, one))
+            TRY(check_map(study, "cases", one, wanted, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A key that varies is refused, rather than silently losing to `vary`.
+static bool read_override(Study *study, const char *text, Error *err)
+{
+    char shown[STUDY_NAME_SIZE + 8];
+    char *key = study->override_keys[study->override_count];
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text || equals - text >= STUDY_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "--set %.80s: expected key=value, as in load.pressure=0.006", text);
+    memcpy(key, text, (size_t)(equals - text));
+    snprintf(shown, sizeof shown, "--set %s", key);
+    YamlDocument **document = &study->made[study->made_count];
+    TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
+    study->made_count++;
+    for (int32_t c = 0; c < study->column_count; c++)
+        if (gives(*document, key, YAML_ROOT, study->columns[c]))
+            FAIL(err, ERROR_INPUT, "--set %s: %s varies %s", key, study->path, study->columns[c]);
+    study->overrides[study->override_count++] =
+        (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
+cleanup:
+    return error_is_clean(err);
+}
+
+// Counted in 64 bits: a product of lists overflows 32 sooner than it looks.
+static bool count_points(Study *study, Error *err)
+{
+    int64_t count = study->case_count;
+    for (int32_t k = 0; k < study->axis_count && count <= STUDY_POINTS_MAX; k++)
+        count *= study->axes[k].count;
+    if (count > STUDY_POINTS_MAX)
+        FAIL(err, ERROR_INPUT, "%s: more than %d points", study->path, STUDY_POINTS_MAX);
+    study->point_count = (int32_t)count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// `cases` and `vary` decide which keys are columns; --set refuses those, and is read after them;
+// `set` comes after --set, which may replace a formula.
+bool study_read_vary(Study *study, const char *const *overrides, int32_t override_count, Error *err)
+{
+    if (override_count > STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1)
+        FAIL(err, ERROR_INPUT, "more than %d settings by --set",
+             STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1);
+    TRY(read_cases(study, err));
+    TRY(read_vary(study, err));
+    for (int32_t k = 0; k < override_count; k++) TRY(read_override(study, overrides[k], err));
+    TRY(read_set(study, err));
+    TRY(check_twice(study, err));
+    TRY(count_points(study, err));
+cleanup:
+    return error_is_clean(err);
+}

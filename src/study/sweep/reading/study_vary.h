@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a study changes in its base scene: `cases`, `vary` with its ranges, --set and `set`. Called
+// by study_read.
+#ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_VARY_H
+#define AMONTONS_STUDY_SWEEP_READING_STUDY_VARY_H
+
+#include "study/sweep/reading/study.h"
+
+// Fills columns, cases, axes, overrides, `set` and point_count. overrides: [override_count].
+bool study_read_vary(Study *study, const char *const *overrides, int32_t override_count,
+                     Error *err);
+
+#endif

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a study wants to know: the columns of its table (`record`), the best of its points (`rank`)
+// and a figure (`plot`). Called by study_read, after study_vary.
+#ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_WANTED_H
+#define AMONTONS_STUDY_SWEEP_READING_STUDY_WANTED_H
+
+#include "study/sweep/reading/study.h"
+
+bool study_read_wanted(Study *study, Error *err);
+
+#endif

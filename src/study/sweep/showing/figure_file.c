@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/sweep/showing/figure_file.h"
+
+#include "base/memory.h"
+#include "io/files/folder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_NUMBERS_MAX = 8000, NAME_SIZE = 24, DOUBTS_SHOWN = 2, LABEL_SIZE = 96 };
+
+static bool figure_path(const Figure *figure, const char *ending, char path[AMONTONS_PATH_SIZE],
+                        Error *err)
+{
+    if (snprintf(path, AMONTONS_PATH_SIZE, "%s/figures/%s.%s", figure->folder, figure->name,
+                 ending) >= AMONTONS_PATH_SIZE)
+        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_begin(Figure *figure, Error *err)
+{
+    char path[AMONTONS_PATH_SIZE];
+    if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
+        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
+    TRY(folder_make(path, err));
+    TRY(figure_path(figure, "json", path, err));
+    TRY((figure->json = json_create(path, err)));
+    json_begin_object(figure->json, NULL);
+    json_text(figure->json, "title", figure->title);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_end(Figure *figure, Error *err)
+{
+    char path[AMONTONS_PATH_SIZE], picture[AMONTONS_PATH_SIZE];
+    const char *ending = figure->style && figure->style->format ? figure->style->format : "png";
+    if (!error_is_clean(err)) {
+        json_abandon(figure->json);
+        array_file_abandon(figure->arrays);
+        return false;
+    }
+    json_end(figure->json);
+    ArrayFile *arrays = figure->arrays;
+    figure->arrays = NULL;
+    TRY(json_finish(figure->json, err) & array_file_close(arrays, err));
+    TRY(figure_path(figure, "json", path, err));
+    TRY(figure_path(figure, ending, picture, err));
+    TRY(amontons_render_plot_file(path, picture, figure->style, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// A long array becomes a column of figures/NAME.h5, and the text says which.
+static bool store_numbers(Figure *figure, const char *key, const double *values, int32_t count,
+                          Error *err)
+{
+    char path[AMONTONS_PATH_SIZE], name[NAME_SIZE], place[AMONTONS_PATH_SIZE];
+    ArraySeries series = {.name = name,
+                          .type = ARRAY_FLOAT64,
+                          .width = 1,
+                          .unit = "of the scene",
+                          .description = "drawn by the file of the same name"};
+    snprintf(name, sizeof name, "%.12s_%d", key, figure->stored++);
+    if (!figure->arrays) {
+        TRY(figure_path(figure, "h5", path, err));
+        TRY(figure->arrays = array_file_create(path, err));
+    }
+    TRY(array_file_add_series(figure->arrays, &series, err));
+    TRY(array_file_append(figure->arrays, name, values, count, err));
+    snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
+    json_text(figure->json, key, place);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
+                          Error *err)
+{
+    if (figure->written + count > TEXT_NUMBERS_MAX)
+        return store_numbers(figure, key, values, count, err);
+    figure->written += count;
+    json_begin_list(figure->json, key);
+    for (int32_t k = 0; k < count; k++) json_number(figure->json, NULL, values[k]);
+    json_end(figure->json);
+    return true;
+}
+
+void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *label,
+                       const char *scale)
+{
+    json_begin_object(figure->json, name);
+    json_text(figure->json, "label", label->words);
+    if (label->unit) json_text(figure->json, "unit", label->unit);
+    if (scale) json_text(figure->json, "scale", scale);
+    json_end(figure->json);
+}
+
+// Both ends of error bars.
+static bool write_bars(Figure *figure, const Curve *curve, Error *err)
+{
+    const double *value = curve->lying ? curve->x : curve->y;
+    double *ends = NEW_ARRAY(double, curve->count, err);
+    TRY(ends);
+    for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] - curve->error[k];
+    TRY(figure_write_numbers(figure, "low", ends, curve->count, err));
+    for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] + curve->error[k];
+    TRY(figure_write_numbers(figure, "high", ends, curve->count, err));
+cleanup:
+    memory_free(ends);
+    return error_is_clean(err);
+}
+
+bool figure_write_curve(Figure *figure, const Curve *curve, Error *err)
+{
+    JsonWriter *json = figure->json;
+    json_begin_object(json, NULL);
+    json_text(json, "label", curve->label);
+    TRY(figure_write_numbers(figure, "x", curve->x, curve->count, err));
+    TRY(figure_write_numbers(figure, "y", curve->y, curve->count, err));
+    if (curve->error) TRY(write_bars(figure, curve, err));
+    json_integer(json, "color", curve->color);
+    json_text(json, "marker", curve->marker ? curve->marker : "none");
+    json_boolean(json, "filled", curve->filled);
+    json_text(json, "line", curve->line);
+    json_end(json);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
+{
+    static const double nowhere = NAN;
+    Curve entry = *curve;
+    entry.count = 1;
+    entry.x = entry.y = &nowhere;
+    entry.error = NULL;
+    return figure_write_curve(figure, &entry, err);
+}
+
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err)
+{
+    int32_t all = __builtin_popcount(doubts), shown = 0;
+    for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
+        char label[LABEL_SIZE];
+        if (!(doubts >> k & 1)) continue;
+        bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
+        snprintf(label, sizeof label, "open: %.70s%s", names->words[k], has_more ? ", others" : "");
+        Curve entry = {.label = label, .line = "none", .marker = "circle"};
+        TRY(figure_write_entry(figure, &entry, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}

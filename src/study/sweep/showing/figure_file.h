@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A figure of a sweep: first a description in render/plot/plot_file's format, figures/NAME.json,
+// which a user may edit and draw again (`amontons render`); the module `render` makes the picture.
+// Arrays too long for a text stand beside it in figures/NAME.h5. Called by figures and figure_plot.
+#ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_FILE_H
+#define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_FILE_H
+
+#include "amontons.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/json_writer.h"
+#include "study/sweep/showing/quantity_label.h"
+#include "study/sweep/showing/words.h"
+
+typedef struct Figure {
+    const char *folder, *name, *title;   // of the sweep; "ranking"; of the study
+    const PictureStyle *style;   // NULL: the usual one
+    JsonWriter *json;
+    ArrayFile *arrays;   // owned; NULL: all stands in the text
+    int32_t written, stored;   // numbers in the text; arrays in the file
+} Figure;
+
+// Points to draw: [count] each. NaN in `error` draws no bar, NaN in `y` no point.
+typedef struct Curve {
+    const char *label, *line;
+    const char *marker;   // NULL: none
+    int32_t color, count;
+    bool filled;
+    const double *x, *y;
+    const double *error;   // of the value: y, or x where the y axis has names; NULL: no bars
+    bool lying;   // the value is x
+} Curve;
+
+// Opens figures/NAME.json; folder, name and title are given.
+bool figure_begin(Figure *figure, Error *err);
+// The description on disk, then its picture. Called once, also after a failure.
+bool figure_end(Figure *figure, Error *err);
+// Its ends fit the data. scale: "linear", "log", or NULL: it has none.
+void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *label,
+                       const char *scale);
+bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
+                          Error *err);
+bool figure_write_curve(Figure *figure, const Curve *curve, Error *err);
+// A curve without a point: its words and its sample stand in the legend.
+bool figure_write_entry(Figure *figure, const Curve *curve, Error *err);
+// Entries that name doubts about open marks: at most two, as the format has room for beside 15
+// curves of two. Bit k of `doubts`: of the k-th of `names`.
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err);
+
+#endif

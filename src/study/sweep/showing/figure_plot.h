@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A plot of stored sweeps, figures/NAME.png: curves, or a map, perhaps in panels. Called by sweep
+// and render_sweep.
+#ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_PLOT_H
+#define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_PLOT_H
+
+#include "amontons.h"
+#include "study/sweep/reading/plot_words.h"
+
+// Of the sweep in `folder`, which holds its table, and of those that the plot has `with` it, as
+// seen from `beside` (the study; NULL: there is none, and the working folder). style: NULL is fine.
+bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plot,
+                    const PictureStyle *style, Error *err);
+
+#endif

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Columns are read when they are asked for. A formula is worked out point by point.
+#include "study/sweep/showing/plot_table.h"
+
+#include "base/formula.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { WORDS_SIZE = 1 << 16, NAMES_MAX = 2 * PLOT_COLUMNS_MAX };
+
+// --- reading ------------------------------------------------------------------------------------
+
+// The attribute `name`, words with | between them; none where there is none.
+static bool read_words(PlotTable *table, const char *name, WordList *words, Error *err)
+{
+    Error missing = {0};
+    double ignored = 0;
+    char *text = NEW_ARRAY(char, WORDS_SIZE, err), *rest = text;
+    TRY(text);
+    if (!array_file_get_text(table->file, name, text, WORDS_SIZE, &missing)) goto cleanup;
+    for (const char *word = strsep(&rest, "|"); word; word = strsep(&rest, "|"))
+        TRY(words_index(words, word, &ignored, err));
+cleanup:
+    memory_free(text);
+    return error_is_clean(err);
+}
+
+// *values: [table->count]; NULL where there is no such array.
+static bool read_values(PlotTable *table, const char *name, double **values, Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    if (!array_file_has(table->file, name)) return true;
+    TRY(array_file_read(table->file, name, values, &rows, &width, err));
+    if (width != 1 || rows > INT32_MAX || (table->count > 0 && rows != table->count))
+        FAIL(err, ERROR_FILE, "%s: `%s` has not one number a point", table->path, name);
+    table->count = (int32_t)rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+static void take_title(PlotTable *table, const char *folder)
+{
+    Error missing = {0};
+    const char *slash = strrchr(folder, '/');
+    snprintf(table->name, sizeof table->name, "%.90s", slash && slash[1] ? slash + 1 : folder);
+    array_file_get_text(table->file, "title", table->title, sizeof table->title, &missing);
+    if (!table->title[0]) snprintf(table->title, sizeof table->title, "%s", table->name);
+}
+
+bool plot_table_open(const char *folder, PlotTable *table, Error *err)
+{
+    char units[20] = "";
+    Error missing = {0};
+    *table = (PlotTable){0};
+    if (snprintf(table->path, sizeof table->path, "%s/sweep.h5", folder) >= (int)sizeof table->path)
+        FAIL(err, ERROR_INPUT, "the path of the sweep is too long");
+    if (access(table->path, R_OK) != 0)
+        FAIL(err, ERROR_INPUT, "%s: there is no sweep.h5 in it: no sweep has ended there", folder);
+    TRY(table->file = array_file_open(table->path, err));
+    take_title(table, folder);
+    TRY(read_values(table, "result/warned", &table->warned, err));
+    if (!table->warned || !array_file_get_text(table->file, "units", units, sizeof units, &missing))
+        FAIL(err, ERROR_INPUT,
+             "%s was written by an earlier version: `amontons sweep` on its "
+             "study writes it anew, and computes nothing again",
+             table->path);
+    table->is_si = strcmp(units, "si") == 0;
+    TRY(read_words(table, "warned words", &table->kinds, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+void quantity_destroy(Quantity *quantity)
+{
+    memory_free(quantity->values);
+    memory_free(quantity->errors);
+    words_destroy(&quantity->words);
+    *quantity = (Quantity){0};
+}
+
+void plot_table_close(PlotTable *table)
+{
+    Error ignored = {0};
+    array_file_close(table->file, &ignored);
+    memory_free(table->warned);
+    words_destroy(&table->kinds);
+    for (int32_t k = 0; k < table->column_count; k++) quantity_destroy(&table->columns[k]);
+    *table = (PlotTable){0};
+}
+
+// --- columns ------------------------------------------------------------------------------------
+
+static void refuse_name(PlotTable *table, const char *name, Error *err)
+{
+    WordList known = {0};
+    const char *names[NAMES_MAX];
+    if (!read_words(table, "columns", &known, err)) return;
+    int32_t count = known.count < NAMES_MAX ? known.count : NAMES_MAX;
+    for (int32_t k = 0; k < count; k++) names[k] = known.words[k];
+    int32_t nearest = text_nearest(name, names, count);
+    char *all = words_join(&known, err);
+    for (char *at = all; at && *at; at++)
+        if (*at == '|') *at = ' ';
+    if (nearest >= 0)
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%s has no column `%.60s`; did you mean "
+                  "`%s`?",
+                  table->path, name, names[nearest]);
+    else if (all)
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`; it has: %s",
+                  table->path, name, all);
+    memory_free(all);
+    words_destroy(&known);
+}
+
+static bool read_column(PlotTable *table, const char *name, Quantity *column, Error *err)
+{
+    char place[STUDY_NAME_SIZE + 32];
+    snprintf(place, sizeof place, "scene/%.95s", name);
+    TRY(read_values(table, place, &column->values, err));
+    column->is_key = column->values != NULL;
+    if (column->is_key) {
+        column->label = label_of_key(name, table->is_si);
+        snprintf(place, sizeof place, "%.95s words", name);
+        TRY(read_words(table, place, &column->words, err));
+        return true;
+    }
+    snprintf(place, sizeof place, "result/%.95s", name);
+    TRY(read_values(table, place, &column->values, err));
+    if (!column->values) {
+        refuse_name(table, name, err);
+        return false;
+    }
+    column->label = label_of_record(name);
+    snprintf(place, sizeof place, "result/%.80s_known_to", name);
+    TRY(read_values(table, place, &column->errors, err));
+    if (column->errors) return true;
+    snprintf(place, sizeof place, "result/%.80s_error", name);
+    TRY(read_values(table, place, &column->errors, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// NULL: there is none, and the error says so.
+static const Quantity *find_column(PlotTable *table, const char *name, Error *err)
+{
+    for (int32_t k = 0; k < table->column_count; k++)
+        if (strcmp(table->names[k], name) == 0) return &table->columns[k];
+    if (table->column_count == PLOT_COLUMNS_MAX || strlen(name) >= STUDY_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "%s has no column `%.60s`", table->path, name);
+    Quantity *column = &table->columns[table->column_count];
+    snprintf(table->names[table->column_count++], STUDY_NAME_SIZE, "%s", name);
+    TRY(read_column(table, name, column, err));
+    return column;
+cleanup:
+    return NULL;
+}
+
+// --- formulas -----------------------------------------------------------------------------------
+
+typedef struct FormulaPoint {
+    PlotTable *table;
+    int32_t point;
+    Error *err;
+} FormulaPoint;
+
+static bool value_of(const void *context, const char *name, double *value)
+{
+    const FormulaPoint *at = context;
+    const Quantity *column = find_column(at->table, name, at->err);
+    if (column) *value = column->values[at->point];
+    return column != NULL;
+}
+
+// "pressure · length": columns by their short names.
+static void formula_label(const char *text, char *words, size_t size)
+{
+    size_t used = 0;
+    while (*text == ' ') text++;
+    while (*text && used + QUANTITY_LABEL_SIZE / 2 < size) {
+        char name[STUDY_NAME_SIZE];
+        size_t length = 0;
+        bool begins = isalpha((unsigned char)*text);
+        while (begins && length + 1 < sizeof name &&
+               (isalnum((unsigned char)text[length]) || strchr("._", text[length])))
+            length++;
+        if (length > 0) {
+            snprintf(name, sizeof name, "%.*s", (int)length, text);
+            const char *shown = strchr(name, '.') ? label_last_word(name)
+                                                  : label_of_record(name).words;
+            used += (size_t)snprintf(words + used, size - used, "%.40s", shown);
+            text += length;
+        } else {
+            const char one[2] = {*text, 0};
+            used +=
+                (size_t)snprintf(words + used, size - used, "%s", *text == '*' ? "\u00b7" : one);
+            text++;
+        }
+    }
+}
+
+static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *err)
+{
+    TRY(made->values = NEW_ARRAY(double, table->count, err));
+    for (int32_t k = 0; k < table->count; k++) {
+        FormulaPoint at = {table, k, err};
+        FormulaNames names = {value_of, &at, NULL, "is no column"};
+        Formula formula;
+        Error wrong = {0};
+        double ignored = 0;
+        if (!formula_read(text, &names, &formula, &wrong)) {
+            if (error_is_clean(err)) *err = wrong;
+            error_context(err, "= %.100s", text);
+            goto cleanup;
+        }
+        made->values[k] = formula_at(&formula, 0, &ignored);
+    }
+    formula_label(text, made->label.words, sizeof made->label.words);
+cleanup:
+    return error_is_clean(err);
+}
+
+const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *made, Error *err)
+{
+    if (text[0] != '=') return find_column(table, text, err);
+    return work_out(table, text + 1, made, err) ? made : NULL;
+}

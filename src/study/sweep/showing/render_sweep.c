@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pictures of a stored sweep: those that its study had drawn, once more, or another one.
+#include "amontons.h"
+
+#include "base/apart.h"
+#include "base/text.h"
+#include "io/text/yaml_document.h"
+#include "study/sweep/showing/figure_plot.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SECONDS_MAX = 600 };   // far above what the largest sweep takes
+
+typedef struct DrawSweep {
+    const char *folder, *plot;
+    const PictureStyle *style;
+} DrawSweep;
+
+// figures/NAME.json becomes figures/NAME.png.
+static bool draw_again(const DrawSweep *draw, Error *err)
+{
+    char path[AMONTONS_PATH_SIZE], picture[AMONTONS_PATH_SIZE];
+    const char *ending = draw->style && draw->style->format ? draw->style->format : "png";
+    snprintf(path, sizeof path, "%.1000s/figures", draw->folder);
+    DIR *listing = opendir(path);
+    if (!listing)
+        FAIL(err, ERROR_INPUT, "cannot open %s: %s: its study asks for no `plot`; --plot does",
+             path, strerror(errno));
+    for (const struct dirent *entry; (entry = readdir(listing));) {
+        if (!text_ends_with(entry->d_name, ".json")) continue;
+        int stem = (int)strlen(entry->d_name) - 5;
+        if (snprintf(path, sizeof path, "%s/figures/%s", draw->folder, entry->d_name) >=
+                (int)sizeof path ||
+            snprintf(picture, sizeof picture, "%s/figures/%.*s.%s", draw->folder, stem,
+                     entry->d_name, ending) >= (int)sizeof picture)
+            FAIL(err, ERROR_INPUT, "the path of the sweep is too long");
+        TRY(amontons_render_plot_file(path, picture, draw->style, err));
+    }
+cleanup:
+    if (listing) closedir(listing);
+    return error_is_clean(err);
+}
+
+static bool draw_new(const DrawSweep *draw, Error *err)
+{
+    YamlDocument *document = NULL;
+    StudyPlot plot;
+    TRY(yaml_parse("the plot", draw->plot, 0, &document, err));
+    TRY(plot_words_read(document, YAML_ROOT, &plot, err));
+    TRY(figure_of_plot(draw->folder, NULL, &plot, draw->style, err));
+cleanup:
+    yaml_destroy(document);
+    return error_is_clean(err);
+}
+
+static bool draw_apart(void *context, FILE *reply, Error *err)
+{
+    const DrawSweep *draw = context;
+    (void)reply;   // pictures are files
+    return draw->plot ? draw_new(draw, err) : draw_again(draw, err);
+}
+
+// A stranger's table may crash HDF5.
+bool amontons_render_sweep(const char *folder, const char *plot, const PictureStyle *style,
+                           Error *err)
+{
+    DrawSweep draw = {folder, plot, style};
+    ApartWork work = {.path = folder,
+                      .reader = "HDF5",
+                      .seconds = SECONDS_MAX,
+                      .advice = "its table is damaged",
+                      .read = draw_apart,
+                      .context = &draw};
+    return apart_do(&work, err);
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two sentences are compared letter by letter, a number in one with the number at its place in the
+// other. Each kind keeps the range of every number, so that one sentence speaks for all its points.
+#include "study/sweep/showing/warned.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+enum { LISTED_MAX = 12 };   // points named below a sentence
+
+// The bytes of the number at `at`, also of one in a name (pad_2); 0: none begins there.
+static int32_t number_at(const char *at, double *value)
+{
+    return isdigit((unsigned char)*at) ? text_number(at, value) : 0;
+}
+
+// Whether the sentences differ in numbers alone.
+static bool alike(const char *one, const char *other)
+{
+    const char *a = one, *b = other;
+    double ignored = 0;
+    while (*a && *b) {
+        int32_t first = number_at(a, &ignored), second = number_at(b, &ignored);
+        if ((first == 0) != (second == 0) || (first == 0 && *a != *b)) return false;
+        a += first > 0 ? first : 1;
+        b += second > 0 ? second : 1;
+    }
+    return !*a && !*b;
+}
+
+static void widen(WarnedKind *kind, const char *sentence)
+{
+    int32_t k = 0, length = 0;
+    double value = 0;
+    for (const char *at = sentence; *at && k < WARNED_NUMBERS_MAX; at += length ? length : 1) {
+        length = number_at(at, &value);
+        if (length == 0) continue;
+        kind->low[k] = fmin(kind->low[k], value);
+        kind->high[k] = fmax(kind->high[k], value);
+        k++;
+    }
+}
+
+static int32_t find_kind(Warned *warned, const char *sentence)
+{
+    for (int32_t k = 0; k < warned->count; k++)
+        if (alike(warned->kinds[k].text, sentence)) return k;
+    if (warned->count == WARNED_KINDS_MAX) return WARNED_KINDS_MAX - 1;
+    WarnedKind *kind = &warned->kinds[warned->count];
+    *kind = (WarnedKind){0};
+    snprintf(kind->text, sizeof kind->text, "%s", sentence);
+    for (int32_t k = 0; k < WARNED_NUMBERS_MAX; k++) {
+        kind->low[k] = INFINITY;
+        kind->high[k] = -INFINITY;
+    }
+    return warned->count++;
+}
+
+bool warned_make(int32_t points, Warned *warned, Error *err)
+{
+    *warned = (Warned){.all = points};
+    warned->of = NEW_ARRAY(uint32_t, points, err);
+    return warned->of != NULL;
+}
+
+void warned_add(Warned *warned, int32_t point, const char *sentence)
+{
+    int32_t k = find_kind(warned, sentence);
+    WarnedKind *kind = &warned->kinds[k];
+    warned->points += warned->of[point] == 0;
+    kind->points += !(warned->of[point] >> k & 1);
+    warned->of[point] |= (uint32_t)1 << k;
+    if (alike(kind->text, sentence)) widen(kind, sentence);
+}
+
+void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE])
+{
+    const char *text = warned->kinds[kind].text;
+    size_t length = strcspn(text, ":");
+    if (length < WARNED_NAME_SIZE) {
+        snprintf(name, WARNED_NAME_SIZE, "%.*s", (int)length, text);
+        return;
+    }
+    for (length = WARNED_NAME_SIZE - 4; length > 0 && text[length] != ' ';) length--;
+    snprintf(name, WARNED_NAME_SIZE, "%.*s...", (int)length, text);
+}
+
+bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err)
+{
+    double place[WARNED_KINDS_MAX];
+    for (int32_t k = 0; k < warned->count; k++) {
+        char name[WARNED_NAME_SIZE];
+        warned_name(warned, k, name);
+        TRY(words_index(names, name, &place[k], err));
+    }
+    for (int32_t point = 0; point < warned->all; point++) {
+        uint32_t found = 0;
+        for (int32_t k = 0; k < warned->count; k++)
+            if (warned->of[point] >> k & 1) found |= (uint32_t)1 << (int32_t)place[k];
+        bits[point] = found;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- on the terminal ----------------------------------------------------------------------------
+
+// The sentence with "3 to 41" where its numbers differ.
+static void print_sentence(const WarnedKind *kind, FILE *out)
+{
+    int32_t k = 0;
+    double value = 0;
+    for (const char *at = kind->text; *at;) {
+        int32_t length = number_at(at, &value);
+        bool varies = length > 0 && k < WARNED_NUMBERS_MAX && kind->low[k] < kind->high[k];
+        if (varies)
+            fprintf(out, "%.6g to %.6g", kind->low[k], kind->high[k]);
+        else
+            fprintf(out, "%.*s", length > 0 ? length : 1, at);
+        k += length > 0;
+        at += length > 0 ? length : 1;
+    }
+    fprintf(out, "\n");
+}
+
+// "  points 3, 9, 12 to 15", as sweep.csv numbers them.
+static void print_points(const Warned *warned, int32_t kind, FILE *out)
+{
+    int32_t listed = 0, last = -2;
+    for (int32_t k = 0; k < warned->all; k++) {
+        if (!(warned->of[k] >> kind & 1)) continue;
+        for (last = k; last + 1 < warned->all && warned->of[last + 1] >> kind & 1;) last++;
+        if (listed == LISTED_MAX) {
+            fprintf(out, ", ...");
+            break;
+        }
+        fprintf(out, "%s%d", listed++ ? ", " : "  points ", k);
+        if (last > k) fprintf(out, " to %d", last);
+        k = last;
+    }
+    fprintf(out, "\n");
+}
+
+void warned_print(const Warned *warned, FILE *out)
+{
+    for (int32_t k = 0; k < warned->count; k++) {
+        fprintf(out, "%s%d of %d points: ", k ? "" : "\n", warned->kinds[k].points, warned->all);
+        print_sentence(&warned->kinds[k], out);
+        print_points(warned, k, out);
+    }
+}
+
+void warned_destroy(Warned *warned)
+{
+    memory_free(warned->of);
+    *warned = (Warned){0};
+}

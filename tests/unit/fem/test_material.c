@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Elastic and viscous moduli against closed forms, speeds against published ones.
+#include "fem/material.h"
+
+#include "near.h"
+#include "paper_material.h"
+
+static const double RATIOS[] = {-0.5, 0, 0.1, 0.25, 0.34, 0.4, 0.49};
+enum { RATIO_COUNT = sizeof RATIOS / sizeof *RATIOS };
+
+// Stresses of one stress state must give back the strains of Hooke's law in three dimensions:
+// E eps_xx = s_xx - nu (s_zz + s_yy), s_yy = 0 in plane stress, nu (s_xx + s_zz) in plane strain.
+static void test_hooke(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 2 * RATIO_COUNT; k++) {
+        double nu = RATIOS[k / 2], young = 7;
+        Material material = {.young = young, .poisson = nu, .density = 1, .plane_strain = k % 2};
+        double d[3][3], strain[3] = {0.3, -1.1, 0.7}, rate[3] = {0}, stress[3] = {0};
+        material_elastic(&material, d);
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++) stress[r] += d[r][c] * strain[c];
+        double yy = material_out_of_plane(&material, strain, rate);
+        assert_near("s_yy", yy, k % 2 ? nu * (stress[0] + stress[1]) : 0, 1e-12 * young / 0.02);
+        assert_near("xx", stress[0] - nu * (stress[1] + yy), young * strain[0], 1e-11);
+        assert_near("zz", stress[1] - nu * (stress[0] + yy), young * strain[1], 1e-11);
+        assert_near("xz", stress[2] * 2 * (1 + nu), young * strain[2], 1e-12);
+    }
+}
+
+// Plane strain is plane stress of E/(1 - nu^2), nu/(1 - nu).
+static void test_plane_strain_is_plane_stress(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < RATIO_COUNT; k++) {
+        double nu = RATIOS[k], strain[3][3], stress[3][3];
+        Material wide = {.young = 3, .poisson = nu, .density = 2, .plane_strain = true};
+        Material plate = {.young = 3 / (1 - nu * nu), .poisson = nu / (1 - nu), .density = 2};
+        material_elastic(&wide, strain);
+        material_elastic(&plate, stress);
+        assert_all_near("D", &strain[0][0], &stress[0][0], 9, 1e-13);
+        assert_near("c_R", material_speeds(&wide).rayleigh, material_speeds(&plate).rayleigh,
+                    1e-12);
+    }
+}
+
+// sigma = eta1 eps' + eta2 tr(eps') I: in shear eta1/2 on the engineering strain.
+static void test_viscous(void **state)
+{
+    (void)state;
+    Material material = {.young = 1, .poisson = 0.3, .density = 1, .eta1 = 2, .eta2 = 5};
+    const double wanted[3][3] = {{7, 5, 0}, {5, 7, 0}, {0, 0, 1}};
+    double d[3][3], none[3] = {0}, rate[3] = {0.5, -0.2, 9};
+    material_viscous(&material, d);
+    assert_all_near("D", &d[0][0], &wanted[0][0], 9, 0);
+    assert_near("plate", material_out_of_plane(&material, none, rate), 0, 0);
+    material.plane_strain = true;
+    assert_near("wide", material_out_of_plane(&material, none, rate), 5 * 0.3, 1e-15);
+}
+
+static void test_speeds(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < RATIO_COUNT; k++) {
+        double nu = RATIOS[k], young = 5, density = 3;
+        Material material = {.young = young, .poisson = nu, .density = density};
+        WaveSpeeds speeds = material_speeds(&material);
+        assert_near("c_S", speeds.shear, sqrt(young / (2 * (1 + nu) * density)), 1e-14);
+        assert_near("c_L", speeds.longitudinal, sqrt(young / ((1 - nu * nu) * density)), 1e-14);
+        material.plane_strain = true;
+        speeds = material_speeds(&material);
+        double modulus = young * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+        assert_near("c_L wide", speeds.longitudinal, sqrt(modulus / density), 1e-12);
+    }
+}
+
+// Rayleigh: textbook ratios to c_S in plane strain; in plane stress the paper's two materials.
+static void test_rayleigh(void **state)
+{
+    (void)state;
+    const struct {
+        double nu, ratio;
+    } wide[] = {{0, 0.8740}, {0.25, 0.9194}, {0.4999999, 0.9553}};
+    for (int32_t k = 0; k < 3; k++) {
+        Material material = {.young = 1, .poisson = wide[k].nu, .density = 1, .plane_strain = true};
+        WaveSpeeds speeds = material_speeds(&material);
+        assert_near("c_R / c_S", speeds.rayleigh / speeds.shear, wide[k].ratio, 5e-5);
+    }
+    const double paper[][4] = {{0.34, 1.06335, 0.61085, 0.56199}, {0.4, 1.09109, 0.59761, 0.55289}};
+    for (int32_t k = 0; k < 2; k++) {
+        Material material = paper_material();
+        material.poisson = paper[k][0];
+        WaveSpeeds speeds = material_speeds(&material);
+        assert_near("c_L", speeds.longitudinal, paper[k][1], 5e-6);
+        assert_near("c_S", speeds.shear, paper[k][2], 5e-6);
+        assert_near("c_R", speeds.rayleigh, paper[k][3], 5e-6);
+    }
+}
+
+// c_L while that is below 2 c_S: in plane stress for every nu (c_L^2/c_S^2 = 2/(1 - nu)), in plane
+// strain up to nu = 1/3 (2 (1 - nu)/(1 - 2 nu)).
+static void test_slip_speed(void **state)
+{
+    (void)state;
+    for (int strain = 0; strain < 2; strain++) {
+        for (double nu = -0.5; nu < 0.5; nu += 0.04) {
+            Material material = paper_material();
+            material.poisson = nu;
+            material.plane_strain = strain;
+            double shear = sqrt(0.5 / (1 + nu));
+            double square = strain ? 2 * (1 - nu) / (1 - 2 * nu) : 2 / (1 - nu);
+            assert_near("speed", material_slip_speed(&material), shear * sqrt(fmin(square, 4)),
+                        1e-12);
+        }
+    }
+}
+
+static void test_default_is_the_paper(void **state)
+{
+    (void)state;
+    Material material = paper_material();
+    assert_true(material.young == 1 && material.density == 1 && material.poisson == 0.34);
+    assert_true(material.eta1 == 1 && material.eta2 == 1 && !material.plane_strain);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_hooke),      cmocka_unit_test(test_plane_strain_is_plane_stress),
+        cmocka_unit_test(test_viscous),    cmocka_unit_test(test_speeds),
+        cmocka_unit_test(test_rayleigh),   cmocka_unit_test(test_default_is_the_paper),
+        cmocka_unit_test(test_slip_speed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Writes one mesh of every kind of cell, interface lines and a collection, and all that can go
+// wrong with them. What the files hold is read by VTK's own reader and by meshio in
+// tests/end_to_end/test_field_files.py, which finds them in AMONTONS_TEST_OUTPUT and knows the same
+// formulas.
+#include "io/fields/field_file.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { POINTS = 25, CELLS = 5, LINES = 4 };
+
+// Quad, 8-node quad, 9-node quad, triangle, 6-node triangle, over shared points.
+static const uint8_t cell_types[CELLS] = {9, 23, 28, 5, 22};
+static const int64_t offsets[CELLS + 1] = {0, 4, 12, 21, 24, 30};
+static const int64_t connectivity[30] = {0,  1,  6,  5,  1,  3,  13, 11, 2, 8,  12, 6,  10, 12, 22,
+                                         20, 11, 17, 21, 15, 16, 3,  4,  9, 12, 14, 24, 13, 19, 18};
+static const int64_t line_offsets[LINES + 1] = {0, 2, 4, 6, 8};
+static const int64_t line_nodes[2 * LINES] = {0, 1, 1, 2, 2, 3, 3, 4};
+
+static char folder[256];
+static char path[300], part[308];
+static double points[3 * POINTS], vectors[3 * POINTS], scalars[POINTS], cell_values[CELLS];
+
+// The formulas that the Python test knows: doubles that need all their digits.
+static void fill_values(void)
+{
+    for (int32_t k = 0; k < POINTS; k++) {
+        points[3 * k] = 0.1 * (k % 5);
+        points[3 * k + 1] = 0.1 * (k / 5);
+        for (int32_t c = 0; c < 3; c++) vectors[3 * k + c] = (k + 1) / 3.0 + c;
+        scalars[k] = 1.0 / (k + 7);
+    }
+    for (int32_t e = 0; e < CELLS; e++) cell_values[e] = -1.0 / (e + 3);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    fill_values();
+    const char *given = getenv("AMONTONS_TEST_OUTPUT");
+    if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
+    snprintf(folder, sizeof folder, "/tmp/amontons_field_XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[300];
+    if (getenv("AMONTONS_TEST_OUTPUT")) return 0;
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static const FieldArray point_arrays[] = {
+    {"displacement", 3, false, vectors},
+    {"velocity_single", 3, true, vectors},
+    {"von_mises", 1, false, scalars},
+};
+static const FieldArray cell_arrays[] = {{"plastic", 1, false, cell_values}};
+
+static FieldGrid bulk_grid(void)
+{
+    return (FieldGrid){.point_count = POINTS,
+                       .points = points,
+                       .cell_count = CELLS,
+                       .offsets = offsets,
+                       .connectivity = connectivity,
+                       .cell_types = cell_types,
+                       .time = 1.0 / 3.0,
+                       .point_array_count = 3,
+                       .point_arrays = point_arrays,
+                       .cell_array_count = 1,
+                       .cell_arrays = cell_arrays};
+}
+
+static FieldGrid line_grid(void)
+{
+    return (FieldGrid){.point_count = 5,
+                       .points = points,
+                       .cell_count = LINES,
+                       .offsets = line_offsets,
+                       .connectivity = line_nodes,
+                       .time = 1e-7,
+                       .point_array_count = 3,
+                       .point_arrays = point_arrays,
+                       .cell_array_count = 1,
+                       .cell_arrays = cell_arrays};
+}
+
+static void name_file(const char *name)
+{
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    snprintf(part, sizeof part, "%s.part", path);
+}
+
+static bool exists(const char *name)
+{
+    struct stat entry;
+    return stat(name, &entry) == 0;
+}
+
+static void assert_file_has(const char *words)
+{
+    char text[8192] = {0};
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    size_t length = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    for (size_t k = 0; k < length; k++)
+        if (text[k] == '\0') text[k] = ' ';   // the appended data
+    if (!strstr(text, words)) fail_msg("%s lacks %s", path, words);
+}
+
+static void grids_are_appended_compressed_and_wide(void **state)
+{
+    (void)state;
+    Error err = {0};
+    FieldGrid bulk = bulk_grid(), lines = line_grid();
+    name_file("bulk.vtu");
+    if (!field_file_write_vtu(path, &bulk, &err)) fail_msg("%s", err.message);
+    assert_false(exists(part));
+    assert_file_has("type=\"UnstructuredGrid\"");
+    assert_file_has("header_type=\"UInt64\"");
+    assert_file_has("compressor=\"vtkZLibDataCompressor\"");
+    assert_file_has("<AppendedData encoding=\"raw\">");
+    assert_file_has("Name=\"TimeValue\"");
+    name_file("interface.vtp");
+    if (!field_file_write_vtp(path, &lines, &err)) fail_msg("%s", err.message);
+    assert_file_has("type=\"PolyData\"");
+    assert_file_has("NumberOfLines=\"4\"");
+    assert_false(exists(part));
+}
+
+static void the_collection_lists_files_against_time(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const FieldSeriesEntry entries[] = {{0, "bulk", "fields/bulk_0000.vtu"},
+                                        {0, "interface", "fields/interface_0000.vtp"},
+                                        {1.0 / 3.0, "bulk", "fields/a&b \"<1>\".vtu"},
+                                        {1.0 / 3.0, "interface", "fields/interface_0001.vtp"}};
+    name_file("fields.pvd");
+    assert_true(field_file_write_pvd(path, NULL, 0, &err));
+    assert_file_has("  <Collection>\n  </Collection>\n</VTKFile>\n");
+    assert_true(field_file_write_pvd(path, entries, 4, &err));
+    assert_file_has("<DataSet timestep=\"0.33333333333333331\" part=\"0\" name=\"bulk\" "
+                    "file=\"fields/a&amp;b &quot;&lt;1&gt;&quot;.vtu\"/>");
+    assert_file_has("<DataSet timestep=\"0.33333333333333331\" part=\"1\" name=\"interface\"");
+    assert_false(exists(part));
+}
+
+static void assert_error(Error *err, ErrorCode code, const char *words, const char *other)
+{
+    if (err->code != code || !strstr(err->message, words) || !strstr(err->message, other))
+        fail_msg("not the error expected (%s, %s): %s", words, other, err->message);
+    error_clear(err);
+}
+
+static void a_missing_folder_is_named(void **state)
+{
+    (void)state;
+    Error err = {0};
+    FieldGrid bulk = bulk_grid(), lines = line_grid();
+    assert_false(field_file_write_vtu("/nonexistent/a.vtu", &bulk, &err));
+    assert_error(&err, ERROR_FILE, "/nonexistent/a.vtu", "No such file or directory");
+    assert_false(field_file_write_vtp("/nonexistent/a.vtp", &lines, &err));
+    assert_error(&err, ERROR_FILE, "/nonexistent/a.vtp", "No such file or directory");
+    assert_false(field_file_write_pvd("/nonexistent/a.pvd", NULL, 0, &err));
+    assert_error(&err, ERROR_FILE, "/nonexistent/a.pvd", "No such file or directory");
+    assert_false(field_file_write_pvd("/proc/a.pvd", NULL, 0, &err));
+    assert_error(&err, ERROR_FILE, "/proc/a.pvd", "");
+}
+
+static void a_grid_that_is_none_is_refused(void **state)
+{
+    (void)state;
+    Error err = {0};
+    name_file("wrong.vtu");
+    const int64_t falling[] = {0, 4, 2, 21, 24, 30}, shifted[] = {1, 4, 12, 21, 24, 30};
+    int64_t outside[30];
+    memcpy(outside, connectivity, sizeof outside);
+    outside[29] = POINTS;
+
+    FieldGrid grid = bulk_grid();
+    grid.offsets = falling;
+    assert_false(field_file_write_vtu(path, &grid, &err));
+    assert_error(&err, ERROR_LIBRARY, "cell 1", "wrong.vtu");
+    grid = bulk_grid();
+    grid.offsets = shifted;
+    assert_false(field_file_write_vtu(path, &grid, &err));
+    assert_error(&err, ERROR_LIBRARY, "first offset", "wrong.vtu");
+    grid = bulk_grid();
+    grid.connectivity = outside;
+    assert_false(field_file_write_vtu(path, &grid, &err));
+    assert_error(&err, ERROR_LIBRARY, "node 25 of 25", "wrong.vtu");
+    grid = bulk_grid();
+    grid.cell_types = NULL;
+    assert_false(field_file_write_vtu(path, &grid, &err));
+    assert_error(&err, ERROR_LIBRARY, "no types", "wrong.vtu");
+    grid = bulk_grid();
+    const FieldArray twice[] = {point_arrays[0], point_arrays[0]};
+    grid.point_arrays = twice;
+    grid.point_array_count = 2;
+    assert_false(field_file_write_vtu(path, &grid, &err));
+    assert_error(&err, ERROR_LIBRARY, "two arrays are called displacement", "wrong.vtu");
+    assert_false(exists(path) || exists(part));
+}
+
+// A limit on the size of files stands in for a full disk.
+static void a_full_disk_leaves_the_earlier_file(void **state)
+{
+    (void)state;
+    Error err = {0};
+    FieldGrid bulk = bulk_grid();
+    name_file("full.vtu");
+    assert_true(field_file_write_vtu(path, &bulk, &err));
+    struct stat before, after;
+    assert_int_equal(stat(path, &before), 0);
+    for (rlim_t limit = 0; limit < 3000; limit += 1000) {
+        pid_t child = fork();
+        if (child == 0) {
+            signal(SIGXFSZ, SIG_IGN);
+            setrlimit(RLIMIT_FSIZE, &(struct rlimit){limit, RLIM_INFINITY});
+            bool refused = !field_file_write_vtu(path, &bulk, &err) && err.code == ERROR_FILE &&
+                           strstr(err.message, path) && strstr(err.message, "File too large");
+            // Coverage counts are files, too, and are written on exit.
+            setrlimit(RLIMIT_FSIZE, &(struct rlimit){RLIM_INFINITY, RLIM_INFINITY});
+            exit(refused && !exists(part) ? 0 : 1);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    }
+    assert_int_equal(stat(path, &after), 0);
+    assert_int_equal(before.st_ino, after.st_ino);
+    assert_int_equal(before.st_size, after.st_size);
+}
+
+static void a_missing_module_is_named(void **state)
+{
+    (void)state;
+    Error err = {0};
+    FieldGrid bulk = bulk_grid();
+    name_file("module.vtu");
+    const char *modules = getenv("AMONTONS_MODULES");
+    char *kept = strdup(modules ? modules : "");
+    setenv("AMONTONS_MODULES", "/nonexistent", 1);
+    assert_false(field_file_write_vtu(path, &bulk, &err));
+    assert_error(&err, ERROR_LIBRARY, "module.vtu", "amontons_vtk");
+    setenv("AMONTONS_MODULES", kept, 1);
+    free(kept);
+    assert_false(exists(path) || exists(part));
+}
+
+static void every_path_frees_when_memory_is_short(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const FieldSeriesEntry entry = {0, "bulk", "fields/bulk_0000.vtu"};
+    int64_t live = memory_counters().live;
+    name_file("short.pvd");
+    memory_fail_after(0);
+    assert_false(field_file_write_pvd(path, &entry, 1, &err));
+    memory_fail_after(-1);
+    assert_int_equal(err.code, ERROR_MEMORY);
+    assert_int_equal(memory_counters().live, live);
+    assert_false(exists(path) || exists(part));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grids_are_appended_compressed_and_wide),
+        cmocka_unit_test(the_collection_lists_files_against_time),
+        cmocka_unit_test(a_missing_folder_is_named),
+        cmocka_unit_test(a_grid_that_is_none_is_refused),
+        cmocka_unit_test(a_full_disk_leaves_the_earlier_file),
+        cmocka_unit_test(a_missing_module_is_named),
+        cmocka_unit_test(every_path_frees_when_memory_is_short),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

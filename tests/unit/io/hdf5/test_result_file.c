@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Writes a small result and reads it back by the tables. The file is left in
+// AMONTONS_TEST_OUTPUT, where tests/end_to_end/test_field_files.py opens it with h5py.
+#include "io/hdf5/result_file.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { NODES = 5, PADS = 3, STEPS = 300 };
+
+static char folder[256];
+static const double node_x[NODES] = {0, 0.25, 0.5, 0.75, 1};
+static const double node_weight[NODES] = {0.125, 0.25, 0.25, 0.25, 0.125};
+static const double node_pad[NODES] = {0, 0, 1, 1, 2};
+
+static int make_folder(void **state)
+{
+    (void)state;
+    const char *given = getenv("AMONTONS_TEST_OUTPUT");
+    if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
+    snprintf(folder, sizeof folder, "/tmp/amontons_result_XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[300];
+    if (getenv("AMONTONS_TEST_OUTPUT")) return 0;
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static ResultHead head_of_a_run(void)
+{
+    ResultHead head = {.title = "Figure 1",
+                       .units = "normalised",
+                       .version = "0.1.0",
+                       .contact_count = NODES,
+                       .rod_on_spring = true};
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) head.numbers[k] = NAN;
+    head.numbers[NUMBER_LENGTH] = 1;
+    head.numbers[NUMBER_CRITICAL_VELOCITY] = 3.4e-4;
+    head.nodes[NODES_X] = node_x;
+    head.nodes[NODES_WEIGHT] = node_weight;
+    head.nodes[NODES_PAD] = node_pad;
+    return head;
+}
+
+// Differs for every series, step and node; small integers, so that every stored type holds it.
+static double value_at(int32_t series, int32_t step, int32_t node)
+{
+    return (7 * series + 3 * step + node) % 250;
+}
+
+static void assert_clean(const Error *err)
+{
+    if (!error_is_clean(err)) fail_msg("%s", err->message);
+}
+
+static void a_result_comes_back(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ResultHead head = head_of_a_run();
+    ArrayFile *file = result_file_create(folder, &head, &err);
+    assert_clean(&err);
+    for (int32_t step = 0; step < STEPS; step++)
+        for (int32_t s = 0; s < RESULT_SERIES_COUNT; s++) {
+            double row[NODES];
+            for (int32_t i = 0; i < NODES; i++) row[i] = value_at(s, step, i);
+            assert_true(array_file_append(file, result_series_name(s), row, 1, &err));
+        }
+    const double peaks[] = {0.001, 0.0025, 0.004};
+    assert_true(result_file_write_table(file, PEAKS_U, peaks, 3, &err));
+    assert_true(result_file_write_table(file, EVENTS_KIND, NULL, 0, &err));
+    assert_true(array_file_set_number(file, result_number_name(NUMBER_MU_M), 0.25, &err));
+    assert_true(array_file_close(file, &err));
+
+    file = result_file_open(folder, &err);
+    assert_clean(&err);
+    double *values = NULL;
+    static const int32_t widths[] = {
+        [COLUMNS_ONE] = 1, [COLUMNS_NODES] = NODES, [COLUMNS_PADS] = PADS};
+    for (int32_t s = 0; s < RESULT_SERIES_COUNT; s++) {
+        int64_t rows;
+        int32_t width;
+        assert_true(result_file_read_series(file, s, &values, &rows, &width, &err));
+        assert_int_equal(rows, STEPS);
+        assert_int_equal(width, widths[result_series_columns(s)]);
+        for (int32_t step = 0; step < STEPS; step++)
+            for (int32_t i = 0; i < width; i++)
+                assert_true(values[step * width + i] == value_at(s, step, i));
+        memory_free(values);
+    }
+    int32_t count = 0;
+    assert_true(result_file_read_nodes(file, NODES_PAD, &values, &count, &err));
+    assert_int_equal(count, NODES);
+    assert_memory_equal(values, node_pad, sizeof node_pad);
+    memory_free(values);
+    assert_true(result_file_read_table(file, PEAKS_U, &values, &count, &err));
+    assert_int_equal(count, 3);
+    assert_memory_equal(values, peaks, sizeof peaks);
+    memory_free(values);
+    assert_true(result_file_read_table(file, EVENTS_KIND, &values, &count, &err));
+    assert_int_equal(count, 0);   // written, and empty
+    memory_free(values);
+    assert_true(result_file_read_table(file, EVENTS_REACH, &values, &count, &err));
+    assert_int_equal(count, 0);   // never written
+    memory_free(values);
+    assert_true(result_file_number(file, NUMBER_CRITICAL_VELOCITY) == 3.4e-4);
+    assert_true(result_file_number(file, NUMBER_MU_M) == 0.25);
+    assert_true(isnan(result_file_number(file, NUMBER_L_C)));
+    double absent;
+    assert_false(array_file_get_number(file, result_number_name(NUMBER_L_C), &absent, &err));
+    error_clear(&err);
+    char title[32];
+    assert_true(result_file_text(file, "title", title, sizeof title, &err));
+    assert_string_equal(title, "Figure 1");
+    assert_true(array_file_close(file, &err));
+}
+
+static void what_is_missing_is_named(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ResultHead head = head_of_a_run();
+    assert_null(result_file_open("/nonexistent", &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "/nonexistent holds no history"));
+    error_clear(&err);
+    assert_null(result_file_create("/nonexistent", &head, &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    assert_non_null(strstr(err.message, "/nonexistent/history.h5"));
+    error_clear(&err);
+    head.contact_count = 0;
+    assert_null(result_file_create(folder, &head, &err));
+    assert_non_null(strstr(err.message, "contact nodes"));
+}
+
+static void every_path_frees_when_memory_is_short(void **state)
+{
+    (void)state;
+    ResultHead head = head_of_a_run();
+    char place[280], path[300];
+    snprintf(place, sizeof place, "%s/short", folder);
+    snprintf(path, sizeof path, "%s/history.h5", place);
+    assert_int_equal(mkdir(place, 0777), 0);
+    int64_t live = memory_counters().live;
+    ErrorCode code = ERROR_MEMORY;
+    int32_t k = 0;
+    for (; code == ERROR_MEMORY; k++) {
+        Error err = {0};
+        double *values = NULL;
+        int32_t count;
+        memory_fail_after(k);
+        ArrayFile *file = result_file_create(place, &head, &err);
+        if (file) result_file_write_table(file, PEAKS_MU, node_x, 2, &err);
+        if (error_is_clean(&err))
+            array_file_close(file, &err);
+        else
+            array_file_abandon(file);
+        file = error_is_clean(&err) ? result_file_open(place, &err) : NULL;
+        if (file) result_file_read_table(file, PEAKS_U, &values, &count, &err);
+        if (file && error_is_clean(&err)) {
+            memory_free(values);
+            result_file_read_nodes(file, NODES_X, &values, &count, &err);
+        }
+        memory_fail_after(-1);
+        memory_free(values);
+        array_file_abandon(file);
+        assert_int_equal(memory_counters().live, live);
+        code = err.code;
+    }
+    assert_int_equal(code, ERROR_NONE);
+    assert_in_range(k, 40, 70);   // two arrays a series and a few more
+    unlink(path);
+    assert_int_equal(rmdir(place), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_result_comes_back),
+        cmocka_unit_test(what_is_missing_is_named),
+        cmocka_unit_test(every_path_frees_when_memory_is_short),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

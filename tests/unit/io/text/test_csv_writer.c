@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cells as RFC 4180 wants them, numbers that read back as the same doubles, no file on failure.
+#include "io/text/csv_writer.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char path[] = "/tmp/amontons_csv_XXXXXX";
+
+static void read_back(char *text, size_t size)
+{
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = 0;
+    fclose(file);
+}
+
+static void cells_are_quoted_where_they_must_be(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char text[400];
+    CsvWriter *csv = csv_create(path, &err);
+    assert_non_null(csv);
+    csv_text(csv, "plain");
+    csv_text(csv, "a,b");
+    csv_text(csv, "say \"no\"");
+    csv_end_row(csv);
+    csv_text(csv, "");
+    csv_number(csv, NAN);
+    csv_number(csv, 0.1);
+    csv_text(csv, "two\nlines");
+    csv_end_row(csv);
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    assert_string_equal(text, "plain,\"a,b\",\"say \"\"no\"\"\"\n,,0.1,\"two\nlines\"\n");
+}
+
+static void numbers_keep_their_bits(void **state)
+{
+    (void)state;
+    static const double values[] = {1.0 / 3, 1e-300, 123456789.0, -0.38, 5e-324, 4};
+    Error err = {0};
+    char text[400], *at = text;
+    CsvWriter *csv = csv_create(path, &err);
+    for (int32_t k = 0; k < 6; k++) csv_number(csv, values[k]);
+    csv_end_row(csv);
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    for (int32_t k = 0; k < 6; k++, at++) assert_true(strtod(at, &at) == values[k]);
+    assert_string_equal(at, "");
+}
+
+// Far more than is kept back before it is written.
+static void long_files_are_whole(void **state)
+{
+    (void)state;
+    Error err = {0};
+    enum { ROWS = 30000 };
+    static char text[20 * ROWS];
+    CsvWriter *csv = csv_create(path, &err);
+    for (int32_t k = 0; k < ROWS; k++) {
+        csv_number(csv, k);
+        csv_text(csv, "a cell");
+        csv_end_row(csv);
+    }
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    const char *at = text;
+    for (int32_t k = 0; k < ROWS; k++) {
+        char row[30];
+        int length = snprintf(row, sizeof row, "%d,a cell\n", k);
+        if (strncmp(at, row, (size_t)length) != 0) fail_msg("row %d is `%.20s`", k, at);
+        at += length;
+    }
+    assert_string_equal(at, "");
+}
+
+static void nothing_is_left_of_an_abandoned_one(void **state)
+{
+    (void)state;
+    Error err = {0};
+    unlink(path);
+    int64_t live = memory_counters().live;
+    CsvWriter *csv = csv_create(path, &err);
+    csv_text(csv, "half");
+    csv_abandon(csv);
+    csv_abandon(NULL);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_null(csv_create("/nowhere/at/all.csv", &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    assert_int_equal(memory_counters().live, live);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_are_quoted_where_they_must_be),
+                                       cmocka_unit_test(numbers_keep_their_bits),
+                                       cmocka_unit_test(long_files_are_whole),
+                                       cmocka_unit_test(nothing_is_left_of_an_abandoned_one)};
+    int file = mkstemp(path);
+    if (file < 0) return 1;
+    close(file);
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unlink(path);
+    return failed;
+}

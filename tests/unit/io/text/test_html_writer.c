@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is markup and what is text, read back from the file; Base64 by the vectors of RFC 4648.
+#include "io/text/html_writer.h"
+
+#include "base/memory.h"
+#include "io/files/text_file.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static const char PATH[] = "html_writer_test.html";
+
+// What `write` writes.
+static char *written(void (*write)(HtmlWriter *html))
+{
+    Error err = {0};
+    char *text = NULL;
+    int32_t size = 0;
+    HtmlWriter *html = html_create(PATH, false, &err);
+    assert_non_null(html);
+    write(html);
+    assert_int_not_equal(access(PATH, F_OK), 0);   // no half file under the final name
+    assert_true(html_finish(html, &err));
+    assert_true(text_file_read(PATH, 1 << 24, &text, &size, &err));
+    unlink(PATH);
+    return text;
+}
+
+static void check(void (*write)(HtmlWriter *html), const char *expected)
+{
+    char *text = written(write);
+    assert_string_equal(text, expected);
+    memory_free(text);
+}
+
+static void write_texts(HtmlWriter *html)
+{
+    html_markup(html, "<b a='%d'>", 3);
+    html_text(html, "</b> & \"x\" 'y' \u00b5");
+    html_text(html, "\x01\xff\xc3(\x7f\t\n");   // control, no UTF-8, cut UTF-8
+    html_raw(html, "</b>");
+}
+
+static void text_never_becomes_markup(void **state)
+{
+    (void)state;
+    check(write_texts, "<b a='3'>&lt;/b&gt; &amp; &quot;x&quot; &#39;y&#39; \u00b5"
+                       "\uFFFD\uFFFD\uFFFD(\uFFFD\t\n</b>");
+}
+
+static void write_numbers(HtmlWriter *html)
+{
+    html_number(html, 0.32746, 3);
+    html_raw(html, " ");
+    html_number(html, -1.5e-7, 2);
+    html_raw(html, " ");
+    html_number(html, NAN, 2);
+    html_raw(html, " ");
+    html_number(html, 6400, 12);
+}
+
+static void numbers_are_for_people(void **state)
+{
+    (void)state;
+    check(write_numbers, "0.327 \u22121.5\u202f\u00d7\u202f10<sup>\u22127</sup> \u2013 6400");
+}
+
+static void base64_is_that_of_rfc_4648(void **state)
+{
+    static const char *const vectors[][2] = {{"", ""},
+                                             {"f", "Zg=="},
+                                             {"fo", "Zm8="},
+                                             {"foo", "Zm9v"},
+                                             {"foob", "Zm9vYg=="},
+                                             {"fooba", "Zm9vYmE="},
+                                             {"foobar", "Zm9vYmFy"}};
+    char text[16];
+    (void)state;
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) {
+        html_base64((const uint8_t *)vectors[k][0], (int64_t)strlen(vectors[k][0]), text);
+        assert_string_equal(text, vectors[k][1]);
+    }
+    html_base64((const uint8_t *)"\xfb\xff\xfe", 3, text);
+    assert_string_equal(text, "+//+");
+}
+
+// Longer than any buffer of the writer.
+enum { LONG = 200000 };
+
+static void write_data(HtmlWriter *html)
+{
+    Error err = {0};
+    uint8_t *bytes = NEW_ARRAY(uint8_t, LONG, &err);
+    html_data(html, "image/png", bytes, LONG);
+    memory_free(bytes);
+}
+
+static void long_data_is_whole(void **state)
+{
+    (void)state;
+    char *text = written(write_data);
+    const char *body = text + strlen("data:image/png;base64,");
+    assert_int_equal(strlen(body), 4 * ((LONG + 2) / 3));
+    assert_int_equal(strspn(body, "A"), strlen(body) - 1);   // 200000 = 3 n + 2: one = at the end
+    assert_int_equal(body[strlen(body) - 1], '=');
+    memory_free(text);
+}
+
+static void write_too_much(HtmlWriter *html)
+{
+    char words[3000];
+    memset(words, 'x', sizeof words - 1);
+    words[sizeof words - 1] = 0;
+    html_markup(html, "%s", words);
+}
+
+static void a_failure_leaves_no_file(void **state)
+{
+    Error err = {0};
+    (void)state;
+    HtmlWriter *html = html_create(PATH, false, &err);
+    assert_non_null(html);
+    write_too_much(html);
+    assert_false(html_finish(html, &err));
+    assert_int_not_equal(access(PATH, F_OK), 0);
+    html_abandon(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_never_becomes_markup),  cmocka_unit_test(numbers_are_for_people),
+        cmocka_unit_test(base64_is_that_of_rfc_4648), cmocka_unit_test(long_data_is_whole),
+        cmocka_unit_test(a_failure_leaves_no_file),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

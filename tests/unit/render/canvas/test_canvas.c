@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Shapes, text and heat maps, counted in the pixels that are read back; and the files.
+#include "render/canvas/canvas.h"
+
+#include "base/memory.h"
+#include "render/canvas/drawing.h"
+#include "render/canvas/text.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { SIZE = 400 };
+
+static const Color BLACK = {0, 0, 0, 1};
+static Canvas *canvas;
+
+static int canvas_begin(void **state)
+{
+    const CanvasDef def = {.width = SIZE, .height = SIZE, .dpi = 200};
+    Error err = {0};
+    (void)state;
+    canvas = canvas_create(&def, &err);
+    return canvas ? 0 : -1;
+}
+
+static int canvas_end(void **state)
+{
+    (void)state;
+    canvas_destroy(canvas);
+    canvas = NULL;
+    return 0;
+}
+
+static uint8_t *pixels_read(void)
+{
+    Error err = {0};
+    uint8_t *pixels = NULL;
+    assert_true(canvas_read(canvas, &pixels, &err));
+    return pixels;
+}
+
+// How much black is on the page, in pixels.
+static double area_read(void)
+{
+    uint8_t *pixels = pixels_read();
+    double area = 0;
+    for (int32_t k = 0; k < SIZE * SIZE; ++k) area += 1 - pixels[3 * k] / 255.0;
+    memory_free(pixels);
+    return area;
+}
+
+static void a_new_page_is_white(void **state)
+{
+    (void)state;
+    assert_float_equal(area_read(), 0, 0);
+}
+
+static void areas_are_right(void **state)
+{
+    (void)state;
+    draw_fill(canvas, BLACK, &(Box){10, 20, 60, 50});
+    assert_float_equal(area_read(), 1500, 1e-9);
+    draw_disc(canvas, BLACK, (Point){200, 200}, 40);
+    assert_float_equal(area_read(), 1500 + 5027.0F, 50);
+    Stroke stroke = {.color = BLACK, .width = 4};
+    draw_segment(canvas, &stroke, (Point){300, 50}, (Point){380, 110});   // 100 long
+    assert_float_equal(area_read(), 1500 + 5027.0F + 400, 55);   // the disc has sides
+}
+
+static void rows_count_from_the_top(void **state)
+{
+    (void)state;
+    draw_fill(canvas, BLACK, &(Box){10, 20, 11, 21});
+    uint8_t *pixels = pixels_read();
+    assert_int_equal(pixels[3 * (20 * SIZE + 10)], 0);
+    assert_int_equal(pixels[3 * (21 * SIZE + 10)], 255);
+    memory_free(pixels);
+}
+
+static void dashes_leave_gaps(void **state)
+{
+    (void)state;
+    Stroke stroke = {.color = BLACK, .width = 2, .dash = 12, .space = 8};
+    const Point line[3] = {{50, 100}, {150, 100}, {150, 200}};   // 200 long: ten periods
+    draw_line(canvas, &stroke, line, 3);
+    assert_float_equal(area_read(), 200 * 2 * 0.6, 6);
+}
+
+static void broken_points_break_lines(void **state)
+{
+    (void)state;
+    Stroke stroke = {.color = BLACK, .width = 2};
+    const Point line[5] = {{50, 100}, {100, 100}, {NAN, 100}, {200, 100}, {250, INFINITY}};
+    draw_line(canvas, &stroke, line, 5);
+    assert_float_equal(area_read(), 106, 3);
+}
+
+static void clips_hold(void **state)
+{
+    (void)state;
+    canvas_clip(canvas, &(Box){0, 0, SIZE, 100});
+    draw_fill(canvas, BLACK, &(Box){0, 90, 50, 200});
+    canvas_clip(canvas, NULL);
+    draw_fill(canvas, BLACK, &(Box){100, 90, 110, 200});
+    assert_float_equal(area_read(), 500 + 1100, 1e-9);
+}
+
+// A line that is stroked in pieces, with a dash that is not.
+static void long_lines_are_whole(void **state)
+{
+    (void)state;
+    enum { COUNT = 1500 };
+    Point line[COUNT];
+    Stroke stroke = {.color = BLACK, .width = 2};
+    for (int32_t k = 0; k < COUNT; ++k) line[k] = (Point){20 + k * 0.2, 100};
+    draw_line(canvas, &stroke, line, COUNT);
+    double solid = 2 * (COUNT - 1) * 0.2;
+    assert_true(fabs(area_read() - solid - 3.14) < 2);
+    stroke.dash = stroke.space = 10;
+    for (int32_t k = 0; k < COUNT; ++k) line[k].y = 200;
+    draw_line(canvas, &stroke, line, COUNT);
+    assert_true(fabs(area_read() - 1.5 * solid - 3.14) < 12);
+}
+
+static void heat_shows_levels_and_holes(void **state)
+{
+    (void)state;
+    uint8_t map[3 * MAP_SIZE];
+    const float values[6] = {0, 1, 5, HEAT_BELOW, HEAT_MISSING, 0.5f};   // two rows of three
+    const int32_t expected[6] = {0, 255, 255, 77, 255, 128};   // 255 in a hole: white
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
+    canvas_set_map(canvas, map, (Color){77 / 255.0f, 0, 0, 1});
+    canvas_heat(canvas, &(Box){100, 100, 160, 140}, values, 3, 2);
+    uint8_t *pixels = pixels_read();
+    for (int32_t k = 0; k < 6; ++k) {
+        int32_t column = 110 + 20 * (k % 3), row = 110 + 20 * (k / 3);
+        assert_in_range(pixels[3 * (row * SIZE + column)], expected[k] ? expected[k] - 1 : 0,
+                        expected[k] + 1);
+    }
+    assert_int_equal(pixels[3 * (99 * SIZE + 110)], 255);
+    memory_free(pixels);
+}
+
+static void a_heat_map_too_large_is_reported(void **state)
+{
+    (void)state;
+    Error err = {0};
+    uint8_t *pixels = NULL;
+    const float value = 0;
+    canvas_heat(canvas, &(Box){0, 0, 9, 9}, &value, 1 << 28, 1);
+    assert_false(canvas_read(canvas, &pixels, &err));
+    assert_null(pixels);
+    assert_int_equal(err.code, ERROR_LIBRARY);
+}
+
+// --- text ----------------------------------------------------------------------------------------
+static Text *text_begin(void)
+{
+    Error err = {0};
+    Text *text = text_create(canvas, &err);
+    assert_non_null(text);
+    return text;
+}
+
+static void text_has_width_and_ink(void **state)
+{
+    (void)state;
+    Text *text = text_begin();
+    TextStyle style = {.size = 40, .color = BLACK};
+    assert_true(text_width(text, 40, "") == 0);
+    double digit = text_width(text, 40, "0");
+    assert_true(fabs(digit - 0.636 * 40) < 0.1);   // DejaVu Sans: digits are 1303 / 2048 wide
+    assert_true(fabs(text_width(text, 40, "0123456789") - 10 * digit) < 1e-9);
+    assert_true(fabs(text_width(text, 40, "~{0}") - digit) < 1e-9);
+    assert_true(fabs(text_width(text, 40, "0_{0}^{0}") / digit - 2.4) < 1e-2);
+    text_draw(text, &style, (Point){50, 100}, "~{F}_{T} / ~{F}_{N} \u03bc \u00d710^{-3}");
+    assert_true(area_read() > 1000);
+    text_destroy(text);
+}
+
+// A bar is as black upright as it is rising, and stands where it is put.
+static void text_turns_and_aligns(void **state)
+{
+    (void)state;
+    Text *text = text_begin();
+    TextStyle style = {.size = 100, .color = BLACK, .across = 0.5, .up = 0.5};
+    text_draw(text, &style, (Point){100, 100}, "0");
+    double upright = area_read();
+    uint8_t *pixels = pixels_read();
+    double x = 0, y = 0;
+    for (int32_t k = 0; k < SIZE * SIZE; ++k) {
+        x += (1 - pixels[3 * k] / 255.0) * (k % SIZE + 0.5) / upright;
+        y += (1 - pixels[3 * k] / 255.0) * (k / SIZE + 0.5) / upright;
+    }
+    memory_free(pixels);
+    assert_true(fabs(x - 100) < 1.5);
+    assert_true(fabs(y - 100) < 1.5);
+    style.rising = true;
+    text_draw(text, &style, (Point){300, 300}, "0");
+    assert_true(fabs(area_read() / upright - 2) < 2e-3);
+    text_destroy(text);
+}
+
+// A letter leaves no point behind from which the next shape would begin.
+static void shapes_after_text_are_right(void **state)
+{
+    (void)state;
+    const Point corners[] = {{300, 300}, {320, 300}, {320, 320}, {300, 320}};
+    Text *text = text_begin();
+    TextStyle style = {.size = 40, .color = BLACK};
+    text_draw(text, &style, (Point){20, 50}, "0");
+    double letter = area_read();
+    draw_polygon(canvas, BLACK, corners, 4);
+    assert_float_equal(area_read(), letter + 400, 1e-9);
+    text_draw(text, &style, (Point){20, 100}, "0");
+    double before = area_read();
+    draw_disc(canvas, BLACK, (Point){200, 200}, 40);
+    assert_float_equal(area_read(), before + 5027, 50);
+    text_destroy(text);
+}
+
+// Broken UTF-8 and braces draw something and end.
+static void odd_words_do_no_harm(void **state)
+{
+    (void)state;
+    static const char *const odd[] = {"\xff\xfe", "\xe2\x82",          "\xc3", "_{",
+                                      "}",        "^{_{~{^{_{x}}}}}}", "_x",   "\xf0\x9f\x98\x80"};
+    Text *text = text_begin();
+    TextStyle style = {.size = 20, .color = BLACK};
+    for (size_t k = 0; k < sizeof odd / sizeof *odd; ++k)
+        text_draw(text, &style, (Point){20, 20 + 30 * (double)k}, odd[k]);
+    assert_true(area_read() > 0);
+    text_destroy(text);
+}
+
+static void sizes_have_limits(void **state)
+{
+    (void)state;
+    Error err = {0};
+    CanvasDef def = {.width = CANVAS_SIZE_MIN - 1, .height = 300, .dpi = 100};
+    assert_null(canvas_create(&def, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    error_clear(&err);
+    def = (CanvasDef){.width = 300, .height = CANVAS_SIZE_MAX + 1, .dpi = 100};
+    assert_null(canvas_create(&def, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+}
+
+// White paper becomes dark, ink light, and a hue stays the same.
+static void dark_paper_turns_lightness(void **state)
+{
+    (void)state;
+    Color paper = color_on_dark((Color){1, 1, 1, 1}), ink = color_on_dark((Color){0, 0, 0, 0.5F});
+    Color red = color_on_dark((Color){0.6F, 0.1F, 0.1F, 1});
+    assert_true(paper.red < 0.12F && fabsf(paper.red - paper.blue) < 0.01F);
+    assert_true(ink.red > 0.9F && ink.alpha == 0.5F);
+    assert_true(red.red > 0.9F && red.green < 0.8F && red.blue < 0.8F);
+}
+
+// Memory that runs out while Cairo hands on the bytes of a PDF is an error, and none is lost.
+static void vector_files_run_out_of_memory(void **state)
+{
+    (void)state;
+    const CanvasFormat formats[] = {CANVAS_PNG, CANVAS_PDF, CANVAS_SVG};
+    for (int32_t f = 0; f < 3; ++f) {
+        const CanvasDef def = {.format = formats[f], .width = 300, .height = 300, .dpi = 100};
+        int64_t live = memory_counters().live, k = 0;
+        bool done = false;
+        for (; !done; ++k) {
+            char path[] = "/tmp/amontons_canvas_XXXXXX";
+            Error err = {0};
+            close(mkstemp(path));
+            memory_fail_after(k);
+            Canvas *page = canvas_create(&def, &err);
+            if (page) draw_disc(page, BLACK, (Point){100, 100}, 50);
+            done = page && canvas_write(page, path, "a disc", false, &err);
+            memory_fail_after(-1);
+            canvas_destroy(page);
+            unlink(path);
+            assert_int_equal(memory_counters().live, live);
+            assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        }
+        assert_in_range(k, 3, 100);
+    }
+}
+
+int main(void)
+{
+#define CASE(name) cmocka_unit_test_setup_teardown(name, canvas_begin, canvas_end)
+    const struct CMUnitTest tests[] = {
+        CASE(a_new_page_is_white),
+        CASE(areas_are_right),
+        CASE(rows_count_from_the_top),
+        CASE(dashes_leave_gaps),
+        CASE(broken_points_break_lines),
+        CASE(clips_hold),
+        CASE(long_lines_are_whole),
+        CASE(heat_shows_levels_and_holes),
+        CASE(a_heat_map_too_large_is_reported),
+        CASE(text_has_width_and_ink),
+        CASE(text_turns_and_aligns),
+        CASE(shapes_after_text_are_right),
+        CASE(odd_words_do_no_harm),
+        CASE(sizes_have_limits),
+        cmocka_unit_test(dark_paper_turns_lightness),
+        cmocka_unit_test(vector_files_run_out_of_memory),
+    };
+#undef CASE
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values a pixel and triangles through a table of colours, by OSMesa and by EGL where it is.
+#include "render/canvas/gl_image.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 40, HEIGHT = 30, STRIDE = 48, COLORS = 101, BELOW = 7, FIRST = 1000 };
+
+static uint32_t colors[COLORS], pixels[HEIGHT * STRIDE];
+
+static GlImageDef image_def(void)
+{
+    for (uint32_t k = 0; k < COLORS; ++k) colors[k] = FIRST + k;
+    memset(pixels, 0xee, sizeof pixels);
+    return (GlImageDef){.width = WIDTH,
+                        .height = HEIGHT,
+                        .stride = STRIDE,
+                        .colors = colors,
+                        .color_count = COLORS,
+                        .below = BELOW};
+}
+
+// A driver for EGL may be missing: then there is nothing to test.
+static void skip_without(GlSource source)
+{
+    Error err = {0};
+    GlImageDef def = image_def();
+    const GlCorner none[3] = {{0}};
+    def.corners = none;
+    def.corner_count = 3;
+    if (source == GL_OSMESA || gl_image_draw(source, &def, pixels, &err)) return;
+    print_message("skipped: %s\n", err.message);
+    skip();
+}
+
+// Every bit is the table's; what a row has beyond the image is left alone.
+static void draw_values(GlSource source)
+{
+    Error err = {0};
+    GlImageDef def = image_def();
+    float values[HEIGHT * WIDTH];
+    for (int32_t k = 0; k < HEIGHT * WIDTH; ++k) values[k] = (float)(k % COLORS) / (COLORS - 1);
+    values[0] = 5;
+    values[1] = -1;
+    values[2] = -2;
+    values[3] = NAN;
+    values[WIDTH] = 0.126F;
+    def.values = values;
+    assert_true(gl_image_draw(source, &def, pixels, &err));
+    assert_int_equal(pixels[0], FIRST + COLORS - 1);
+    assert_int_equal(pixels[1], BELOW);
+    assert_int_equal(pixels[2], 0);
+    assert_int_equal(pixels[3], 0);
+    assert_int_equal(pixels[STRIDE], FIRST + 13);
+    for (int32_t k = 4; k < HEIGHT * WIDTH; ++k)
+        if (k != WIDTH)
+            assert_int_equal(pixels[k / WIDTH * STRIDE + k % WIDTH], FIRST + k % COLORS);
+    for (int32_t k = WIDTH; k < STRIDE; ++k) assert_int_equal(pixels[k], 0xeeeeeeee);
+}
+
+// value = x / 40 + y / 60 - 0.2 over the half of the image left of its diagonal: from -0.2, drawn
+// as 0, to 0.8.
+static void draw_triangle(GlSource source)
+{
+    Error err = {0};
+    GlImageDef def = image_def();
+    const GlCorner corners[3] = {{0, 0, -0.2F}, {WIDTH, 0, 0.8F}, {0, HEIGHT, 0.3F}};
+    def.corners = corners;
+    def.corner_count = 3;
+    assert_true(gl_image_draw(source, &def, pixels, &err));
+    for (int32_t row = 0; row < HEIGHT; ++row)
+        for (int32_t column = 0; column < WIDTH; ++column) {
+            double x = column + 0.5, y = row + 0.5, side = x / WIDTH + y / HEIGHT;
+            double place = (COLORS - 1) * fmax(x / 40 + y / 60 - 0.2, 0);
+            double pixel = pixels[row * STRIDE + column];
+            if (side < 1 - 1e-3) assert_true(fabs(pixel - FIRST - place) < 0.501);
+            if (side > 1 + 1e-3) assert_true(pixel == 0);
+        }
+}
+
+static void osmesa_draws(void **state)
+{
+    (void)state;
+    draw_values(GL_OSMESA);
+    draw_triangle(GL_OSMESA);
+}
+
+static void egl_draws_without_a_surface(void **state)
+{
+    (void)state;
+    skip_without(GL_EGL);
+    draw_triangle(GL_EGL);
+    draw_values(GL_EGL);
+}
+
+// A process that is forked after images does not wait for ever for threads that are not there: it
+// draws by the source that is left, or says that there is none.
+static void a_forked_process_ends(void **state)
+{
+    osmesa_draws(state);
+    pid_t child = fork();
+    if (child == 0) {
+        Error err = {0};
+        GlImageDef def = image_def();
+        const GlCorner corners[3] = {{0, 0, 0}, {2 * WIDTH, 0, 0}, {0, 2 * HEIGHT, 0}};
+        def.corners = corners;
+        def.corner_count = 3;
+        alarm(20);
+        bool drawn = gl_image_draw(GL_OSMESA, &def, pixels, &err);
+        _exit(drawn ? pixels[0] != FIRST : !strstr(err.message, "before this process was forked"));
+    }
+    int status = -1;
+    assert_true(waitpid(child, &status, 0) == child);
+    assert_int_equal(status, 0);
+}
+
+static void no_corners_no_pixels(void **state)
+{
+    (void)state;
+    Error err = {0};
+    GlImageDef def = image_def();
+    assert_true(gl_image_draw(GL_OSMESA, &def, pixels, &err));
+    assert_int_equal(pixels[0], 0);
+}
+
+static void what_is_too_large_is_an_error(void **state)
+{
+    (void)state;
+    Error err = {0};
+    GlImageDef def = image_def();
+    def.width = 1 << 28;
+    assert_false(gl_image_draw(GL_OSMESA, &def, pixels, &err));
+    assert_int_equal(err.code, ERROR_LIBRARY);
+    osmesa_draws(NULL);   // and the next one is drawn
+}
+
+static void no_source_no_image(void **state)
+{
+    (void)state;
+    Error err = {0};
+    GlImageDef def = image_def();
+    assert_false(gl_image_draw(GL_SOURCES, &def, pixels, &err));
+    assert_int_equal(err.code, ERROR_LIBRARY);
+    assert_non_null(strstr(err.message, "libosmesa6"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_forked_process_ends),
+        cmocka_unit_test(osmesa_draws),
+        cmocka_unit_test(egl_draws_without_a_surface),
+
+        cmocka_unit_test(no_corners_no_pixels),
+        cmocka_unit_test(what_is_too_large_is_an_error),
+        cmocka_unit_test(no_source_no_image),
+        cmocka_unit_test(a_forked_process_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/canvas/ticks.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void assert_labels(double low, double high, int32_t wanted, const char *expected)
+{
+    char all[400] = "", label[TICK_LABEL_SIZE];
+    Ticks ticks = ticks_choose(low, high, wanted);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        tick_label(&ticks, k, label);
+        strcat(strcat(all, label), " ");
+    }
+    assert_string_equal(all, expected);
+}
+
+static void labels_are_handy_numbers(void **state)
+{
+    (void)state;
+    assert_labels(0, 1, 5, "0.0 0.2 0.4 0.6 0.8 1.0 ");
+    assert_labels(0, 0.31, 4, "0.0 0.1 0.2 0.3 ");
+    assert_labels(-2.5, 2.5, 6, "\u22122 \u22121 0 1 2 ");
+    assert_labels(0.24, 0.26, 5, "0.240 0.245 0.250 0.255 0.260 ");
+    assert_labels(12, 47, 4, "20 30 40 ");
+}
+
+static void small_and_large_numbers_have_a_power(void **state)
+{
+    (void)state;
+    assert_int_equal(ticks_choose(0, 0.006, 6).exponent, -3);
+    assert_labels(0, 0.006, 6, "0 1 2 3 4 5 6 ");
+    assert_int_equal(ticks_choose(4.41e-3, 4.73e-3, 4).exponent, -3);
+    assert_labels(4.41e-3, 4.73e-3, 4, "4.5 4.6 4.7 ");
+    assert_int_equal(ticks_choose(0, 25000, 5).exponent, 4);
+    assert_labels(0, 25000, 5, "0.0 0.5 1.0 1.5 2.0 2.5 ");
+    assert_int_equal(ticks_choose(0, 9999, 5).exponent, 0);
+    assert_int_equal(ticks_choose(0, 0.01, 5).exponent, 0);
+}
+
+static void assert_powers(double low, double high, int32_t wanted, const char *expected)
+{
+    char all[400] = "", label[TICK_LABEL_SIZE];
+    Ticks ticks = ticks_choose_log(low, high, wanted);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        tick_label(&ticks, k, label);
+        strcat(strcat(all, label), " ");
+        assert_true(tick_value(&ticks, k) >= low * (1 - 1e-5));
+        assert_true(tick_value(&ticks, k) <= high * (1 + 1e-5));
+    }
+    assert_string_equal(all, expected);
+}
+
+static void logarithmic_ticks_are_powers_of_ten(void **state)
+{
+    (void)state;
+    assert_powers(1e-3, 1e-1, 7, "10^{-3} 10^{-2} 10^{-1} ");
+    assert_powers(8e-4, 1.3, 7, "10^{-3} 10^{-2} 10^{-1} 10^{0} ");
+    assert_powers(1e-6, 1e6, 7, "10^{-6} 10^{-4} 10^{-2} 10^{0} 10^{2} 10^{4} 10^{6} ");
+    assert_powers(2, 8, 7, "");
+    assert_powers(0, 8, 7, "");
+    assert_powers(10, 1, 7, "");
+    assert_int_equal(ticks_choose_log(1e-3, 1e-1, 7).minor, 9);
+    assert_int_equal(ticks_choose_log(1e-6, 1e6, 7).minor, 1);
+    assert_true(tick_value(&(Ticks){.is_log = true, .first = -3, .step = 1}, 1) == 1e-2);
+}
+
+static void assert_thirds(double low, double high, const char *expected)
+{
+    char all[400] = "", label[TICK_LABEL_SIZE];
+    Ticks ticks = ticks_choose_thirds(low, high);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        tick_label(&ticks, k, label);
+        strcat(strcat(all, label), " ");
+    }
+    assert_string_equal(all, expected);
+}
+
+static void short_logarithmic_axes_have_one_two_five(void **state)
+{
+    (void)state;
+    assert_thirds(0.15, 4.8, "0.2 0.5 1 2 ");
+    assert_thirds(0.2, 5, "0.2 0.5 1 2 5 ");
+    assert_thirds(12, 60, "20 50 ");
+    assert_thirds(1.5e-5, 2.5e-4, "2\u00d710^{-5} 5\u00d710^{-5} 1\u00d710^{-4} 2\u00d710^{-4} ");
+    assert_thirds(3, 4, "");
+    assert_thirds(0, 4, "");
+    Ticks ticks = ticks_choose_thirds(0.15, 4.8);
+    assert_float_equal(tick_value(&ticks, 3), 2, 1e-12);
+    const double beyond[] = {0.09, 0.1, 0.2};   // about the first tick's power of ten, 0.1
+    for (int32_t k = -1; k <= 1; ++k)
+        assert_float_equal(ticks_minor_log(&ticks, k), beyond[k + 1], 1e-12);
+    assert_float_equal(ticks_minor_log(&ticks, 10), 2, 1e-12);
+    ticks = ticks_choose_log(1e-6, 1e6, 7);   // every second power: no minor ticks but these
+    assert_float_equal(ticks_minor_log(&ticks, 2), 1e-2, 1e-14);
+}
+
+// Whatever the range: inside it, in equal steps of 1, 2 or 5, and neither too few nor too many.
+static void any_range_gets_ticks(void **state)
+{
+    (void)state;
+    double low = -3.7e-5, size = 1.234e-6;
+    for (int32_t trial = 0; trial < 2000; ++trial) {
+        double high = low + size;
+        int32_t wanted = 2 + trial % 6;
+        Ticks ticks = ticks_choose(low, high, wanted);
+        double mantissa = ticks.step / pow(10, floor(log10(ticks.step * 1.0000001)));
+        assert_true(fabs(mantissa - 1) < 1e-6 || fabs(mantissa - 2) < 1e-6 ||
+                    fabs(mantissa - 5) < 1e-6);
+        assert_in_range(ticks.count, wanted / 2 > 2 ? 2 : 0, wanted + 1);
+        for (int32_t k = 0; k < ticks.count; ++k) {
+            assert_true(tick_value(&ticks, k) >= low - 1e-5 * ticks.step);
+            assert_true(tick_value(&ticks, k) <= high + 1e-5 * ticks.step);
+        }
+        size *= 1.013;
+        low = low * 1.007 + (trial % 13) * 1e-6;
+    }
+}
+
+static void no_range_no_ticks(void **state)
+{
+    (void)state;
+    assert_int_equal(ticks_choose(1, 1, 5).count, 0);
+    assert_int_equal(ticks_choose(2, 1, 5).count, 0);
+    assert_int_equal(ticks_choose(NAN, 1, 5).count, 0);
+    assert_int_equal(ticks_choose(0, INFINITY, 5).count, 0);
+    assert_int_equal(ticks_choose(0, 1, 0).count, 0);
+    assert_int_equal(ticks_choose(1, 1 + 1e-14, 5).count, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(labels_are_handy_numbers),
+                                       cmocka_unit_test(small_and_large_numbers_have_a_power),
+                                       cmocka_unit_test(logarithmic_ticks_are_powers_of_ten),
+                                       cmocka_unit_test(short_logarithmic_axes_have_one_two_five),
+                                       cmocka_unit_test(any_range_gets_ticks),
+                                       cmocka_unit_test(no_range_no_ticks)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

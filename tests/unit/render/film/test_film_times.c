@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Between the steps of a history, and which part of it is filmed: a history of five steps written
+// out.
+#include "render/film/film_times.h"
+
+#include "near.h"
+
+static double t[] = {0, 10, 12, 20, 40}, U[] = {0, 1, 1.2, 2, 4};
+static double mu[] = {0, 0.3, 0.1, 0.2, 0.4}, rate[] = {0, 1, 2, 3, 50, 60, 4, 4, 0, 0};
+static ViewEvent events[] = {
+    {VIEW_LEADING, 1, 1.2}, {VIEW_BOUNDED, 1.5, 1.6}, {VIEW_LEADING, 2, 2.2}};
+
+static ResultView history(int32_t event_count)
+{
+    return (ResultView){.rows = 5,
+                        .t = t,
+                        .U = U,
+                        .mu = mu,
+                        .nodes = 2,
+                        .slip_rate = rate,
+                        .events = events,
+                        .event_count = event_count};
+}
+
+static void test_between_steps(void **state)
+{
+    (void)state;
+    ResultView view = history(0);
+    FilmMoment now = film_moment(&view, 10.5);
+    assert_int_equal(now.row, 1);
+    assert_near("U", now.U, 1.05, 1e-12);
+    assert_near("mu", now.mu, 0.25, 1e-12);
+    assert_near("slip rate", film_slip_rate(&view, &now, 0), 2 + 0.25 * 48, 1e-12);
+    assert_near("slip rate", film_slip_rate(&view, &now, 1), 3 + 0.25 * 57, 1e-12);
+    assert_int_equal(film_nearest_row(&now), 1);
+    now = film_moment(&view, 11.5);
+    assert_int_equal(film_nearest_row(&now), 2);
+    now = film_moment(&view, -1);
+    assert_near("mu", now.mu, 0, 0);
+    now = film_moment(&view, 40);
+    assert_near("mu", now.mu, 0.4, 1e-12);
+    assert_int_equal(film_nearest_row(&now), 4);
+}
+
+static void check_span(int32_t event_count, FilmSpan span, double low, double high)
+{
+    ResultView view = history(event_count);
+    double found[2];
+    Error err = {0};
+    assert_true(film_span_find(&view, &span, found, &err));
+    assert_near("from", found[0], low, 1e-12);
+    assert_near("to", found[1], high, 1e-12);
+}
+
+static void test_spans(void **state)
+{
+    (void)state;
+    check_span(0, (FilmSpan){0}, 0, 40);
+    check_span(0, (FilmSpan){.from = "U=1.1", .to = "t=30"}, 11, 30);
+    check_span(0, (FilmSpan){.to = "U=9"}, 0, 40);
+    check_span(3, (FilmSpan){.last_cycle = true}, 12, 22.4);   // 4 % of 2.2 - 1.2 beyond U = 2.2
+    check_span(2, (FilmSpan){.last_cycle = true}, 0, 12.48);   // the first sliding is the last
+    check_span(3, (FilmSpan){.last_cycle = true, .to = "t=21"}, 12, 21);
+}
+
+static void check_refused(int32_t event_count, FilmSpan span, const char *words)
+{
+    ResultView view = history(event_count);
+    double found[2];
+    Error err = {0};
+    assert_false(film_span_find(&view, &span, found, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, words));
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    check_refused(0, (FilmSpan){.from = "1.1"}, "U=0.0117 or t=120");
+    check_refused(0, (FilmSpan){.from = "t=50"}, "to U = 4, t = 40");
+    check_refused(0, (FilmSpan){.from = "t=30", .to = "t=20"}, "nothing lies between");
+    check_refused(0, (FilmSpan){.last_cycle = true}, "no bulk sliding");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_between_steps),
+        cmocka_unit_test(test_spans),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What becomes of a sweep whose jobs end, vanish, or cannot be submitted: Slurm's commands are
+// scripts. And an element, which is one point of the sweep.
+#include "study/sweep/computing/slurm_jobs.h"
+
+#include "fake_slurm.h"
+
+static char place[PLACE_SIZE], study[PLACE_SIZE + 20], folder[PLACE_SIZE + 20], old_path[4000];
+
+static bool sweep(const char *words, SweepSummary *summary, Error *err)
+{
+    SweepOptions options = {.folder = folder, .slurm = words, .fresh = true};
+    *err = (Error){0};
+    unlink(place_path(place, "arrays"));
+    return amontons_sweep(study, &options, summary, err);
+}
+
+static void assert_says(const char *text, const char *part)
+{
+    if (!strstr(text, part)) fail_msg("'%s' does not say '%s'", text, part);
+}
+
+// The table tells why each point failed.
+static void assert_failures(const char *first, const char *second)
+{
+    char text[8000];
+    place_read(place, "out/sweep.csv", text, sizeof text);
+    const char *line = strchr(text, '\n') + 1, *next = strchr(line, '\n') + 1;
+    assert_says(line, first);
+    assert_says(next, second);
+    assert_true(strstr(line, first) < next);
+}
+
+static void test_ends(void **state)
+{
+    (void)state;
+    Error err;
+    SweepSummary summary;
+    fake_slurm_says(place, "scontrol", "MaxArraySize = 2\nExitCode=0:11 \n", "0");   // two arrays
+    place_write(place, "queue",
+                "a site's own line\n1 0 OUT_OF_MEMORY None\n2 0 FAILED RaisedSignal:11\n"
+                "9 0 FAILED None\n2 7 FAILED None\n");
+    assert_true(sweep("--time=1 --comment='two words'", &summary, &err));
+    assert_int_equal(summary.failed, 2);
+    assert_failures("ended as OUT_OF_MEMORY by signal 11 (Segmentation fault)",
+                    "ended as FAILED by signal 11");
+    char asked[4000];
+    place_read(place, "sbatch.asked", asked, sizeof asked);
+    assert_says(asked, "--comment=two words --array=0-0 --job-name=amontons-");
+
+    fake_slurm_says(place, "scontrol", "", "0");   // one array, no signal
+    place_write(place, "queue", "1 0 CANCELLED None\n1 1 TIMEOUT TimeLimit\n");
+    place_write(place, "out/slurm/1_1.out", "first\nslurmstepd: too late\n");
+    assert_true(sweep("", &summary, &err));
+    assert_failures("the Slurm job ended as CANCELLED,",
+                    "the Slurm job ended as TIMEOUT (TimeLimit): slurmstepd: too late");
+    assert_false(place_has(place, "out/slurm/running"));
+
+    fake_slurm_says(place, "scontrol", "MaxArraySize = few\nExitCode=none\n", "0");   // no numbers
+    place_write(place, "queue", "1 0 FAILED None\n1 1 NODE_FAIL None\n");
+    place_write(place, "out/slurm/1_0.out", "\n\n");
+    place_write(place, "out/slurm/1_1.out", "no end of line");
+    assert_true(sweep("", &summary, &err));
+    assert_failures("the Slurm job ended as FAILED,",
+                    "the Slurm job ended as NODE_FAIL: no end of line");
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    Error err;
+    SweepSummary summary;
+    assert_false(sweep("--comment='open", &summary, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_says(err.message, "expected options of sbatch");
+    fake_slurm_says(place, "sbatch", "sbatch: error: invalid partition\n", "1");
+    assert_false(sweep("", &summary, &err));
+    assert_says(err.message, "sbatch refuses the array: sbatch: error: invalid partition");
+    assert_false(place_has(place, "out/slurm/running"));   // scancel has answered
+    fake_slurm_says(place, "scancel", "scancel: error: no controller\n", "1");
+    assert_false(sweep("", &summary, &err));
+    assert_true(place_has(place, "out/slurm/running"));   // jobs may be out
+    assert_false(sweep("", &summary, &err));
+    assert_says(err.message, "scancel fails: scancel: error: no controller");
+    fake_slurm_says(place, "scancel", "", "0");
+    fake_slurm_says(place, "sbatch", "", "0");
+    setenv("PATH", "/nowhere", 1);
+    unlink(place_path(place, "out/slurm/running"));
+    assert_false(sweep("", &summary, &err));
+    assert_says(err.message, "--slurm needs Slurm's commands (sbatch, squeue, scancel) in PATH");
+    snprintf(old_path, sizeof old_path, "%s:/bin:/usr/bin", place);
+    setenv("PATH", old_path, 1);
+}
+
+static void test_silence(void **state)
+{
+    (void)state;
+    Error err = {0};
+    SlurmJobs jobs;
+    bool answered = true;
+    assert_true(slurm_jobs_open(place, 2, &jobs, &err));
+    fake_slurm_says(place, "squeue", "no controller\n", "1");
+    int times = 0;
+    for (; slurm_list(&jobs, &answered, &err); times++) assert_false(answered);
+    assert_int_equal(times, 60);
+    assert_says(err.message, "squeue does not answer: no controller");
+    slurm_jobs_close(&jobs);
+    assert_false(slurm_jobs_open("/nowhere/at/all", 2, &jobs, &err));
+}
+
+// A squeue that fails says nothing of the jobs: they are asked for again.
+static void test_cancel(void **state)
+{
+    (void)state;
+    Error err = {0};
+    SlurmJobs jobs;
+    char script[4 * PLACE_SIZE], usual[4000], asked[400];
+    place_read(place, "squeue", usual, sizeof usual);
+    snprintf(
+        script, sizeof script,
+        "#!/bin/sh\ncd %s\necho . >>cancel.asked\ncase $(wc -l <cancel.asked) in 1 | 2) echo no "
+        "controller; exit 1;; 3) echo 1;; esac\n",
+        place);
+    place_write(place, "squeue", script);
+    fake_slurm_says(place, "scancel", "", "0");
+    assert_true(slurm_jobs_open(place, 2, &jobs, &err));
+    if (!slurm_cancel(&jobs, &err)) fail_msg("%s", err.message);
+    place_read(place, "cancel.asked", asked, sizeof asked);
+    assert_string_equal(asked, ".\n.\n.\n.\n");
+    slurm_jobs_close(&jobs);
+    place_write(place, "squeue", usual);
+}
+
+// The lists that the last sweep left.
+static void test_element(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char list[PLACE_SIZE + 40], text[4000], here[4000];
+    assert_non_null(getcwd(here, sizeof here));
+    snprintf(list, sizeof list, "%s/out/slurm/array-0.json", place);
+    if (!amontons_sweep_element(list, 1, &err)) fail_msg("%s", err.message);
+    place_read(place, "out/slurm/array-0.json", text, sizeof text);
+    assert_false(amontons_sweep_element(list, 2, &err));
+    assert_says(err.message, "has no element 2");
+    static const struct {
+        const char *from, *to, *says;
+    } wrong[] = {
+        {"\"points\": [0", "\"points\": [99", "has fewer points than when"},
+        {"\"points\": [0", "\"points\": [-7", "has no element 0"},
+        {"\"points\": [0", "\"points\": [null", "has no element 0"},
+        {"set_count\": 0", "set_count\": 1", "lacks setting 0"},
+        {"set_count\": 0", "set_count\": -1", "no list of elements"},
+        {"set_count\": 0", "set_count\": null", "no list of elements"},
+        {"set_count\": 0", "set_count\": 999999", "no list of elements"},
+        {"\"directory\"", "\"place\"", "no list of elements"},
+        {"\"study\"", "\"file\"", "no list of elements"},
+        {"\"folder\"", "\"result\"", "no list of elements"},
+        {"\"set_count\"", "\"count\"", "no list of elements"},
+        {"\"directory\": \"/", "\"directory\": \"/nowhere/", "cannot go to /nowhere/"},
+        {"\"hashes\": [\"", "\"hashes\": [\"f", "was changed after the sweep began"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char changed[4100];
+        err = (Error){0};
+        const char *at = strstr(text, wrong[k].from);
+        if (!at) fail_msg("%s is not in %s", wrong[k].from, text);
+        snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - text), text, wrong[k].to,
+                 at + strlen(wrong[k].from));
+        place_write(place, "changed.json", changed);
+        assert_false(amontons_sweep_element(place_path(place, "changed.json"), 0, &err));
+        assert_says(err.message, wrong[k].says);
+    }
+    assert_int_equal(chdir(here), 0);
+}
+
+// A share of a sweep without folders of points, as the sweep wrote it and changed since.
+static void test_share(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char list[PLACE_SIZE + 40], here[4000], text[4000], first[2000];
+    assert_non_null(getcwd(here, sizeof here));
+    place_read(place, "study.yaml", first, sizeof first);
+    const char *set = strstr(first, "set: {") + strlen("set: {");
+    snprintf(text, sizeof text, "%.*soutput.history: false, output.fields: none, %skeep: table\n",
+             (int)(set - first), first, set);
+    place_write(place, "study.yaml", text);
+    snprintf(list, sizeof list, "%s/list.json", place);
+    snprintf(text, sizeof text,
+             "{\"directory\": \"%s\", \"study\": \"%s\", \"folder\": \"%s\", \"set_count\": 0, "
+             "\"set\": [], \"first\": 0}",
+             place, study, folder);
+    place_write(place, "list.json", text);
+    static const struct {
+        const char *share, *says;
+    } wrong[] = {
+        {"99 97e1\n", "fewer points than when the sweep began"},
+        {"-1 97e1\n", "fewer points than when the sweep began"},
+        {"0\n", "fewer points than when the sweep began"},
+        {"1 97e10000000000000000000000000000", "was changed after the sweep began"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        err = (Error){0};
+        place_write(place, "out/slurm/share-0.points", wrong[k].share);
+        assert_false(amontons_sweep_element(list, 0, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_says(err.message, wrong[k].says);
+    }
+    err = (Error){0};
+    place_write(place, "out/slurm/share-0.points", "");
+    if (!amontons_sweep_element(list, 0, &err)) fail_msg("%s", err.message);   // nothing to do
+    place_write(place, "study.yaml", first);
+    assert_int_equal(chdir(here), 0);
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    char text[2000];
+    place_make(place);
+    fake_slurm_make(place);
+    snprintf(study, sizeof study, "%s/study.yaml", place);
+    snprintf(folder, sizeof folder, "%s/out", place);
+    snprintf(text, sizeof text,
+             "scene: %s/validation/paper/fig1.yaml\nset: {mesh.set.nx: 4, mesh.set.nz: 2, "
+             "rod.height: 0, rod.width: 0, reduction.cache: false, time.until.t: 1, "
+             "output.figures: []}\n"
+             "vary: {load.pressure: [0.003, 0.006]}\n",
+             getenv("AMONTONS_SOURCE"));
+    place_write(place, "study.yaml", text);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    place_remove(place);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_ends),    cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_silence), cmocka_unit_test(test_cancel),
+        cmocka_unit_test(test_element), cmocka_unit_test(test_share),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
