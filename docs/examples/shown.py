@@ -61,7 +61,7 @@ def printed(command, folder, environment):
     if done.returncode:
         raise SystemExit(f"{command}\nstatus {done.returncode}\n{done.stdout}")
     return "".join(line for line in done.stdout.replace("\r", "\n").splitlines(True)
-                   if not re.match(r" *\d+ %|.*\bleft$|amontons: building", line))
+                   if not re.match(r"(mesh \d+, run \d+, )? *\d+ %|.*\bleft$|amontons: building", line))
 
 
 def run_here(words, folder):
@@ -87,10 +87,16 @@ def mu_lines(text):
     return {name: found for name, *found in MU.findall(text)}
 
 
+def beginnings(text):
+    """Of its lines, up to the first number: that does not differ from run to run."""
+    return [" ".join(re.match(r"\D*", line)[0].split()) for line in text.splitlines()]
+
+
 def differences(shown, made):
-    """Sentences on what a block shows and a command does not print, or prints otherwise."""
-    before, now = mu_lines(shown), mu_lines(made)
-    return [f"{name}: {before[name][0]} is shown, {now[name][0] if name in now else 'nothing'} comes out" for name in before
+    """Sentences on what a block shows and a command does not print, or prints otherwise: each mu, and how each line begins."""
+    before, now, lines = mu_lines(shown), mu_lines(made), beginnings(made)
+    gone = [f"a line is shown that is no longer printed: {line} ..." for line in beginnings(shown) if line not in lines]
+    return gone + [f"{name}: {before[name][0]} is shown, {now[name][0] if name in now else 'nothing'} comes out" for name in before
             if name not in now or not agree(before[name][1:], now[name][1:])]
 
 
