@@ -223,12 +223,12 @@ def scatter_text(families):
 
 # --- digits without a bar -----------------------------------------------------------------------
 
-def single_meshes(rows):
+def single_meshes(rows, asked):
     """(family, problem, level) of one mesh each: of strangers the plain runs behind their references, pads by the cells that slip there."""
     for problem in own_problems(rows):
         yield from (("78 cases", problem, level) for level in problem.levels)
     shapes = {one.number: one.shape for one in strangers.problems.problems() if one.tuning}
-    for data in map(json.loads, (ROOT / "validation/strangers/before.jsonl").read_text().splitlines()):
+    for data in map(json.loads, asked.read_text().splitlines() if asked.exists() else ()):
         runs = [run for run in data["runs"] if "late" in run and data["number"] in shapes]
         for answer in judge.ANSWERS:
             truth = judge.reference(runs, answer)
@@ -239,10 +239,10 @@ def single_meshes(rows):
                     yield "strangers", Problem(str(data["number"]), pads, truth.value, truth.own, (level,)), level
 
 
-def digits_text(rows, constants=TRIED["now"]):
+def digits_text(rows, asked, constants=TRIED["now"]):
     """As error_bars.c, level_answer_for, and base/text, text_estimate: the last digit printed is worth what one mesh usually leaves, or more."""
     found = {}
-    for family, problem, level in single_meshes(rows):
+    for family, problem, level in single_meshes(rows, asked):
         part = max(level.cells, 0.5) / level.nodes
         kind = kind_of(problem, part)
         scatter, slope = {"pads": [c / part for c in constants.pads], "more": constants.whole,
@@ -290,7 +290,7 @@ bars of the latter are long (their median error is a tenth of them).
 
 A run that asks for no bar prints mu to the digit that is worth twice what is usual of its mesh, or more. Of single meshes, against their reference:
 
-{digits_text(rows)}
+{digits_text(rows, asked)}
 
 ### Cases
 
