@@ -299,8 +299,8 @@ class Run(InFolder):
         info = amontons("info", result)
         self.assertEqual((info.returncode, info.stderr), (0, ""))
         for name in ("mu_M", "mu_hold", "mu_max"):
-            self.assertRegex(info.stdout, rf"\n  {name} +{run['results'][name]:.6g}\b")
-        self.assertEqual(info.stdout.count("\n  leading rapid"),
+            self.assertRegex(info.stdout, rf"\n  {name} +0\.\d+ \(on this mesh {run['results'][name]:.6g}\)")
+        self.assertEqual(info.stdout.count("\n  bulk sliding "),
                          sum(e["kind"].startswith("leading") for e in run["results"]["events"]))
 
         picture = result / "figures" / "force.png"

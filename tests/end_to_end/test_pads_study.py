@@ -156,7 +156,7 @@ class PadsStudy(unittest.TestCase):
         self.assertGreater(high, 1.1 * low)
         self.assertAlmostEqual(run["mu_hold"] / low, 1, delta=0.01)
         self.assertAlmostEqual(run["mu_M"] / high, 1, delta=0.01)
-        self.assertRegex(self.said, rf"mu_hold +{run['mu_hold']:.4f} ")
+        self.assertIn(f"which repeat after 2\n                  on this mesh {run['mu_hold']:.4f} ", self.said)
 
     def put(self, study, point, report):
         """A point of a sweep's folder: its report and its row in the table."""
