@@ -221,6 +221,44 @@ def scatter_text(families):
     return markdown_table(["contact, and the part of it that decides", "problems", "meshes", "off, times nodes", "off, times cells"], table)
 
 
+# --- digits without a bar -----------------------------------------------------------------------
+
+def single_meshes(rows):
+    """(family, problem, level) of one mesh each: of strangers the plain runs behind their references, pads by the cells that slip there."""
+    for problem in own_problems(rows):
+        yield from (("78 cases", problem, level) for level in problem.levels)
+    shapes = {one.number: one.shape for one in strangers.problems.problems() if one.tuning}
+    for data in map(json.loads, (ROOT / "validation/strangers/before.jsonl").read_text().splitlines()):
+        runs = [run for run in data["runs"] if "late" in run and data["number"] in shapes]
+        for answer in judge.ANSWERS:
+            truth = judge.reference(runs, answer)
+            pads = 2 if any(word in str(shapes.get(data["number"])) for word in ("pads", "grooves", "feet", "arch")) else 1
+            for run in runs if truth and truth.value else ():
+                if run["pressure"] == 1 and run["program"].get(answer):
+                    level = Level(run["nodes"], run["slip_cells"] or run["nodes"] - 1, (run["program"][answer],))
+                    yield "strangers", Problem(str(data["number"]), pads, truth.value, truth.own, (level,)), level
+
+
+def digits_text(rows, constants=TRIED["now"]):
+    """As error_bars.c, level_answer_for, and base/text, text_estimate: the last digit printed is worth what one mesh usually leaves, or more."""
+    found = {}
+    for family, problem, level in single_meshes(rows):
+        part = max(level.cells, 0.5) / level.nodes
+        kind = kind_of(problem, part)
+        scatter, slope = {"pads": [c / part for c in constants.pads], "more": constants.whole,
+                          "one piece": [max(n, s / part) for n, s in zip(constants.nodes, constants.slip)]}[kind]
+        few = max(CELLS_ENOUGH / (part * level.nodes), 1)
+        value = level.values[0]
+        known_to = max(2 * math.hypot(scatter * few, slope) / level.nodes, STEPS) * value
+        digits = math.floor(-math.log10(known_to))
+        off = abs(round(value, digits) - round(problem.mu, digits)) * 10 ** digits
+        found.setdefault((family, "pads" if problem.pads > 1 else "one piece"), []).append((off, abs(value - problem.mu) <= known_to, digits))
+    table = [[family, kind, str(len(each)), f"{statistics.mean(held for _, held, _ in each):.3f}", f"{statistics.mean(off < 0.5 for off, *_ in each):.3f}",
+              f"{statistics.mean(off < 1.5 for off, *_ in each):.3f}", ", ".join(f"{d}: {sum(x[2] == d for x in each)}" for d in sorted({x[2] for x in each}))]
+             for (family, kind), each in found.items()]
+    return markdown_table(["problems", "contact", "runs", "within what is usual", "last digit the reference's", "within 1 of it", "digits behind the point"], table)
+
+
 def text_of(rows, asked):
     families = {"78 cases": list(own_problems(rows)), "strangers": list(strangers_problems(asked)) if asked.exists() else []}
     every = markdown_table(["number", "case", "mu_M", "own error, %", "slip, of the nodes", "contact nodes: mu_M"],
@@ -247,6 +285,12 @@ families together, those with the shortest. Pads of the 78 cases scatter three t
 bars of the latter are long (their median error is a tenth of them).
 
 {tried_text(families)}
+
+### Digits of a run without a bar
+
+A run that asks for no bar prints mu to the digit that is worth twice what is usual of its mesh, or more. Of single meshes, against their reference:
+
+{digits_text(rows)}
 
 ### Cases
 
