@@ -108,15 +108,16 @@ static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t l
 }
 
 const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
-                                   int32_t contact_count)
+                                   int32_t contact_count, int32_t dim)
 {
     if (!memchr(status, CONTACT_OPEN, (size_t)contact_count)) return matrix->schur;
-    if (matrix->swept < 0 || matrix->swept > 2 * SWEEPS_EACH * contact_count) renew_copy(matrix);
+    int32_t unknowns = dim * contact_count;
+    if (matrix->swept < 0 || matrix->swept > SWEEPS_EACH * unknowns) renew_copy(matrix);
     int32_t list[TOGETHER], length = 0;
     bool holds = true;
-    for (int32_t k = 0; k < 2 * contact_count && holds; k++) {
-        if ((status[k / 2] == CONTACT_OPEN) != matrix->out[k]) list[length++] = k;
-        if (length < TOGETHER && k + 1 < 2 * contact_count) continue;
+    for (int32_t k = 0; k < unknowns && holds; k++) {
+        if ((status[dof_node(dim, k)] == CONTACT_OPEN) != matrix->out[k]) list[length++] = k;
+        if (length < TOGETHER && k + 1 < unknowns) continue;
         holds = length == 0 || sweep_unknowns(matrix, list, length);
         length = 0;
     }

@@ -105,7 +105,8 @@ void contact_newton_settle(ContactNewton *newton)
     newton->listed = false;
     contact_hold(&newton->equations);
     for (int32_t i = 0; i < newton->equations.problem->interface->contact_count; i++) {
-        double *slip_rate = &at->velocity[interface_tangent(i)];
+        double *slip_rate =
+            &at->velocity[interface_tangent(newton->equations.problem->interface, i)];
         if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
             *slip_rate = 0;
     }
@@ -117,15 +118,15 @@ bool contact_newton_list(ContactNewton *newton)
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
     int32_t *free = newton->equations.free, count = 0;
-    newton->closed =
-        contact_matrix_close(problem->matrix, at->status, problem->interface->contact_count);
+    newton->closed = contact_matrix_close(
+        problem->matrix, at->status, problem->interface->contact_count, problem->interface->dim);
     if (!newton->closed) return false;
     newton->open_count = 0;
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
-        if (status_slips(at->status[i])) free[count++] = interface_tangent(i);
+        if (status_slips(at->status[i])) free[count++] = interface_tangent(problem->interface, i);
         if (at->status[i] != CONTACT_OPEN) continue;
-        newton->open[newton->open_count++] = interface_tangent(i);
-        newton->open[newton->open_count++] = interface_normal(i);
+        newton->open[newton->open_count++] = interface_tangent(problem->interface, i);
+        newton->open[newton->open_count++] = interface_normal(problem->interface, i);
     }
     for (int32_t j = 0; j < problem->interface->rod_count; j++) {
         if (!at->rod_touches[j] || rod_stiffness(problem, j) > 0)

@@ -8,7 +8,7 @@
 
 // As text_estimate has it; that nothing is known of its error is said.
 void estimate_write(HtmlWriter *html, double value, double bar, double known_to);
-// Of the result at `path` in run.json; *bar: its error bar, NaN: none was asked for. NaN: not known.
+// Of the result at `path` in run.json; *bar: its error bar, NaN: none was asked for. NaN: unknown.
 double run_known_to(const RunSource *run, const char *path, double *bar);
 
 // What was found, and how far the computation can be trusted: two tables, each with a caption. Of

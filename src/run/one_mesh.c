@@ -17,6 +17,7 @@ static bool is_undamped(const Simulation *simulation)
 void one_mesh_read(const Simulation *simulation, Level *level)
 {
     level->contact_nodes = simulation->model.interface.contact_count;
+    level->nodes_along = interface_nodes_along(&simulation->model.interface);
     level->pads = simulation->model.interface.pad_count;
     level->undamped = is_undamped(simulation);
 }

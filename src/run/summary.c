@@ -75,10 +75,9 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     add_phase(summary, "mesh", model->seconds_mesh, model->elements, mesh_note(model, fields));
     snprintf(note, sizeof note, "unknowns for %d%s%s", model->full_dofs,
              model->reduced.symmetry ? ", by halves" : "",
-             cached                    ? ", from the cache"
-             : model->upper_from_cache ? ", the block above its pads from the cache"
-             : reduced                 ? ""
-                                       : ": not reduced");
+             cached    ? ", from the cache"
+             : reduced ? ""
+                       : ": not reduced");
     add_phase(summary, "assemble, reduce", model->seconds_reduce, model->system.dof_count, note);
     add_phase(summary, "relax", timing->relax, simulation->relaxation_steps, "steps before t = 0");
     add_phase(summary, "rungs", control->ladder.seconds, simulation->model.system.factorisations,

@@ -42,7 +42,7 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     int32_t count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int64_t t = interface_tangent(i);
+        int64_t t = interface_tangent(interface, i);
         double slope = friction_steepest(friction_at(law, i));
         double ratio = slope * load / length * interface->weight[i] /
                        schur[t * interface->count + t];

@@ -4,6 +4,7 @@
 #include "contact/contact_newton.h"
 
 #include "contact_by_hand.h"
+#include "plane.h"
 
 enum { NODES = 30, RODS = 2 };
 
@@ -99,13 +100,13 @@ static void test_next_solve_begins_from_the_last(void **state)
             hand.bound[k] = random_between(&random, -1e-3, 1e-3);
             hand.reaction[k] = NAN;   // of no use to it
         }
-        hand.velocity[interface_tangent(3)] += 0.25;
+        hand.velocity[plane_tangent(3)] += 0.25;
         contact_newton_begin(&newton, &problem, &solution, 1e-15);
         assert_int_equal(newton.exact, whole[solve]);
         contact_newton_settle(&newton);
         for (int32_t k = 0; k < hand.interface.count; k++)
             assert_near("reaction", hand.reaction[k], force_of(k), 1e-12);
-        hand.velocity[interface_tangent(8)] -= 0.125;
+        hand.velocity[plane_tangent(8)] -= 0.125;
         contact_newton_follow(&newton);
         assert_near("one that moved", hand.reaction[5], force_of(5), 1e-12);
         contact_newton_react(&newton);

@@ -194,6 +194,7 @@ static RunWarnings said_of(Levels *levels)
     for (int32_t k = 0; k < levels->count; k++) {
         Level *level = &levels->list[k];
         level->contact_nodes = 1 + (20 << k);
+        level->nodes_along = level->contact_nodes;
         level->pads = level->run_count = 1;
         for (int32_t kind = 0; kind < ANSWER_KINDS; kind++) {
             level->answer[kind].value = 0.3;

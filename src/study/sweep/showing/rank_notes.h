@@ -3,7 +3,8 @@
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_RANK_NOTES_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_RANK_NOTES_H
 
-#include "study/sweep/showing/rank.h"
+#include "study/sweep/showing/ranking.h"
+#include "study/sweep/showing/table.h"
 
 enum { RANK_NOTE_SIZE = 120 };
 

@@ -78,8 +78,8 @@ static void test_ranks(void **state)
     }
 }
 
-// Three points, one computed again: it moved by 2.5 of its bars before, so those of the others count
-// 2.5 times, and what they decided alone is open.
+// Three points, one computed again: it moved by 2.5 of its bars before, so those of the others
+// count 2.5 times, and what they decided alone is open.
 static void test_refined(void **state)
 {
     (void)state;
