@@ -7,26 +7,46 @@
 #include <math.h>
 #include <string.h>
 
+enum { SAMPLES = 32 };   // of a formula over the part of a node; exact where it is straight
+
 static bool no_name(const void *context, const char *name, double *value)
 {
     (void)context, (void)name, (void)value;
     return false;
 }
 
-// Of node i; text: a formula of x, empty: 1.
+// Where the part of the contact begins that node i stands for: as long as its weight, behind those
+// of the nodes of its pad before it.
+static double part_of(const Interface *interface, int32_t i)
+{
+    double from = NAN;
+    for (int32_t k = 0; k < i; k++) {
+        if (interface->pad[k] != interface->pad[i]) continue;
+        from = (isnan(from) ? interface->x[k] : from) + interface->weight[k];
+    }
+    return isnan(from) ? interface->x[i] : from;
+}
+
+// Of node i, the mean over its part: taken at its place alone, a jump would lie up to half a cell
+// off, and mu of all meshes that share this would agree on what it makes of it. text: a formula of
+// x, empty: 1.
 static bool factor_at(const Interface *interface, int32_t i, const char *text, double *factor,
                       Error *err)
 {
     static const FormulaNames names = {no_name, NULL, "x", "is no number here: x alone"};
     Formula formula;
-    double ignored, value = 1;
+    double ignored, sum = 0;
     if (!*text) return true;
     TRY(formula_read(text, &names, &formula, err));
-    value = formula_at(&formula, interface->x[i], &ignored);
-    if (!(value >= 0 && isfinite(value)))
-        FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed",
-             interface->x[i], value);
-    *factor *= value;
+    double from = part_of(interface, i);
+    for (int32_t k = 0; k < SAMPLES; k++) {
+        double x = from + (k + 0.5) / SAMPLES * interface->weight[i];
+        double value = formula_at(&formula, x, &ignored);
+        if (!(value >= 0 && isfinite(value)))
+            FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed", x, value);
+        sum += value;
+    }
+    *factor *= sum / SAMPLES;
 cleanup:
     return error_is_clean(err);
 }

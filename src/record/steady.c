@@ -71,7 +71,7 @@ void steady_answer(const Steady *steady, Answers *answers)
     if (!is_steady(steady, answers)) return;
     answers->mu_M = steady_mu(steady);
     answers->mu_M.error = 0.5 * STEADY_RANGE * answers->mu_M.value;   // what it is known to
-    answers->mu_M_known_to = answers->mu_M.error;
+    answers->mu_M_known_to = STEADY_RANGE * answers->mu_M.value;   // most other meshes
     answers->mu_M_parts = (ErrorParts){NAN, NAN, NAN};
 }
 
