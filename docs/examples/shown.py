@@ -9,8 +9,8 @@ stand, in a folder of its own.
 
 `<!-- small: KEY=VALUE -->` above a block says what is coarse there. A line `<!-- from FILE -->` above a picture names the file that a command made: it is kept in docs/pictures, small enough
 for a page. A block that begins with `# docs/examples/NAME` (or `//`) shows that file. In a sentence, `0.329 +- 0.003<!-- mu_M of results/NAME -->` is what
-the command with `-o results/NAME` prints behind mu_M. --check: each mu within the larger of both bars, or 1 % (runs differ by that from processor to processor, as slip
-goes one cell farther or not).
+the command with `-o results/NAME` prints behind mu_M. --check: each mu within the larger of both bars, 1 of the last digit shown, or 1 % (runs differ by that
+from processor to processor, as slip goes one cell farther or not); only what prints a mu is run, and what it needs.
 """
 import argparse
 import os
@@ -29,6 +29,8 @@ COARSE = "mesh.set.refine=0.15"
 CLOSE = 0.01   # of mu
 VALUE = r"[\d.]+(?:e[-+]?\d+)?"
 MU = re.compile(rf"^ +(mu_\w+) +(({VALUE})(?: \+- ({VALUE}))?)(?=[ :,]|$)", re.M)   # a line of what a run ends with
+BLOCK = r"^(?:<!-- small: (\S+) -->\n)?```console\n(.*?)^```\n"
+RESULT = re.compile(r" -o (\S+)")
 IN_SENTENCE = re.compile(rf"(({VALUE})(?:\s\+-\s({VALUE}))?)(<!-- (mu_\w+) of (\S+) -->)")
 # Coarse meshes, wide error bars or none, whatever the command asks for.
 SMALL = r"""#!/bin/bash
@@ -61,7 +63,7 @@ def printed(command, folder, environment):
     if done.returncode:
         raise SystemExit(f"{command}\nstatus {done.returncode}\n{done.stdout}")
     return "".join(line for line in done.stdout.replace("\r", "\n").splitlines(True)
-                   if not re.match(r" *\d+ %|.*\bleft$|amontons: building", line))
+                   if not re.match(r"(mesh \d+, run \d+, )? *\d+ %|.*\bleft$|amontons: building", line))
 
 
 def run_here(words, folder):
@@ -79,7 +81,20 @@ def commands(block):
 def agree(shown, made):
     """Of two (value, bar or None), as written."""
     bars = [float(bar) for _, bar in (shown, made) if bar]
-    return abs(float(shown[0]) - float(made[0])) <= max([*bars, CLOSE * abs(float(made[0]))])
+    digit = 10.0 ** -len(shown[0].partition(".")[2])
+    return abs(float(shown[0]) - float(made[0])) <= 1.001 * max([*bars, digit, CLOSE * abs(float(made[0]))])
+
+
+def that_tell(text):
+    """Commands of a page that print a mu, a result that a sentence quotes, or what such a command needs."""
+    every = [each for block in re.findall(BLOCK, text, re.S | re.M) for each in commands(block[1])]
+    wanted, tell = {result for *_, result in IN_SENTENCE.findall(text)}, set()
+    for command, shown in reversed(every):
+        makes = set(RESULT.findall(command))
+        if MU.search(shown) or makes & wanted:
+            tell.add(command)
+            wanted |= set(re.findall(r"results/[\w.-]+", command)) - makes
+    return tell
 
 
 def mu_lines(text):
@@ -87,10 +102,16 @@ def mu_lines(text):
     return {name: found for name, *found in MU.findall(text)}
 
 
+def beginnings(text):
+    """Of its lines, up to the first number: that does not differ from run to run."""
+    return [" ".join(re.match(r"\D*", line)[0].split()) for line in text.splitlines()]
+
+
 def differences(shown, made):
-    """Sentences on what a block shows and a command does not print, or prints otherwise."""
-    before, now = mu_lines(shown), mu_lines(made)
-    return [f"{name}: {before[name][0]} is shown, {now[name][0] if name in now else 'nothing'} comes out" for name in before
+    """Sentences on what a block shows and a command does not print, or prints otherwise: each mu, and how each line begins."""
+    before, now, lines = mu_lines(shown), mu_lines(made), beginnings(made)
+    gone = [f"a line is shown that is no longer printed: {line} ..." for line in beginnings(shown) if line not in lines]
+    return gone + [f"{name}: {before[name][0]} is shown, {now[name][0] if name in now else 'nothing'} comes out" for name in before
             if name not in now or not agree(before[name][1:], now[name][1:])]
 
 
@@ -122,29 +143,31 @@ def keep_picture(made, kept):
 
 def run_page(page, folder, environment, options):
     text, small = page.read_text(), options.small
-    printed_by, apart = {}, []   # what each result's command prints; sentences on what does not agree
+    tell, printed_by, apart = that_tell(text), {}, []   # what each result's command prints; sentences on what does not agree
 
     def block(found):
         shown = ""
         environment["COARSE"] = found[1] or COARSE
         for command, before_now in commands(found[2]):
+            if options.check and command not in tell:
+                continue
             before = os.times()
             if small and command.startswith("python3 "):
                 run_here(command.split(), folder)
             else:
                 made = printed(command, folder, environment)
                 shown += f"$ {command}\n" + made
-                printed_by.update({result: made for result in re.findall(r" -o (\S+)", command)})
+                printed_by.update({result: made for result in RESULT.findall(command)})
                 apart.extend([] if small else differences(before_now, made))
             after = os.times()
             print(f"{page.name}: {sum(after[:4]) - sum(before[:4]):5.1f} s  {command}", file=sys.stderr, flush=True)
         return found[0][:found.start(2) - found.start()] + shown + "```\n"
 
-    written = re.sub(r"^(?:<!-- small: (\S+) -->\n)?```console\n(.*?)^```\n", block, text, flags=re.S | re.M)
-    for made, kept in re.findall(r"<!-- from (\S+) -->\n!\[[^\]]*\]\((\S+)\)", text):
+    written = re.sub(BLOCK, block, text, flags=re.S | re.M)
+    for made, kept in () if options.check else re.findall(r"<!-- from (\S+) -->\n!\[[^\]]*\]\((\S+)\)", text):
         if not (folder / made).is_file():
             raise SystemExit(f"{page.name}: no command makes {made}")
-        if not small and not options.check:
+        if not small:
             keep_picture(folder / made, page.parent / kept)
     for mark, name, shown in re.findall(r"^```\w*\n((?:#|//) (docs/examples/\S+)\n)(.*?)^```", text, re.S | re.M):
         if (SOURCE / name).read_text() != shown:

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { NAME_MAX_LENGTH = 127, DECIMALS_MAX = 12 };
+static const double ROUNDS_UP = 0.995;   // from here on two digits become the next power of ten
 
 static int32_t smaller(int32_t a, int32_t b)
 {
@@ -103,7 +104,7 @@ static int decimals_to(double place, double value)
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
     bool has_bar = isfinite(bar);
-    double place = has_bar ? floor(log10(bar)) - 1 : ceil(log10(known_to));
+    double place = has_bar ? floor(log10(bar / ROUNDS_UP)) - 1 : ceil(log10(known_to));
     int decimals = decimals_to(place, value);
     if (isnan(value))
         snprintf(text, ESTIMATE_SIZE, "none");

@@ -143,9 +143,12 @@ static void print_mu_hold(const RunSummary *summary)
     print_estimate("mu_hold", summary->mu_hold, bar ? summary->mu_hold_error : (double)NAN,
                    summary->mu_hold_known_to);
     if (bar) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
-    say("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
-        summary->drops_enough ? "" : " so far",
-        summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
+    say("%s: what the contact holds, ", summary->drops_enough ? "" : " so far");
+    if (summary->drops == 1)
+        say("the one load ratio at which the load dropped\n");
+    else
+        say("the %s of %d load ratios at which the load dropped\n",
+            summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
     print_regime(summary);
     if (bar) return;
     if (isnan(summary->mu_M)) print_known_to(summary->mu_hold_known_to);

@@ -138,7 +138,7 @@ static void write_frame_link(HtmlWriter *html, const RenderFrames *frames, doubl
 static void write_event(HtmlWriter *html, const EventTable *table, int32_t k, const double scale[2],
                         const RenderFrames *frames)
 {
-    static const char *const kinds[KINDS] = {"quasi-static", "bounded rapid", "leading rapid"};
+    static const char *const kinds[KINDS] = {"quasi-static", "bounded rapid", "bulk sliding"};
     double *const *column = table->column;
     int32_t kind = column[KIND][k] >= 0 && column[KIND][k] < KINDS ? (int32_t)column[KIND][k] : -1;
     const double shown[] = {column[U_START][k],
@@ -163,7 +163,7 @@ static void write_head(HtmlWriter *html, const RunSource *run)
     const char *length = run->si ? "m" : "<i>L</i><sub>0</sub>";
     const char *time = run->si ? "s" : "<i>t</i><sub>0</sub>";
     html_markup(html, "<div class='wide'><table class='events'><caption>Slow and rapid slips that "
-                      "come before sliding, and sliding itself (leading rapid)</caption><thead><tr>"
+                      "come before sliding, and the sliding of the whole block</caption><thead><tr>"
                       "<th scope='col' class='number'>no.</th><th scope='col'>kind</th>");
     html_markup(html,
                 "<th scope='col' class='number'><i>U</i> start, %s</th>"

@@ -105,7 +105,7 @@ enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
 
 static void write_events(double *const column[EVENT_COLUMNS], int32_t count, FILE *out)
 {
-    static const char *const kinds[] = {"quasi-static", "bounded rapid", "leading rapid"};
+    static const char *const kinds[] = {"quasi-static", "bounded rapid", "bulk sliding"};
     if (count == 0) return;
     fprintf(out, "\n  %-14s %12s %12s %12s %14s\n", "event", "U start", "U stop", "reach",
             "peak slip rate");

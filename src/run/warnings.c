@@ -181,8 +181,11 @@ void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
         if (last->answer[kind].apart)
             warnings_add(warnings,
                          "the last mesh and all meshes together disagree: %s is %.4f there and "
-                         "%.4f by all, so the error bar is as long as they are apart",
-                         ANSWER_NAMES[kind], level_value(last, kind), last->answer[kind].value);
+                         "%.4f by all%s",
+                         ANSWER_NAMES[kind], level_value(last, kind), last->answer[kind].value,
+                         isnan(last->answer[kind].bar)
+                             ? ""
+                             : ", so the error bar is as long as they are apart");
 }
 
 static bool gives_parameter(const Scene *scene, const char *name)

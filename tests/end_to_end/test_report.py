@@ -218,7 +218,7 @@ class Run(Sound):
         self.assertEqual(len(rows), len(events))
         for row, event in zip(rows, events):
             cells = [c.text for c in row.children]
-            self.assertEqual(cells[1], event["kind"])
+            self.assertEqual(cells[1], event["kind"].replace("leading rapid", "bulk sliding"))
             for cell, value in zip(row.children[2:7], (event["U_start"], event["U_stop"], event["t_stop"] - event["t_start"],
                                                        event["reach"], event["peak_slip_rate"] / 1e-5)):
                 self.check_number(cell, value)

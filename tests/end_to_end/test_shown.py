@@ -19,8 +19,10 @@ PICTURES_MAX = 3_000_000   # bytes in all, a film among them: pages are read on 
 
 class Shown(unittest.TestCase):
     def test_numbers(self):
-        """README and docs/accuracy.md show the mu that their commands print, with and without an error bar."""
-        checked = [SOURCE / "README.md", SOURCE / "docs/accuracy.md"]
+        """Pages show the mu that their commands print, with and without an error bar, in blocks and in sentences."""
+        checked = [SOURCE / name for name in ("README.md", "docs/accuracy.md", "docs/tutorial.md", "docs/cookbook.md", "docs/meshes.md")]
+        self.assertEqual([page.name for page in SOURCE.glob("docs/*.md")
+                          if page not in checked and re.search(r"^ +mu_\w+ +[\d.]+", page.read_text(), re.M)], [])
         done = subprocess.run([SOURCE / "docs/examples/shown.py", "--check", *checked], capture_output=True, text=True,
                               env=os.environ | preload(BIN / "libamontons.so"))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

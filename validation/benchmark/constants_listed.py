@@ -298,6 +298,7 @@ NOT_A_CHOICE = {
         "RUNGS": "counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
         "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory"},
+    "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
 }

@@ -3,17 +3,18 @@
 """The same answers with other kernels of OpenBLAS: ten scenes, each once as it is and once with an error bar, under the
 kernels of five kinds of processor.
 
-    validation/hostile/kernels.py [-j N] [-o FOLDER]
+    validation/hostile/kernels.py [-j N] [-o FOLDER] [--page docs/reliability.md]
 
 A run as it is multiplies a difference of rounding at each sliding: where load drops come in another order or number, or
 one differs by more than BRANCH, a branch was flipped, and the table says so. An answer with a bar must agree with that of the first kernels
 within both bars, as errors that are independent of each other. Prints a table and leaves kernels.md in FOLDER (default
-results/hostile). Exit status 1: two answers differ by more than their bars.
+results/hostile), and in the place of the table on a page. Exit status 1: two answers differ by more than their bars.
 """
 import argparse
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -83,6 +84,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/hostile")
+    parser.add_argument("--page", type=Path, help="its table is written anew")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=SCRATCH) as scratch, ThreadPoolExecutor(options.jobs) as pool:
         found = {(scene, kernels, bar): pool.submit(run, scene, kernels, bar, scratch)
@@ -101,6 +103,8 @@ def main():
     text = "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows])
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "kernels.md").write_text(text + "\n")
+    if options.page:
+        options.page.write_text(re.sub(r"^\| scene \| mu_hold,.*?\n(?!\|)", lambda _: text + "\n", options.page.read_text(), flags=re.S | re.M))
     print(f"{text}\n\n{len(rows) * (len(KERNELS) - 1)} answers compared, {wrong} beyond their bars")
     return 1 if wrong else 0
 

@@ -121,6 +121,9 @@ static void test_what_holds(void **state)
     assert_says(said, "0.20 so far: what the contact holds, the lowest tenth of 7 load ratios");
     assert_says(said, "finer meshes keep as a rule");   // there is no mu_M that says it
     assert_says(said, "too few to say");
+    summary.drops = 1;
+    assert_says(closing("", &summary), "the one load ratio at which the load dropped\n");
+    summary.drops = 7;
     summary.drops_enough = true;
     assert_says(closing("", &summary), "which do not repeat");
     summary.drop_period = 1;

@@ -237,7 +237,7 @@ static void test_many_events(void **state)
     expect(page, "The last 300 of 400; all are in run.json.");
     expect(page, ">101</td><td>quasi-static<");
     expect_not(page, ">100</td><td>quasi-static<");
-    expect(page, ">398</td><td>leading rapid<");
+    expect(page, ">398</td><td>bulk sliding<");
     expect(page, ">399</td><td>unknown<");
     expect(page, ">400</td><td>unknown<");
 }

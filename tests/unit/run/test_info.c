@@ -96,7 +96,7 @@ static void test_result(void **state)
         "3 states at 2 contact nodes, U from 0 to 0.5, largest mu 0.375",
         "quasi-static            0.1          0.1          0.1            0.1",
         "bounded rapid           0.2",
-        "leading rapid           0.3",
+        "bulk sliding            0.3",
         NULL};
     static const char *const failed[] = {"status             failed",
                                          "failure            computation failed",

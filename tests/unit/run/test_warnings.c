@@ -124,6 +124,24 @@ static void test_too_few_cells(void **state)
     assert_non_null(strstr(found.text[0], "halve mesh.set.size_contact"));
 }
 
+// An error bar is as long as they are apart only where there is one.
+static void test_last_mesh_apart(void **state)
+{
+    (void)state;
+    RunWarnings found = {0};
+    Levels levels = {.count = 1};
+    Level *last = &levels.list[0];
+    last->run_count = 1;
+    last->runs[0].answer[ANSWER_MU_HOLD] = (Estimate){0.23, NAN};
+    last->answer[ANSWER_MU_HOLD] = (ErrorBar){.value = 0.2, .bar = 0.03, .apart = true};
+    warnings_of_last_mesh(&levels, &found);
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "mu_hold is 0.2300 there and 0.2000 by all, so the"));
+    last->answer[ANSWER_MU_HOLD].bar = NAN;
+    warnings_of_last_mesh(&levels, &found);
+    assert_string_equal(strstr(found.text[1], "0.2000"), "0.2000 by all");
+}
+
 static void test_list_is_bounded(void **state)
 {
     (void)state;
@@ -140,6 +158,7 @@ int main(void)
         cmocka_unit_test(test_resolution),          cmocka_unit_test(test_without_viscosity),
         cmocka_unit_test(test_rod_beside_its_face), cmocka_unit_test(test_too_few_cells),
         cmocka_unit_test(test_list_is_bounded),     cmocka_unit_test(test_tall_block),
+        cmocka_unit_test(test_last_mesh_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
