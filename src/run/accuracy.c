@@ -18,9 +18,9 @@
 
 enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
 static const double STEP = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
-// A run's time goes with a power of the cells along the contact: this before levels tell, and that
-// at least.
-static const double GROWTH = 2.6, GROWTH_LEAST = 1.2;
+// A run's time goes with a power of the cells along the contact: this before levels tell, and
+// between those whatever they tell, as times of short runs on a busy machine are noise.
+static const double GROWTH = 2.6, GROWTH_LEAST = 1.2, GROWTH_MOST = 4;
 
 static double seconds_of_run(const Level *level)
 {
@@ -136,7 +136,7 @@ static double growth_ahead(const Accuracy *accuracy)
     const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
     double finer = log(last->nodes_along / first->nodes_along);
     double power = finer > 0 ? log(seconds_of_run(last) / seconds_of_run(first)) / finer : GROWTH;
-    return pow(next_step(accuracy), fmax(power, GROWTH_LEAST));
+    return pow(next_step(accuracy), fmin(fmax(power, GROWTH_LEAST), GROWTH_MOST));
 }
 
 // Wall time that the next level will take, s.
