@@ -101,7 +101,7 @@ typedef struct RunSummary {
     double mu_M, mu_hold, mu_max, mu_steady;   // mu_steady: at which it slides at the end; NaN
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
-    double mu_M_known_to, mu_hold_known_to, mu_max_known_to;   // 95 %; NaN: cells are too long
+    double mu_M_known_to, mu_hold_known_to, mu_max_known_to;   // NaN: cells are too long
     // Of an error bar (accuracy.mu): runs, meshes, contact nodes of the last, why no more (static).
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
