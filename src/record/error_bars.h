@@ -108,8 +108,8 @@ bool levels_run_in(const Levels *levels);
 // How far the answer of all levels is known: the bar, or what the last mesh alone usually leaves.
 double levels_known_to(const Levels *levels, AnswerKind kind);
 
-// What one mesh alone, without its runs, usually leaves open, and what the drops of a run leave: into
-// how far answers are known. NaN: nothing is known.
+// What one mesh alone, without its runs, usually leaves open, and what the drops of a run leave:
+// into how far answers are known. NaN: nothing is known.
 void level_answer_for(const Level *level, Answers *answers);
 
 // Puts value, error and parts of both answers in the place of those of one run; without any whole

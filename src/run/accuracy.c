@@ -84,8 +84,8 @@ static double next_step(const Accuracy *accuracy)
 static bool try_level(Accuracy *accuracy, double refine, bool *coarse, Error *err)
 {
     begin_level(accuracy, refine * next_step(accuracy));
-    if (!accuracy_run_member(accuracy, coarse, err) &&
-        err->code == ERROR_INPUT && accuracy->step < STEP_SPLIT) {
+    if (!accuracy_run_member(accuracy, coarse, err) && err->code == ERROR_INPUT &&
+        accuracy->step < STEP_SPLIT) {
         *err = (Error){0};
         accuracy->step = STEP_SPLIT;
         accuracy->levels.count--;

@@ -166,7 +166,8 @@ static void expect_full(Accuracy *accuracy, const Simulation *simulation, double
     bool sooner = scene->time.until_periodic || scene->time.until_slidings > 0 ||
                   scene->time.until_mu_below > 0;
     if (sooner || !isfinite(way)) way = fmin(way, 1);
-    if (accuracy->levels.count > 1 && accuracy_last_level(accuracy)->run_count < accuracy_runs_first(accuracy)) return;
+    bool whole = accuracy_last_level(accuracy)->run_count >= accuracy_runs_first(accuracy);
+    if (accuracy->levels.count > 1 && !whole) return;
     accuracy->full = making + fmin(way * stepping, FULL_SHARE * scene->accuracy.within);
 }
 

@@ -39,9 +39,9 @@ double accuracy_seconds_left(const Accuracy *accuracy);
 // What more slidings could still change is a small part of the bar wanted.
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
-// One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the mesh
-// has too few contact nodes, as many as the one before, or its cells are too long for slip; nothing
-// was stepped. Out of time: nothing was added.
+// One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the
+// mesh has too few contact nodes, as many as the one before, or its cells are too long for slip;
+// nothing was stepped. Out of time: nothing was added.
 bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err);
 
 #endif
