@@ -33,6 +33,23 @@ bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy
            memcmp(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count) == 0;
 }
 
+void contact_list_free(ContactEquations *equations, bool of_open)
+{
+    const ContactProblem *problem = equations->problem;
+    const ContactSolution *at = equations->at;
+    int32_t count = 0;
+    for (int32_t i = 0; i < problem->interface->contact_count; i++) {
+        bool open = of_open && at->status[i] == CONTACT_OPEN;
+        if (open || status_slips(at->status[i])) equations->free[count++] = interface_tangent(i);
+        if (open) equations->free[count++] = interface_normal(i);
+    }
+    for (int32_t j = 0; j < problem->interface->rod_count; j++) {
+        if (!at->rod_touches[j] || rod_stiffness(problem, j) > 0)
+            equations->free[count++] = interface_rod(problem->interface, j);
+    }
+    equations->free_count = count;
+}
+
 void contact_hold(const ContactEquations *equations)
 {
     const ContactProblem *problem = equations->problem;

@@ -115,12 +115,12 @@ static void test_follows(void **state)
             assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
             anew++;
         }
-        if (rig.factors.border_count > widest) widest = rig.factors.border_count;
+        if (rig.factors.replaced_count > widest) widest = rig.factors.replaced_count;
         expect_solves(&random, &rig);
     }
     assert_in_range(anew, 5, 40);
     assert_int_equal(updated + anew, 600);
-    assert_in_range(widest, 10, 20);   // 0.2 of 80 rows or so
+    assert_in_range(widest, 10, 20);   // a fifth of 80 rows or so
     end_rig(&rig);
 }
 
@@ -134,7 +134,7 @@ static void test_opens(void **state)
     list_free(&rig);
     assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
     assert_true(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
-    assert_int_equal(rig.factors.border_count, 0);
+    assert_int_equal(rig.factors.replaced_count, 0);
     rig.at.status[OPEN] = CONTACT_OPEN;
     list_free(&rig);
     assert_false(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
@@ -173,7 +173,7 @@ static void test_archive(void **state)
         assert_true(contact_factors_solve(&copy, &rig.equations, y));
         assert_memory_equal(x, y, sizeof x);
     }
-    assert_true(rig.factors.border_count > 2);
+    assert_true(rig.factors.replaced_count > 2);
     contact_factors_destroy(&copy);
     end_rig(&rig);
 }
