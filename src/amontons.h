@@ -20,6 +20,7 @@
 
 #include "amontons_error.h"
 #include "amontons_pictures.h"
+#include "amontons_words.h"
 
 #include <signal.h>
 #include <stdbool.h>
@@ -100,6 +101,7 @@ typedef struct RunSummary {
     double mu_M, mu_hold, mu_max, mu_steady;   // mu_steady: at which it slides at the end; NaN
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
+    double mu_M_known_to, mu_hold_known_to, mu_max_known_to;   // 95 %; NaN: cells are too long
     // Of an error bar (accuracy.mu): runs, meshes, contact nodes of the last, why no more (static).
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
@@ -130,7 +132,7 @@ typedef struct RunSummary {
 typedef struct LevelView {
     int32_t level, contact_nodes, runs;   // level: 1, 2, ...
     const char *answer;   // "mu_M", or "mu_hold" where the block does not slide as a whole
-    double value, bar;   // bar: of the parts that are known
+    double value, bar, known_to;   // NaN: none; the bar, or what one mesh alone usually leaves
     double mesh;   // its part of the bar; NaN: first level
     double seconds, seconds_next;   // wall time; expected of the next mesh, NaN: not known
 } LevelView;
@@ -213,6 +215,8 @@ typedef struct SweepView {
     const char *words;   // "load.pressure=0.003 ...": what tells it from the others
     const char *message;   // why it failed; NULL: it did not
     double mu_M, mu_M_error;   // NaN: none
+    const char *quantity;   // what the study ranks by, "mu_hold"; else "mu_M"
+    double value, bar, known_to;   // of it; bar: with the mesh's part; NaN: none
     bool warned;   // its run.json has warnings
     double seconds;   // of this point
     double seconds_left;   // for the whole sweep, estimated; NaN: not yet
@@ -251,7 +255,6 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
 // Computes one point of a sweep by Slurm: `element` of the list that amontons_sweep left in `path`.
 bool amontons_sweep_element(const char *path, int32_t element, Error *err);
 
-// --- results ------------------------------------------------------------------------------------
 typedef struct InfoOptions {
     const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo
     int32_t override_count;
@@ -260,9 +263,6 @@ typedef struct InfoOptions {
 } InfoOptions;
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds; NULL: plain.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);
-// The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
-int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
-
 #ifdef __cplusplus
 }
 #endif

@@ -81,7 +81,7 @@ static inline void block_add_curve(const BlockLattice *lattice, BlockRow row, Me
 static inline MeshFile block_file(const BlockDef *def)
 {
     Error err = {0};
-    MeshFile file = {0};
+    MeshFile file = {.dim = 2};
     int32_t order = def->kind == ELEMENT_T3 || def->kind == ELEMENT_Q4 ? 1 : 2;
     BlockLattice lattice = {
         .order = order, .columns = order * def->nx + 1, .rows = order * def->nz + 1};

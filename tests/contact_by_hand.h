@@ -30,6 +30,7 @@ typedef struct HandContact {
 static inline void hand_contact_size(HandContact *hand, int32_t contacts, int32_t rods)
 {
     memset(hand, 0, sizeof *hand);
+    hand->interface.dim = 2;
     hand->interface.contact_count = contacts;
     hand->interface.rod_count = rods;
     hand->interface.count = 2 * contacts + rods;

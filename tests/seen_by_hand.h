@@ -5,6 +5,7 @@
 #define AMONTONS_TESTS_SEEN_BY_HAND_H
 
 #include "near.h"
+#include "plane.h"
 #include "record/events.h"
 #include "record/observation.h"
 
@@ -31,7 +32,8 @@ static inline void hand_seen_init(HandSeen *hand)
         hand->status[i] = CONTACT_STICK;
     }
     for (int32_t k = 0; k < 2 * SEEN_NODES; k++) hand->dofs[k] = k;
-    hand->interface = (Interface){.contact_count = SEEN_NODES,
+    hand->interface = (Interface){.dim = 2,
+                                  .contact_count = SEEN_NODES,
                                   .count = 2 * SEEN_NODES,
                                   .x = hand->x,
                                   .weight = hand->weight,
@@ -73,8 +75,8 @@ static inline const Observation *hand_seen(HandSeen *hand, double t, const doubl
     hand->seen.front = 0;
     hand->seen.max_slip_rate = 0;
     for (int32_t i = 0; i < SEEN_NODES; i++) {
-        hand->slip_rate[interface_tangent(i)] = rate[i];
-        if (rate[i] != 0) hand->displacement[interface_tangent(i)] = hand->seen.U;
+        hand->slip_rate[plane_tangent(i)] = rate[i];
+        if (rate[i] != 0) hand->displacement[plane_tangent(i)] = hand->seen.U;
         hand->status[i] = rate[i] > 0 ? CONTACT_SLIP_FORWARD
                                       : (rate[i] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_STICK);
         together = together && rate[i] != 0;

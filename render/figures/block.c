@@ -136,23 +136,18 @@ static void element_strains(const FieldFrame *frame, int32_t e, const double *ve
     const int32_t *nodes = frame->element_nodes + frame->first_node[e];
     ElementKind kind = (ElementKind)frame->kind[e];
     int32_t count = element_node_count(kind);
-    double position[ELEMENT_NODES_MAX][2];
+    MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
     for (int32_t a = 0; a < count; ++a)
-        for (int32_t d = 0; d < 2; ++d) position[a][d] = frame->position[3 * nodes[a] + d];
+        memcpy(position[a], frame->position + 3 * nodes[a], sizeof position[a]);
     for (int32_t at = 0; at < count; ++at) {
-        double xi = 0, eta = 0, j[2][2],
-               slope[2][2] = {{0}};   // slope: of component, along x and z
-        shape_node(kind, at, &xi, &eta);
-        ShapeValues shape = shape_at(kind, xi, eta);
-        double area = shape_jacobian(kind, &shape, (const double(*)[2])position, j);
-        for (int32_t a = 0; a < count; ++a) {
-            double along_x = (shape.slope[a][0] * j[1][1] - shape.slope[a][1] * j[1][0]) / area;
-            double along_z = (shape.slope[a][1] * j[0][0] - shape.slope[a][0] * j[0][1]) / area;
+        double slope[2][2] = {{0}};   // of component, along x and z
+        ShapeValues shape = shape_at(kind, shape_node(kind, at));
+        shape_gradients(kind, &shape, (const MeshPlace *)position, gradient);
+        for (int32_t a = 0; a < count; ++a)
             for (int32_t d = 0; d < 2; ++d) {
-                slope[d][0] += along_x * vectors[3 * nodes[a] + d];
-                slope[d][1] += along_z * vectors[3 * nodes[a] + d];
+                slope[d][0] += gradient[a][0] * vectors[3 * nodes[a] + d];
+                slope[d][1] += gradient[a][1] * vectors[3 * nodes[a] + d];
             }
-        }
         strain[3 * nodes[at]] += slope[0][0];
         strain[3 * nodes[at] + 1] += slope[1][1];
         strain[3 * nodes[at] + 2] += slope[0][1] + slope[1][0];

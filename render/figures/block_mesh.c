@@ -26,11 +26,6 @@ static Point node_place(const Block *block, const Axes *axes, int32_t node)
     return axes_place(axes, block->place[node][0], block->place[node][1]);
 }
 
-static int32_t corner_count(ElementKind kind)
-{
-    return kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
-}
-
 // Along each side as many parts as its length asks for, whichever element it belongs to: elements
 // side by side leave no crack. Inside as many as along the side that has most. A T3 stays whole:
 // beside a quadrilateral that is cut a pixel may be missed.
@@ -42,7 +37,7 @@ static Parts choose_parts(const Block *block, const Axes *axes, int32_t e)
 {
     const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
     ElementKind kind = (ElementKind)block->frame.kind[e];
-    int32_t corners = corner_count(kind);
+    int32_t corners = element_corner_count(kind);
     Parts parts = {1, {1, 1, 1, 1}};
     if (kind == ELEMENT_T3) return parts;
     for (int32_t k = 0; k < corners; ++k) {
@@ -85,13 +80,13 @@ static void fill_lattice(const Block *block, const Axes *axes, int32_t e, const 
     const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
     ElementKind kind = (ElementKind)block->frame.kind[e];
     int32_t count = element_node_count(kind), last = parts->inside;
-    bool triangle = corner_count(kind) == 3;
+    bool triangle = element_corner_count(kind) == 3;
     for (int32_t j = 0; j <= last; ++j)
         for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
             double at[2], x = 0, z = 0, value = 0;
             lattice_place(parts, triangle, i, j, at);
-            ShapeValues shape = triangle ? shape_at(kind, at[0], at[1])
-                                         : shape_at(kind, 2 * at[0] - 1, 2 * at[1] - 1);
+            for (int32_t d = 0; d < 2 && !triangle; ++d) at[d] = 2 * at[d] - 1;
+            ShapeValues shape = shape_at(kind, at);
             for (int32_t a = 0; a < count; ++a) {
                 x += shape.value[a] * block->place[nodes[a]][0];
                 z += shape.value[a] * block->place[nodes[a]][1];
@@ -125,7 +120,7 @@ static bool each_triangle(const Block *block, const Axes *axes, const double *le
         if (level && !may_reach(block, e, *level)) continue;
         Parts chosen = choose_parts(block, axes, e);
         int32_t parts = chosen.inside, row = parts + 1;
-        bool triangle = corner_count((ElementKind)block->frame.kind[e]) == 3;
+        bool triangle = element_corner_count((ElementKind)block->frame.kind[e]) == 3;
         fill_lattice(block, axes, e, &chosen, lattice);
         for (int32_t j = 0; going && j < parts; ++j)
             for (int32_t i = 0; going && i < (triangle ? parts - j : parts); ++i) {
@@ -236,7 +231,7 @@ typedef struct Side {
 static Side element_side(const FieldFrame *frame, int32_t e, int32_t k)
 {
     const int32_t *nodes = frame->element_nodes + frame->first_node[e];
-    int32_t corners = corner_count((ElementKind)frame->kind[e]);
+    int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
     int32_t a = nodes[k], b = nodes[(k + 1) % corners];
     bool curved = frame->first_node[e + 1] - frame->first_node[e] >= 2 * corners;
     return (Side){a < b ? a : b, a < b ? b : a, curved ? nodes[corners + k] : -1};
@@ -268,7 +263,7 @@ bool block_outline_draw(const Page *page, const Block *block, const Axes *axes,
     Side *sides = NEW_ARRAY(Side, 4 * (int64_t)frame->element_count, err);
     if (!sides) return false;
     for (int32_t e = 0; e < frame->element_count; ++e)
-        for (int32_t k = 0; k < corner_count((ElementKind)frame->kind[e]); ++k)
+        for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k)
             sides[count++] = element_side(frame, e, k);
     qsort(sides, (size_t)count, sizeof *sides, compare_sides);
     for (int64_t k = 0; k < count; ++k) {
@@ -285,7 +280,7 @@ void block_edges_draw(const Page *page, const Block *block, const Axes *axes, co
 {
     const FieldFrame *frame = &block->frame;
     for (int32_t e = 0; e < frame->element_count; ++e)
-        for (int32_t k = 0; k < corner_count((ElementKind)frame->kind[e]); ++k) {
+        for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k) {
             Side side = element_side(frame, e, k);
             side_draw(page, block, axes, &side, stroke);
         }

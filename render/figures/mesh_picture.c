@@ -110,17 +110,12 @@ static void place_frame(MeshPage *map)
 
 // --- elements -----------------------------------------------------------------------------------
 
-static int32_t corner_count(ElementKind kind)
-{
-    return kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
-}
-
 // The outline [n] of an element, through the middles of its sides where it has them.
 static int32_t element_outline(const MeshPage *map, int32_t e, Point *outline)
 {
     const RenderMesh *mesh = map->mesh;
     const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-    int32_t corners = corner_count((ElementKind)mesh->kind[e]), count = 0;
+    int32_t corners = element_corner_count((ElementKind)mesh->kind[e]), count = 0;
     bool curved = mesh->first_node[e + 1] - mesh->first_node[e] >= 2 * corners;
     for (int32_t k = 0; k < corners; ++k) {
         outline[count++] = node_place(map, nodes[k]);

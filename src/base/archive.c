@@ -8,6 +8,7 @@
 
 // A list has room for twice its items at most, but for its first room (base/memory).
 enum { FIRST_ROOM_MAX = 1024 };
+enum { LENGTH_LIMIT = 1 << 28 };
 static const int64_t COUNT_MAX = (int64_t)1 << 53;   // beyond any run; the sum of some is none too
 
 Archive archive_measure(void)
@@ -18,6 +19,11 @@ Archive archive_measure(void)
 Archive archive_write(void *bytes, int64_t size)
 {
     return (Archive){.mode = ARCHIVE_WRITES, .bytes = bytes, .size = size};
+}
+
+Archive archive_send(ArchiveSend send, void *context)
+{
+    return (Archive){.mode = ARCHIVE_SENDS, .send = send, .context = context};
 }
 
 // The bytes are only read: one pointer serves both ways.
@@ -31,12 +37,18 @@ bool archive_reads(const Archive *archive)
     return archive->mode == ARCHIVE_READS;
 }
 
+bool archive_fills(const Archive *archive)
+{
+    return archive_reads(archive) && !archive->failed;
+}
+
 // The next `count` pieces of `size` bytes, to or from `values`.
 static void pass(Archive *archive, void *values, int64_t count, size_t size)
 {
     int64_t bytes = count * (int64_t)size;
     if (archive->failed) return;
-    if (archive->mode != ARCHIVE_MEASURES && bytes > archive->size - archive->at) {
+    bool in_memory = archive->mode == ARCHIVE_WRITES || archive->mode == ARCHIVE_READS;
+    if (in_memory && bytes > archive->size - archive->at) {
         archive->failed = true;
         return;
     }
@@ -44,6 +56,8 @@ static void pass(Archive *archive, void *values, int64_t count, size_t size)
         memcpy(archive->bytes + archive->at, values, (size_t)bytes);
     if (archive->mode == ARCHIVE_READS && bytes > 0)
         memcpy(values, archive->bytes + archive->at, (size_t)bytes);
+    if (archive->mode == ARCHIVE_SENDS && !archive->send(archive->context, values, bytes))
+        archive->failed = true;
     archive->at += bytes;
 }
 
@@ -80,12 +94,17 @@ void archive_flag(Archive *archive, bool *flag)
     *flag = octet != 0;
 }
 
-// An array, its length before it.
-static void pass_array(Archive *archive, void *values, int64_t count, size_t size)
+static void pass_length(Archive *archive, int64_t count)
 {
     int64_t found = count;
     archive_count(archive, &found);
     if (found != count) archive->failed = true;
+}
+
+// An array, its length before it.
+static void pass_array(Archive *archive, void *values, int64_t count, size_t size)
+{
+    pass_length(archive, count);
     pass(archive, values, count, size);
 }
 
@@ -122,6 +141,71 @@ void archive_text(Archive *archive, char *text, int64_t size)
 {
     pass_array(archive, text, size, 1);
     if (archive_reads(archive)) text[size - 1] = 0;
+}
+
+void archive_length(Archive *archive, int32_t *length)
+{
+    archive_index(archive, length, 0, LENGTH_LIMIT);
+}
+
+void archive_require(Archive *archive, bool condition)
+{
+    if (archive_reads(archive) && !condition) archive->failed = true;
+}
+
+// An item takes a byte or more: a false count asks for little beyond what there is.
+void *archive_new(Archive *archive, void *known, int64_t count, size_t size)
+{
+    if (!archive_reads(archive)) return known;
+    archive_require(archive, count >= 0 && count <= archive->size - archive->at);
+    void *made = archive->failed ? NULL : memory_array(count, size, archive->err);
+    archive_require(archive, made != NULL);
+    return made;
+}
+
+void archive_new_numbers(Archive *archive, double **numbers, int64_t count)
+{
+    *numbers = archive_new(archive, *numbers, count, sizeof **numbers);
+    archive_numbers(archive, *numbers, count);
+}
+
+void archive_new_counts(Archive *archive, int64_t **counts, int64_t count)
+{
+    *counts = archive_new(archive, *counts, count, sizeof **counts);
+    pass_array(archive, *counts, count, sizeof **counts);
+    for (int64_t k = 0; !archive->failed && k < count; k++)
+        archive_require(archive, (*counts)[k] >= 0 && (*counts)[k] <= COUNT_MAX);
+}
+
+void archive_new_indices(Archive *archive, int32_t **indices, int64_t count, int32_t low,
+                         int32_t high)
+{
+    *indices = archive_new(archive, *indices, count, sizeof **indices);
+    archive_indices(archive, *indices, count, low, high);
+}
+
+void archive_new_octets(Archive *archive, uint8_t **octets, int64_t count, uint8_t high)
+{
+    *octets = archive_new(archive, *octets, count, sizeof **octets);
+    archive_octets(archive, *octets, count);
+    for (int64_t k = 0; !archive->failed && k < count; k++)
+        archive_require(archive, (*octets)[k] < high);
+}
+
+void archive_lend_numbers(Archive *archive, double **numbers, int64_t count)
+{
+    char zeros[ARCHIVE_LINE] = {0};
+    pass_length(archive, count);
+    pass(archive, zeros, -archive->at & (ARCHIVE_LINE - 1), 1);
+    if (!archive_reads(archive)) {
+        pass(archive, *numbers, count, sizeof **numbers);
+        return;
+    }
+    int64_t left = (archive->size - archive->at) / (int64_t)sizeof **numbers;
+    archive_require(archive, count >= 0 && count <= left);
+    if (archive->failed) return;
+    *numbers = (double *)(void *)(archive->bytes + archive->at);
+    archive->at += count * (int64_t)sizeof **numbers;
 }
 
 bool archive_list(Archive *archive, void **list, int32_t *count, int32_t *room, size_t size,

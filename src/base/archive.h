@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A state as bytes. Whoever has a part of the state lists it in one function, which writes it,
-// reads it back, or only measures it, as the archive is set: so what is written and what is read
-// cannot differ.
+// A state, or what a cache keeps, as bytes. Whoever has a part of it lists that in one function,
+// which writes it, reads it back, or only measures it, as the archive is set: so what is written
+// and what is read cannot differ.
 //
 //     void energy_archive(EnergyLedger *ledger, Archive *archive)
 //     {
@@ -20,9 +20,17 @@
 
 #include <stddef.h>
 
-typedef enum ArchiveMode { ARCHIVE_MEASURES, ARCHIVE_WRITES, ARCHIVE_READS } ArchiveMode;
+typedef enum ArchiveMode {
+    ARCHIVE_MEASURES,
+    ARCHIVE_WRITES,
+    ARCHIVE_SENDS,
+    ARCHIVE_READS
+} ArchiveMode;
 
-enum { ARCHIVE_NAME_SIZE = 24 };
+enum { ARCHIVE_NAME_SIZE = 24, ARCHIVE_LINE = 64 };
+
+// Takes the next bytes of an archive that is not in memory; false: it cannot.
+typedef bool (*ArchiveSend)(void *context, const void *bytes, int64_t size);
 
 typedef struct Archive {
     ArchiveMode mode;
@@ -31,10 +39,14 @@ typedef struct Archive {
     int64_t at;   // bytes gone through
     bool failed;   // what is read is not what was asked for
     char section[ARCHIVE_NAME_SIZE];   // where
+    ArchiveSend send;
+    void *context;   // of send; not owned
+    Error *err;   // where reading says that there is no memory for an array; not owned
 } Archive;
 
 Archive archive_measure(void);
 Archive archive_write(void *bytes, int64_t size);
+Archive archive_send(ArchiveSend send, void *context);
 Archive archive_read(const void *bytes, int64_t size);
 
 void archive_section(Archive *archive, const char *name);   // shorter than ARCHIVE_NAME_SIZE
@@ -49,6 +61,20 @@ void archive_indices(Archive *archive, int32_t *indices, int64_t count, int32_t 
 void archive_index(Archive *archive, int32_t *index, int32_t low, int32_t high);
 void archive_octets(Archive *archive, uint8_t *octets, int64_t count);
 void archive_text(Archive *archive, char *text, int64_t size);   // all of its array
+void archive_length(Archive *archive, int32_t *length);   // from 0 to below 2^28: a few add up
+void archive_require(Archive *archive, bool condition);   // of what is read: else it is a fault
+
+// The same of arrays that reading makes, `count` long, the caller's to free; NULL after a fault.
+void *archive_new(Archive *archive, void *known, int64_t count,
+                  size_t size);   // items to go through
+void archive_new_numbers(Archive *archive, double **numbers, int64_t count);
+void archive_new_counts(Archive *archive, int64_t **counts, int64_t count);
+void archive_new_indices(Archive *archive, int32_t **indices, int64_t count, int32_t low,
+                         int32_t high);
+void archive_new_octets(Archive *archive, uint8_t **octets, int64_t count, uint8_t high);
+// Numbers at a multiple of ARCHIVE_LINE bytes, which reading leaves where they are: *numbers points
+// into the archive's bytes.
+void archive_lend_numbers(Archive *archive, double **numbers, int64_t count);
 
 // A list that grows: its length and room, as memory_grow has them. Reading makes *list anew with
 // that room (owned by the caller, zeroed), for the caller to go through its `*count` items.
@@ -56,6 +82,7 @@ bool archive_list(Archive *archive, void **list, int32_t *count, int32_t *room, 
                   Error *err);
 
 bool archive_reads(const Archive *archive);
+bool archive_fills(const Archive *archive);   // reads, and without a fault so far
 // ERROR_FILE: a fault, or (with `whole`) bytes left over.
 bool archive_check(const Archive *archive, bool whole, Error *err);
 

@@ -4,11 +4,13 @@
 #include "base/text.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME_MAX_LENGTH = 127 };
+enum { NAME_MAX_LENGTH = 127, DECIMALS_MAX = 12 };
 
 static int32_t smaller(int32_t a, int32_t b)
 {
@@ -88,6 +90,29 @@ int32_t text_number(const char *text, double *value)
     if (!isdigit((unsigned char)at[*at == '.']) || hexadecimal) return 0;
     *value = strtod(text, &end);
     return (int32_t)(end - text);
+}
+
+// Digits behind the point down to `place`, a power of ten's exponent; one at least is not 0.
+static int decimals_to(double place, double value)
+{
+    double first = value != 0 ? floor(log10(fabs(value))) : 0;
+    double last = isfinite(place) ? fmin(place, first) : first;
+    return (int)fmin(fmax(-last, 0), DECIMALS_MAX);
+}
+
+void text_estimate(double value, double bar, double known_to, char text[TEXT_ESTIMATE_SIZE])
+{
+    bool has_bar = isfinite(bar);
+    double place = has_bar ? floor(log10(bar)) - 1 : ceil(log10(known_to));
+    int decimals = decimals_to(place, value);
+    if (isnan(value))
+        snprintf(text, TEXT_ESTIMATE_SIZE, "none");
+    else if (!has_bar && known_to == 0)
+        snprintf(text, TEXT_ESTIMATE_SIZE, "%.6g", value);
+    else if (has_bar)
+        snprintf(text, TEXT_ESTIMATE_SIZE, "%.*f +- %.*f", decimals, value, decimals, bar);
+    else
+        snprintf(text, TEXT_ESTIMATE_SIZE, "%.*f", decimals, value);
 }
 
 bool text_ends_with(const char *text, const char *ending)

@@ -11,11 +11,32 @@
 #include <string.h>
 #include <unistd.h>
 
-// "0.3280 +- 0.0002", without an error where none is known.
-static void print_estimate(const char *name, double value, double error)
+static const char INDENT[] = "                  ";
+
+// With the error bar that was asked for, or NaN: the digits that a finer mesh leaves as a rule.
+static void print_estimate(const char *name, double value, double bar, double known_to)
 {
-    say("  %-15s %.4f", name, value);
-    if (!isnan(error)) say(" +- %.2g", error);
+    char text[ESTIMATE_SIZE];
+    amontons_estimate(value, bar, known_to, text);
+    say("  %-15s %s", name, text);
+}
+
+static void print_known_to(double known_to)
+{
+    if (isnan(known_to))
+        say("%scells are too long for slip: not even this digit is sure on others\n", INDENT);
+    else
+        say("%sto the digits that finer meshes keep as a rule, the last within 1; --to 1%% gives "
+            "an error bar\n",
+            INDENT);
+}
+
+// Of a run without an error bar: what it gave to a digit more than is known, and what its finite
+// number of drops leaves open.
+static void print_on_this_mesh(double value, double drops)
+{
+    say("%son this mesh %.4f", INDENT, value);
+    if (!isnan(drops)) say(" (drops %.2g)", drops);
 }
 
 // Of a bar: mesh, branches, drops.
@@ -59,36 +80,52 @@ static void print_mu_M(const RunSummary *summary)
         return;
     }
     if (strcmp(summary->mu_M_is, STEADY) == 0) {
-        print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
+        print_estimate("mu_M", summary->mu_M, NAN, summary->mu_M_known_to);
         say(": F_T/F_N of %s; the block slides slowly as a whole, no sliding was fast\n", STEADY);
         return;
     }
-    print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
     if (summary->bar_runs > 0) {
+        print_estimate("mu_M", summary->mu_M, summary->mu_M_error, summary->mu_M_known_to);
         print_parts(summary->mu_M_error, summary->mu_M_parts);
         say(": static friction\n");
         return;
     }
+    print_estimate("mu_M", summary->mu_M, NAN, summary->mu_M_known_to);
     say(": static friction, mean of the last %d of %d peaks, each before the whole block "
         "slid\n",
         summary->peaks_counted, summary->peaks);
-    if (isnan(summary->mu_M_spread)) return;
-    say("                  they differ by at most %.4f", summary->mu_M_spread);
-    if (summary->period > 1) say(" and repeat after %d slidings", summary->period);
-    say("%s\n", summary->period > 0 ? "" : "; not periodic yet");
-    if (!isnan(summary->mu_M_error))
-        say("                  +- is that of %d peaks alone; the mesh's error is not known, often "
-            "0.5 to 3 %%\n"
-            "                  (--to 1%% finds it)\n",
-            summary->peaks_counted);
+    print_known_to(summary->mu_M_known_to);
+    print_on_this_mesh(summary->mu_M, summary->mu_M_error);
+    if (!isnan(summary->mu_M_spread)) {
+        say("; the peaks differ by at most %.2g", summary->mu_M_spread);
+        if (summary->period > 1) say(" and repeat after %d slidings", summary->period);
+        say("%s", summary->period > 0 ? "" : "; not periodic yet");
+    }
+    say("\n");
 }
 
 // Beside a mu_M from peaks.
 static void print_mu_steady(const RunSummary *summary)
 {
     if (isnan(summary->mu_steady) || strcmp(summary->mu_M_is, STEADY) == 0) return;
-    say("  mu_steady       %.4f: at the end the block slides steadily, its drops have ceased\n",
+    say("  mu_steady       %.3f: at the end the block slides steadily, its drops have ceased\n",
         summary->mu_steady);
+}
+
+// Whether the load drops behind mu_hold repeat.
+static void print_regime(const RunSummary *summary)
+{
+    if (summary->drop_period > 1)
+        say("%swhich repeat after %d\n", INDENT, summary->drop_period);
+    else if (summary->drop_period == 0 && summary->drops_enough)
+        say("%swhich do not repeat\n", INDENT);
+    else if (summary->run_in) {
+        say(INDENT);
+        print_run_in(summary);
+    } else if (!summary->drops_enough)
+        say("%stoo few to say: give a later time.until, until they repeat, or until 30 have\n"
+            "%sa mean known to 2 %%\n",
+            INDENT, INDENT);
 }
 
 // The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
@@ -102,22 +139,18 @@ static void print_mu_hold(const RunSummary *summary)
             say("the load did not drop in this run\n");
         return;
     }
-    print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
-    if (summary->bar_runs > 0) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
+    bool bar = summary->bar_runs > 0;
+    print_estimate("mu_hold", summary->mu_hold, bar ? summary->mu_hold_error : (double)NAN,
+                   summary->mu_hold_known_to);
+    if (bar) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
     say("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
         summary->drops_enough ? "" : " so far",
         summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
-    if (summary->drop_period > 1)
-        say("                  which repeat after %d\n", summary->drop_period);
-    else if (summary->drop_period == 0 && summary->drops_enough)
-        say("                  which do not repeat\n");
-    else if (summary->run_in) {
-        say("                  ");
-        print_run_in(summary);
-    } else if (!summary->drops_enough)
-        say("                  too few to say: give a later time.until, until they repeat, or "
-            "until 30 have\n"
-            "                  a mean known to 2 %%\n");
+    print_regime(summary);
+    if (bar) return;
+    if (isnan(summary->mu_M)) print_known_to(summary->mu_hold_known_to);
+    print_on_this_mesh(summary->mu_hold, summary->mu_hold_error);
+    say("\n");
 }
 
 // Cells over which slow slip turned fast; on pads also where, and over which length.
@@ -148,20 +181,29 @@ static void print_bar(const RunSummary *summary)
         summary->bar_meshes == 1 ? "" : "es", summary->bar_nodes, 100 * summary->bar_window);
 }
 
+static void print_critical_length(const RunSummary *summary)
+{
+    if (!isnan(summary->critical_length))
+        say("  critical length %.2f of the block's length\n", summary->critical_length);
+    else if (summary->peaks > 0)
+        say("  critical length not known: no sliding of the whole block counts\n");
+    else
+        say("  critical length not reached: the block as a whole did not slide%s\n",
+            summary->leading > 0 ? " from rest" : "");
+}
+
 static void print_answers(const RunSummary *summary)
 {
     print_mu_M(summary);
     print_mu_steady(summary);
     print_mu_hold(summary);
     if (summary->bar_runs > 0) print_bar(summary);
-    say("  mu_max          %.4f, the largest load ratio of the run\n", summary->mu_max);
-    say("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
-        summary->quasi_static, summary->bounded, summary->leading);
-    if (isnan(summary->critical_length))
-        say("  critical length not reached: the block as a whole did not slide%s\n",
-            summary->leading > 0 ? " from rest" : "");
-    else
-        say("  critical length %.3f of the block's length\n", summary->critical_length);
+    print_estimate("mu_max", summary->mu_max, NAN, summary->mu_max_known_to);
+    say(", the largest load ratio of the run\n");
+    say("  precursors      %d quasi-static, %d bounded rapid\n", summary->quasi_static,
+        summary->bounded);
+    say("  slidings        %d of the whole block\n", summary->leading);
+    print_critical_length(summary);
     print_resolution(summary);
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);

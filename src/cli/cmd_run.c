@@ -43,14 +43,13 @@ static const CommandText text = {
 // A line for each mesh, above the progress bar.
 static void show_level(const LevelView *view, void *context)
 {
-    char next[80] = "", bar[48] = "", left[32], answer[64] = "no load drop in any run";
+    char next[80] = "", left[32], value[ESTIMATE_SIZE], answer[80] = "no load drop in any run";
     progress_end(context);
-    if (!isnan(view->mesh)) snprintf(bar, sizeof bar, " +- %.1g", view->bar);
+    amontons_estimate(view->value, view->bar, view->known_to, value);
     progress_format_left(view->seconds_next, left, sizeof left);
     if (!isnan(view->seconds_next))
         snprintf(next, sizeof next, "; a finer one would take about %s", left);
-    if (!isnan(view->value))
-        snprintf(answer, sizeof answer, "%s = %.4f%s", view->answer, view->value, bar);
+    if (!isnan(view->value)) snprintf(answer, sizeof answer, "%s = %s", view->answer, value);
     tell("mesh %d: %d contact nodes, %d run%s in %.1f s; so far %s%s\n", view->level,
          view->contact_nodes, view->runs, view->runs == 1 ? "" : "s", view->seconds, answer, next);
 }

@@ -129,7 +129,8 @@ static void print_answers(const StabilitySummary *summary)
                        "a disturbance grows from V to v_c in half an oscillation");
     point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, pressures held fixed");
     point_table_answer("mu at l_sc", summary->mu_sc, "oscillations grow; at V");
-    point_table_answer("mu at a jump", summary->mu_snap, "a node jumps; at V");
+    point_table_answer("mu at a jump", summary->mu_snap,
+                       "where a node goes from rest to fast slip at once; at V");
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     point_table_answer("mu_M at V", summary->mu_rod,
                        "mu at l_c at V, less what slow slip at V weakens friction");

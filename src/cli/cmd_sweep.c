@@ -132,19 +132,17 @@ static int check_words(const SweepWords *words, SweepOptions *options)
 static void show_point(const SweepView *view, void *context)
 {
     SweepDisplay *display = context;
-    char left[32], what[64], error[24] = "";
+    char left[32], what[ESTIMATE_SIZE + 128], value[ESTIMATE_SIZE];
     if (view->message && display->failures < FAILURES_SHOWN)
         snprintf(display->failed[display->failures++], sizeof display->failed[0], "%.190s: %.290s",
                  view->words, view->message);
     if (display->quiet) return;
     progress_format_left(view->seconds_left, left, sizeof left);
     if (display->bar) tell_over("", 0);
-    if (isfinite(view->mu_M_error)) snprintf(error, sizeof error, " +- %.4f", view->mu_M_error);
-    if (view->message)
-        snprintf(what, sizeof what, "FAILED");
-    else
-        snprintf(what, sizeof what, "mu_M %.4f%s%s", view->mu_M, error,
-                 view->warned ? "  warned" : "");
+    amontons_estimate(view->value, view->bar, view->known_to, value);
+    snprintf(what, sizeof what, "%.99s %s%s", view->quantity, value,
+             view->warned ? "  warned" : "");
+    if (view->message) snprintf(what, sizeof what, "FAILED");
     if (!view->reused)
         tell("%*d/%d  %s  %s  %.1f s  (%s left)\n", view->points < 100 ? 2 : 4, view->finished,
              view->points, view->words, what, view->seconds, left);

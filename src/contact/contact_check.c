@@ -27,7 +27,7 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
     const Interface *interface = problem->interface;
     ContactResidual worst = {0};
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
+        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
         double pressing = reaction[n] / force_scale, shear = reaction[t] / force_scale;
         check_unilateral((velocity[n] - problem->bound[n]) / velocity_scale, pressing, &worst);
         double slip_rate = velocity[t];

@@ -35,17 +35,17 @@ bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy
 
 void contact_list_free(ContactEquations *equations, bool of_open)
 {
-    const ContactProblem *problem = equations->problem;
+    const Interface *interface = equations->problem->interface;
     const ContactSolution *at = equations->at;
-    int32_t count = 0;
-    for (int32_t i = 0; i < problem->interface->contact_count; i++) {
+    int32_t *free = equations->free, count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
         bool open = of_open && at->status[i] == CONTACT_OPEN;
-        if (open || status_slips(at->status[i])) equations->free[count++] = interface_tangent(i);
-        if (open) equations->free[count++] = interface_normal(i);
+        if (open || status_slips(at->status[i])) free[count++] = interface_tangent(interface, i);
+        if (open) free[count++] = interface_normal(interface, i);
     }
-    for (int32_t j = 0; j < problem->interface->rod_count; j++) {
-        if (!at->rod_touches[j] || rod_stiffness(problem, j) > 0)
-            equations->free[count++] = interface_rod(problem->interface, j);
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)
+            free[count++] = interface_rod(interface, j);
     }
     equations->free_count = count;
 }
@@ -56,7 +56,7 @@ void contact_hold(const ContactEquations *equations)
     const Interface *interface = problem->interface;
     const ContactSolution *at = equations->at;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
+        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
         if (at->status[i] == CONTACT_OPEN) continue;
         at->velocity[n] = problem->bound[n];
         if (at->status[i] == CONTACT_STICK) at->velocity[t] = 0;
@@ -82,7 +82,8 @@ void contact_react(const ContactEquations *equations)
 static double friction_of(const ContactEquations *equations, int32_t i, double *slope)
 {
     const FrictionLaw *law = friction_at(equations->problem->law, i);
-    double speed = fabs(equations->at->velocity[interface_tangent(i)]), unused;
+    int32_t t = interface_tangent(equations->problem->interface, i);
+    double speed = fabs(equations->at->velocity[t]), unused;
     if (equations->piece)
         return friction_branch(law, equations->piece[i], speed, slope ? slope : &unused);
     if (slope) *slope = friction_slope(law, speed);
@@ -95,12 +96,12 @@ void contact_find_rows(const ContactEquations *equations)
     const ContactSolution *at = equations->at;
     for (int32_t a = 0; a < equations->free_count; a++) {
         int32_t unknown = equations->free[a], i = contact_slipping_node(equations, unknown);
-        int32_t j = unknown - 2 * problem->interface->contact_count;
+        int32_t j = unknown - interface_rod(problem->interface, 0);
         ContactRow row = {.normal = unknown};
         if (j >= 0 && at->rod_touches[j]) row.stiffness = rod_stiffness(problem, j);
         if (i >= 0) {
             row.mu = status_direction(at->status[i]) * friction_of(equations, i, NULL);
-            row.normal = interface_normal(i);
+            row.normal = interface_normal(problem->interface, i);
         }
         equations->row[a] = row;
     }
@@ -158,7 +159,8 @@ uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scal
 {
     const ContactProblem *problem = equations->problem;
     const ContactSolution *at = equations->at;
-    int32_t n = interface_normal(i), t = interface_tangent(i);
+    const Interface *interface = equations->problem->interface;
+    int32_t n = interface_normal(interface, i), t = interface_tangent(interface, i);
     uint8_t status = at->status[i];
     double pressing = at->reaction[n], shear = at->reaction[t];
     if (status == CONTACT_OPEN) {

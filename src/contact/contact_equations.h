@@ -48,8 +48,10 @@ ContactScales contact_scales(const ContactProblem *problem, const double *reacti
 // The slipping node that `unknown` is the tangent of; -1: none.
 static inline int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown)
 {
-    if (unknown >= 2 * equations->problem->interface->contact_count || unknown % 2 != 0) return -1;
-    return status_slips(equations->at->status[unknown / 2]) ? unknown / 2 : -1;
+    const Interface *interface = equations->problem->interface;
+    int32_t i = dof_node(interface->dim, unknown);
+    if (i >= interface->contact_count || unknown != interface_tangent(interface, i)) return -1;
+    return status_slips(equations->at->status[i]) ? i : -1;
 }
 
 // Statuses of nodes and of the rod as one list [contact_count + rod_count], to compare with later.

@@ -165,6 +165,10 @@ bool contact_factors_solve(ContactFactors *factors, const ContactEquations *equa
 {
     int32_t count = factors->count, length = factors->replaced_count;
     double *y = factors->y, *t = factors->t;
+    if (length == 0) {
+        dense_lu_solve(factors->lu, factors->rows, factors->pivots, x);
+        return true;
+    }
     memset(y, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < equations->free_count; a++) y[equations->free[a]] = x[a];
     for (int32_t b = 0; b < length; b++) {
@@ -173,11 +177,9 @@ bool contact_factors_solve(ContactFactors *factors, const ContactEquations *equa
     }
     solve_kept(factors, y);
     double before = dense_max_abs(y, count);
-    if (length > 0) {
-        dense_apply_transposed(dense_view(factors->v, count, length), y, -1, 1, t);
-        dense_lu_solve(factors->p, length, factors->p_pivots, t);
-        dense_apply(dense_view(factors->z, count, length), t, 1, 1, y);
-    }
+    dense_apply_transposed(dense_view(factors->v, count, length), y, -1, 1, t);
+    dense_lu_solve(factors->p, length, factors->p_pivots, t);
+    dense_apply(dense_view(factors->z, count, length), t, 1, 1, y);
     if (!(before <= 1e6 * dense_max_abs(y, count))) return false;   // ten digits of it are left
     for (int32_t a = 0; a < equations->free_count; a++) x[a] = y[equations->free[a]];
     return true;

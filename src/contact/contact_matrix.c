@@ -52,9 +52,9 @@ static void renew_copy(ContactMatrix *matrix)
     memset(matrix->out, 0, count);
 }
 
-// What is left of S's own entry when the others of O are held: of a body that nothing holds 0, up to
-// rounding; of one that a step's mass holds far more than half of the digits. false: it is less,
-// and the copy is of no more use.
+// A pivot is what is left of S's own entry when the others of O are held: 0, up to rounding, of a
+// body that nothing holds, far more than half of the digits of one that a step's mass holds. false:
+// it is less, and the copy is of no more use.
 static bool pivot_holds(const ContactMatrix *matrix, int32_t k, double pivot)
 {
     int64_t entry = (int64_t)k * (matrix->count + 1);
@@ -105,16 +105,16 @@ static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t l
 }
 
 const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
-                                   int32_t contact_count)
+                                   int32_t contact_count, int32_t dim)
 {
     if (!memchr(status, CONTACT_OPEN, (size_t)contact_count)) return matrix->schur;
-    int32_t room = SWEEPS_LIMIT * matrix->count - matrix->swept;
-    if (matrix->swept < 0 || room < 2 * contact_count) renew_copy(matrix);
+    int32_t unknowns = dim * contact_count, room = SWEEPS_LIMIT * matrix->count - matrix->swept;
+    if (matrix->swept < 0 || room < unknowns) renew_copy(matrix);
     int32_t list[TOGETHER], length = 0;
     bool holds = true;
-    for (int32_t k = 0; k < 2 * contact_count && holds; k++) {
-        if ((status[k / 2] == CONTACT_OPEN) != matrix->out[k]) list[length++] = k;
-        if (length < TOGETHER && k + 1 < 2 * contact_count) continue;
+    for (int32_t k = 0; k < unknowns && holds; k++) {
+        if ((status[dof_node(dim, k)] == CONTACT_OPEN) != matrix->out[k]) list[length++] = k;
+        if (length < TOGETHER && k + 1 < unknowns) continue;
         holds = length == 0 || sweep_unknowns(matrix, list, length);
         length = 0;
     }

@@ -38,7 +38,7 @@ void contact_matrix_destroy(ContactMatrix *matrix);
 // S' for the nodes that `status` [contact_count] has open; S itself where none is. Stands until the
 // same is asked for with other statuses. NULL: S_OO is nearly singular, nothing holds those nodes.
 const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
-                                   int32_t contact_count);
+                                   int32_t contact_count, int32_t dim);
 
 // What of it a state consists of. last: the solver's last factorisation, the one that it keeps. S
 // is the same already.

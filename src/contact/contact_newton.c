@@ -43,11 +43,12 @@ void contact_newton_react(ContactNewton *newton)
 // Held unknowns take their values. A node that would slip against its status starts from rest.
 static void hold(ContactNewton *newton)
 {
+    const Interface *interface = newton->equations.problem->interface;
     const ContactSolution *at = newton->equations.at;
     newton->listed = false;
     contact_hold(&newton->equations);
-    for (int32_t i = 0; i < newton->equations.problem->interface->contact_count; i++) {
-        double *slip_rate = &at->velocity[interface_tangent(i)];
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double *slip_rate = &at->velocity[interface_tangent(interface, i)];
         if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
             *slip_rate = 0;
     }
@@ -70,10 +71,13 @@ void contact_newton_settle(ContactNewton *newton)
     int32_t count = problem->interface->count;
     memcpy(newton->more, at->velocity, (size_t)count * sizeof(double));
     hold(newton);
+    bool moved = false;
     for (int32_t k = 0; k < count; k++) {
         newton->more[k] = at->velocity[k] - newton->more[k];
-        if (newton->more[k] != 0) newton->exact = false;
+        moved = moved || newton->more[k] != 0;
     }
+    if (!moved) return;
+    newton->exact = false;
     dense_add_nonzero((DenseView){problem->matrix->schur, count, count}, newton->more, 1,
                       at->reaction);
 }
@@ -82,14 +86,14 @@ bool contact_newton_list(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
-    newton->closed =
-        contact_matrix_close(problem->matrix, at->status, problem->interface->contact_count);
+    newton->closed = contact_matrix_close(
+        problem->matrix, at->status, problem->interface->contact_count, problem->interface->dim);
     if (!newton->closed) return false;
     newton->open_count = 0;
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
         if (at->status[i] != CONTACT_OPEN) continue;
-        newton->open[newton->open_count++] = interface_tangent(i);
-        newton->open[newton->open_count++] = interface_normal(i);
+        newton->open[newton->open_count++] = interface_tangent(problem->interface, i);
+        newton->open[newton->open_count++] = interface_normal(problem->interface, i);
     }
     contact_list_free(&newton->equations, false);
     contact_find_rows(&newton->equations);

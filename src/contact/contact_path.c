@@ -136,7 +136,7 @@ static void exchange(PathTrace *trace, PathBound bound)
     ContactSolution *at = trace->system.at;
     int32_t i = bound.node, contacts = interface->contact_count;
     bool rod = i >= contacts;
-    int32_t t = rod ? interface_rod(interface, i - contacts) : interface_tangent(i);
+    int32_t t = rod ? interface_rod(interface, i - contacts) : interface_tangent(interface, i);
     const FrictionLaw *law = rod ? NULL : friction_at(trace->system.problem->law, i);
     uint8_t before = rod ? 0 : at->status[i];
     double direction = status_direction(before), velocity_sign = 0, normal = 0, tangent = 0;
@@ -161,7 +161,7 @@ static void exchange(PathTrace *trace, PathBound bound)
     } else if (bound.kind == 1) {
         at->status[i] = CONTACT_OPEN;
         velocity_sign = 1;
-        grown = interface_normal(i);
+        grown = interface_normal(interface, i);
     } else {
         int32_t up = bound.kind == 2 && path->piece[i] > 0 ? -1 : 1;
         path->piece[i] = (uint8_t)(path->piece[i] + up);
@@ -171,7 +171,7 @@ static void exchange(PathTrace *trace, PathBound bound)
     for (int32_t a = 0; a < trace->system.free_count; a++)
         if (path->free[a] == grown) path->row[a] = velocity_sign;
     if (tangent != 0) add_reaction_row(trace, t, tangent);
-    if (normal != 0) add_reaction_row(trace, interface_normal(i), normal);
+    if (normal != 0) add_reaction_row(trace, interface_normal(interface, i), normal);
 }
 
 // --- steps --------------------------------------------------------------------------------------
@@ -224,8 +224,8 @@ static bool place_point(PathTrace *trace, double tau_kept, double distance)
 }
 
 // A step to the first bound, or to a point before it (reached->node PATH_AT_NO_BOUND).
-// false: no point was found within TRIALS_LIMIT. The length of a first trial is bounded by the scale of
-// velocity beyond tau, as a tangent that meets no bound would lead to infinity.
+// false: no point was found within TRIALS_LIMIT. The length of a first trial is bounded by the
+// scale of velocity beyond tau, as a tangent that meets no bound would lead to infinity.
 static bool advance(PathTrace *trace, PathBound *reached)
 {
     ContactPath *path = trace->path;
@@ -278,7 +278,7 @@ static bool press_fallen(PathTrace *trace)
     const ContactSolution *at = trace->system.at;
     bool any = false;
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
-        int32_t n = interface_normal(i);
+        int32_t n = interface_normal(problem->interface, i);
         if (at->status[i] != CONTACT_OPEN || at->velocity[n] >= problem->bound[n]) continue;
         at->status[i] = CONTACT_STICK;
         trace->path->lift[n] = problem->matrix->diagonal;
@@ -300,9 +300,10 @@ static bool start_pressed(PathTrace *trace)
     PathBound worst;
     memset(path->lift, 0, (size_t)path->count * sizeof(double));
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        bool above = problem->bound[interface_normal(i)] < -HEIGHT_LIMIT * trace->scales.velocity;
+        bool above = problem->bound[interface_normal(interface, i)] <
+                     -HEIGHT_LIMIT * trace->scales.velocity;
         at->status[i] = above ? CONTACT_OPEN : CONTACT_STICK;
-        if (!above) path->lift[interface_normal(i)] = problem->matrix->diagonal;
+        if (!above) path->lift[interface_normal(interface, i)] = problem->matrix->diagonal;
     }
     memset(at->rod_touches, problem->rod_kind != ROD_AWAY, (size_t)interface->rod_count);
     memset(path->piece, 0, (size_t)interface->contact_count);

@@ -113,13 +113,13 @@ static void clean_solution(const Solve *solve)
     const Interface *interface = interface_of(solve);
     ContactSolution *at = solve->newton->equations.at;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = interface_tangent(interface, i);
         uint8_t status = at->status[i];
         if (status_slips(status) && at->velocity[t] * status_direction(status) < 0)
             at->velocity[t] = 0;
         if (status != CONTACT_OPEN) continue;
         at->reaction[t] = 0;
-        at->reaction[interface_normal(i)] = 0;
+        at->reaction[interface_normal(interface, i)] = 0;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
@@ -177,7 +177,9 @@ static bool starts_fast(Solve *solve)
     int32_t node = solve->started;
     solve->started = -1;
     if (node < 0) return false;
-    double *slip_rate = &solve->newton->equations.at->velocity[interface_tangent(node)];
+    const ContactEquations *equations = &solve->newton->equations;
+    int32_t t = interface_tangent(equations->problem->interface, node);
+    double *slip_rate = &equations->at->velocity[t];
     double direction = status_direction(solve->newton->equations.at->status[node]);
     if (*slip_rate * direction >= 0) return false;
     *slip_rate = direction * friction_spent_speed(friction_at(problem->law, node));

@@ -51,7 +51,7 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
     for (int32_t i = 0; i < count; i++) {
         int32_t node = contact.nodes[i];
         interface->node[i] = node;
-        interface->x[i] = mesh->position[2 * node];
+        interface->x[i] = mesh_place(mesh, node)[0];
         interface->weight[i] = weight[node];
         interface->pad[i] = contact.curve_of[i];
     }
@@ -78,7 +78,7 @@ static bool is_contact_node(const Interface *interface, int32_t node)
 static void sort_face(const Mesh *mesh, const MeshCurve *curve, Interface *interface)
 {
     for (int32_t k = 0; k < curve->node_count; k++) {
-        double z = mesh->position[2 * curve->nodes[k] + 1];
+        double z = mesh_height(mesh, curve->nodes[k]);
         int32_t j = k;
         for (; j > 0 && interface->rod_z[j - 1] > z; j--) {
             interface->rod_z[j] = interface->rod_z[j - 1];
@@ -155,23 +155,29 @@ cleanup:
     return error_is_clean(err);
 }
 
-// *interface is overwritten. dofs: unknown 2 node + d of the bulk, d = 0 along x, 1 along z.
+// *interface is overwritten.
 bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
-    *interface = (Interface){0};
+    *interface = (Interface){.dim = mesh->dim};
     TRY(build_contact(mesh, def, interface, err));
     TRY(build_rod(mesh, def, interface, err));
-    interface->count = 2 * interface->contact_count + interface->rod_count;
+    interface->count = interface_rod(interface, interface->rod_count);
     interface->dofs = NEW_ARRAY(int32_t, interface->count, err);
     if (!interface->dofs) goto cleanup;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        interface->dofs[interface_tangent(i)] = 2 * interface->node[i];
-        interface->dofs[interface_normal(i)] = 2 * interface->node[i] + 1;
-    }
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        for (int32_t d = 0; d < mesh->dim; d++)
+            interface->dofs[interface_unknown(interface, i, d)] =
+                node_dof(mesh->dim, interface->node[i], d);
     for (int32_t j = 0; j < interface->rod_count; j++)
-        interface->dofs[interface_rod(interface, j)] = 2 * interface->rod_node[j];
+        interface->dofs[interface_rod(interface, j)] =
+            node_dof(mesh->dim, interface->rod_node[j], 0);
 cleanup:
     return error_is_clean(err);
+}
+
+double interface_nodes_along(const Interface *interface)
+{
+    return pow(interface->contact_count, 1.0 / (interface->dim - 1));
 }
 
 void interface_destroy(Interface *interface)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where the block meets the world: contact nodes over the rigid plane z = 0, on it or with a gap,
 // each straight above its place (right where slopes are small), and rod nodes on the
-// trailing face. Lumped (nodal): one weight and one 2-vector reaction a contact node. Consistent
+// trailing face. Lumped (nodal): one weight and one vector of reaction a contact node. Consistent
 // integration of the contact gave a 17 % wrong resultant in a static test.
 //
-// Interface unknowns, in this order: u_x, u_z of contact node 0, of node 1, ...; u_x of the rod
+// Interface unknowns, in this order: u_x to u_z of contact node 0, of node 1, ...; u_x of the rod
 // nodes. Used by contact/contact_problem, stepping/ and run/.
 #ifndef AMONTONS_CONTACT_INTERFACE_H
 #define AMONTONS_CONTACT_INTERFACE_H
@@ -12,6 +12,7 @@
 #include "fem/mesh.h"
 
 typedef struct Interface {
+    int32_t dim;   // unknowns of a contact node: its tangents, then its normal
     int32_t contact_count;
     int32_t *node;   // [contact_count] mesh node, ascending x; owned
     double *x;   // [contact_count] position, length; owned
@@ -27,7 +28,7 @@ typedef struct Interface {
     double *rod_share;   // [rod_count] in (0, 1]: how much of the node's stretch of the face, half
         // way to its neighbours, lies in the strip; owned
     double rod_face[2];   // from which z to which the whole face reaches, length
-    int32_t count;   // 2 * contact_count + rod_count
+    int32_t count;   // dim * contact_count + rod_count
     int32_t *dofs;   // [count] unknowns of the bulk; owned
 } Interface;
 
@@ -41,19 +42,28 @@ typedef struct InterfaceDef {
         // else those inside it, wholly
 } InterfaceDef;
 
-// The unknowns of contact node i, and of rod node j, within the interface.
-static inline int32_t interface_tangent(int32_t i)
+// The unknowns of contact node i, and of rod node j, within the interface. component: 0 along the
+// drive, dim - 1 normal.
+static inline int32_t interface_unknown(const Interface *interface, int32_t i, int32_t component)
 {
-    return 2 * i;
+    return interface->dim * i + component;
 }
-static inline int32_t interface_normal(int32_t i)
+static inline int32_t interface_tangent(const Interface *interface, int32_t i)
 {
-    return 2 * i + 1;
+    return interface_unknown(interface, i, 0);
+}
+static inline int32_t interface_normal(const Interface *interface, int32_t i)
+{
+    return interface_unknown(interface, i, interface->dim - 1);
 }
 static inline int32_t interface_rod(const Interface *interface, int32_t j)
 {
-    return 2 * interface->contact_count + j;
+    return interface->dim * interface->contact_count + j;
 }
+
+// How many contact nodes stand along its length, were they spread evenly over all its directions:
+// as many as there are in the plane, their root in space.
+double interface_nodes_along(const Interface *interface);
 
 static inline double interface_gap(const Interface *interface, int32_t i)
 {

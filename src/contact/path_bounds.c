@@ -20,7 +20,7 @@ double path_condition(const PathTrace *trace, int32_t node, int32_t kind, const 
                    : (v[x] - one * problem->bound[x]) / trace->scales.velocity;
     }
     const FrictionLaw *law = friction_at(problem->law, node);
-    int32_t t = interface_tangent(node), n = interface_normal(node);
+    int32_t t = interface_tangent(interface, node), n = interface_normal(interface, node);
     uint8_t status = trace->system.at->status[node];
     if (status == CONTACT_OPEN)
         return kind == 0 ? (v[n] - one * problem->bound[n]) / trace->scales.velocity : INFINITY;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // M, C and K of the semi-discrete block, M u'' + C u' + K u = f, summed element by element (Hughes,
-// The Finite Element Method, ch. 2). K and C share one pattern of 2x2 blocks, one for each pair of
-// nodes with a common element; both triangles are stored. M is lumped: a vector.
+// The Finite Element Method, ch. 2). K and C share one pattern of dim x dim blocks, one for each
+// pair of nodes with a common element; both triangles are stored. M is lumped: a vector.
 //
-//     unknown 2 i: u_x of node i;  2 i + 1: u_z;  row-compressed, columns ascending
+//     unknowns by node, from u_x to u_z;  row-compressed, columns ascending
 //
 // Entries are found by bisection in a row.
 #include "fem/assembly.h"
@@ -70,24 +70,23 @@ cleanup:
     return error_is_clean(err);
 }
 
-// From nodes to unknowns: each neighbour gives two columns, both rows of a node are alike: 4
+// From nodes to unknowns: each neighbour gives `dim` columns, the rows of a node are alike: dim^2
 // entries for a pair of nodes. *pattern is the caller's to free also on failure.
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     NodeGraph graph = {0};
     TRY(build_graph(mesh, &graph, err));
-    int32_t nodes = mesh->node_count;
-    pattern->size = 2 * nodes;
-    pattern->start = NEW_ARRAY(int32_t, 2 * (int64_t)nodes + 1, err);
-    pattern->index = NEW_ARRAY(int32_t, 4 * (int64_t)graph.start[nodes], err);
+    int32_t nodes = mesh->node_count, dim = mesh->dim;
+    pattern->size = dim * nodes;
+    pattern->start = NEW_ARRAY(int32_t, (int64_t)dim * nodes + 1, err);
+    pattern->index = NEW_ARRAY(int32_t, (int64_t)dim * dim * graph.start[nodes], err);
     if (!pattern->start || !pattern->index) goto cleanup;
     int32_t filled = 0;
-    for (int32_t dof = 0; dof < 2 * nodes; dof++) {
-        int32_t node = dof / 2;
-        for (int32_t k = graph.start[node]; k < graph.start[node + 1]; k++) {
-            pattern->index[filled++] = 2 * graph.neighbour[k];
-            pattern->index[filled++] = 2 * graph.neighbour[k] + 1;
-        }
+    for (int32_t dof = 0; dof < pattern->size; dof++) {
+        int32_t node = dof_node(dim, dof);
+        for (int32_t k = graph.start[node]; k < graph.start[node + 1]; k++)
+            for (int32_t d = 0; d < dim; d++)
+                pattern->index[filled++] = node_dof(dim, graph.neighbour[k], d);
         pattern->start[dof + 1] = filled;
     }
 cleanup:
@@ -96,22 +95,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Unknowns 2 b and 2 b + 1 of a node stand side by side in every row, and both rows of a node are
-// alike, so one look-up serves four entries.
+// The unknowns of a node stand side by side in every row, and the rows of a node are alike, so one
+// look-up serves a whole block.
 static void add_group(const ElementGroup *group, const ElementMatrices *matrices, Bulk *bulk)
 {
     const int32_t *element = group->node, *start = bulk->pattern.start;
-    int32_t nodes = matrices->dof_count / 2;
+    int32_t nodes = group->node_count, dim = bulk->dim;
     for (int32_t a = 0; a < nodes; a++) {
-        int32_t row = 2 * element[a], length = start[row + 1] - start[row];
-        bulk->mass[row] += matrices->mass[a];
-        bulk->mass[row + 1] += matrices->mass[a];
+        int32_t row = node_dof(dim, element[a], 0), length = start[row + 1] - start[row];
+        for (int32_t d = 0; d < dim; d++) bulk->mass[row + d] += matrices->mass[a];
         for (int32_t b = 0; b < nodes; b++) {
-            int32_t entry = sparse_entry(&bulk->pattern, row, 2 * element[b]);
-            for (int32_t d = 0; d < 2; d++, entry += length) {
-                for (int32_t f = 0; f < 2; f++) {
-                    bulk->stiffness[entry + f] += matrices->stiffness[2 * a + d][2 * b + f];
-                    bulk->damping[entry + f] += matrices->damping[2 * a + d][2 * b + f];
+            int32_t entry = sparse_entry(&bulk->pattern, row, node_dof(dim, element[b], 0));
+            int32_t i = node_dof(dim, a, 0), j = node_dof(dim, b, 0);
+            for (int32_t d = 0; d < dim; d++, entry += length) {
+                for (int32_t f = 0; f < dim; f++) {
+                    bulk->stiffness[entry + f] += matrices->stiffness[i + d][j + f];
+                    bulk->damping[entry + f] += matrices->damping[i + d][j + f];
                 }
             }
         }
@@ -125,7 +124,7 @@ typedef struct KnownShape {
     int32_t nodes;   // 0: none yet
     ElementKind kind;
     int32_t region;
-    double offset[ELEMENT_NODES_MAX][2];   // from the first node
+    MeshPlace offset[ELEMENT_NODES_MAX];   // from the first node
     ElementMatrices matrices;
 } KnownShape;
 
@@ -133,11 +132,8 @@ typedef struct KnownShape {
 static const ElementMatrices *matrices_of(const Mesh *mesh, const ElementGroup *group,
                                           const Material *materials, KnownShape known[SHAPES_KEPT])
 {
-    double offset[ELEMENT_NODES_MAX][2] = {0};
-    const double *origin = mesh->position + 2 * (int64_t)group->node[0];
-    for (int32_t a = 0; a < group->node_count; a++)
-        for (int d = 0; d < 2; d++)
-            offset[a][d] = mesh->position[2 * (int64_t)group->node[a] + d] - origin[d];
+    MeshPlace offset[ELEMENT_NODES_MAX] = {0};
+    mesh_offsets(mesh, group->node, group->node_count, offset);
     Hash hash = hash_start();
     hash_bytes(&hash, offset, sizeof offset);
     KnownShape *shape = &known[hash.low % SHAPES_KEPT];
@@ -174,7 +170,7 @@ static bool fill(const Mesh *mesh, const Material *materials, Bulk *bulk, Error 
 
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
 {
-    *bulk = (Bulk){.dof_count = 2 * mesh->node_count};
+    *bulk = (Bulk){.dim = mesh->dim, .dof_count = mesh->dim * mesh->node_count};
     return build_pattern(mesh, &bulk->pattern, err) && fill(mesh, materials, bulk, err);
 }
 
@@ -183,7 +179,7 @@ bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *mate
 {
     const SparsePattern *from = &like->pattern;
     int64_t rows = from->size + 1, entries = from->start[from->size];
-    *bulk = (Bulk){.dof_count = from->size, .pattern.size = from->size};
+    *bulk = (Bulk){.dim = like->dim, .dof_count = from->size, .pattern.size = from->size};
     bulk->pattern.start = NEW_ARRAY(int32_t, rows, err);
     bulk->pattern.index = NEW_ARRAY(int32_t, entries, err);
     if (!error_is_clean(err)) return false;
@@ -229,8 +225,7 @@ static void share_edge(double length, int32_t nodes, double weight[3])
 static void edge_weights(const Mesh *mesh, const MeshCurve *curve, int32_t edge, double weight[3])
 {
     const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
-    const double *a = mesh->position + 2 * nodes[0], *b = mesh->position + 2 * nodes[1];
-    share_edge(hypot(b[0] - a[0], b[1] - a[1]), curve->nodes_per_edge, weight);
+    share_edge(mesh_distance(mesh, nodes[0], nodes[1]), curve->nodes_per_edge, weight);
 }
 
 // w_i = int N_i dx of the curve, at its mesh nodes: what turns a nodal reaction into a stress.
@@ -239,24 +234,23 @@ void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
     for (int32_t edge = 0; edge < curve->edge_count; edge++) {
         const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
         double share[3] = {0};
-        share_edge(fabs(mesh->position[2 * nodes[1]] - mesh->position[2 * nodes[0]]),
+        share_edge(fabs(mesh_place(mesh, nodes[1])[0] - mesh_place(mesh, nodes[0])[0]),
                    curve->nodes_per_edge, share);
         for (int32_t a = 0; a < curve->nodes_per_edge; a++)
             weight[curve->edge_nodes[edge * curve->nodes_per_edge + a]] += share[a];
     }
 }
 
-// Exact on straight edges of either order. traction: (x, z), stress, on the block.
-void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
-                       Bulk *bulk)
+// Exact on straight edges of either order. traction: stress, on the block.
+void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double *traction, Bulk *bulk)
 {
     for (int32_t edge = 0; edge < curve->edge_count; edge++) {
         double share[3] = {0};
         edge_weights(mesh, curve, edge, share);
         for (int32_t a = 0; a < curve->nodes_per_edge; a++) {
             int32_t node = curve->edge_nodes[edge * curve->nodes_per_edge + a];
-            bulk->load[2 * node] += share[a] * traction[0];
-            bulk->load[2 * node + 1] += share[a] * traction[1];
+            for (int32_t d = 0; d < bulk->dim; d++)
+                bulk->load[node_dof(bulk->dim, node, d)] += share[a] * traction[d];
         }
     }
 }

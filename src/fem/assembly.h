@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The semi-discrete bulk M u'' + C u' + K u = f: sparse K and C on one pattern, lumped M, loads.
-// Unknowns: 2 * node + 0 is u_x, 2 * node + 1 is u_z.
+// Unknowns: node_dof(dim, node, d) is the displacement along axis d.
 #ifndef AMONTONS_FEM_ASSEMBLY_H
 #define AMONTONS_FEM_ASSEMBLY_H
 
@@ -9,7 +9,8 @@
 #include "fem/mesh.h"
 
 typedef struct Bulk {
-    int32_t dof_count;   // 2 * nodes
+    int32_t dim;   // unknowns of a node
+    int32_t dof_count;   // dim * nodes
     SparsePattern pattern;   // of K and C; owned
     double *stiffness;   // [pattern.start[dof_count]]; owned
     double *damping;   // same; owned
@@ -26,8 +27,8 @@ bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *mate
                         Error *err);
 void bulk_destroy(Bulk *bulk);
 
-// load += int_curve N_a (traction_x, traction_z) ds. A pressure P on top is (0, -P).
-void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
+// load += int_curve N_a traction ds, traction: [dim]. A pressure P on top is (0, -P).
+void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double *traction,
                        Bulk *bulk);
 
 // Holds an unknown at 0: its couplings in K and C and its load become 0, its mass and diagonal

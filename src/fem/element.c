@@ -8,45 +8,49 @@
 //                                       B_a = [   0    N_a,z ]
 //                                             [ N_a,z  N_a,x ]
 //
-// with slopes in x and z by the inverse of the Jacobian J = d(x, z)/d(xi, eta). Returns det J.
-double element_strain_matrix(ElementKind kind, const double (*position)[2], const double point[2],
-                             double b[3][ELEMENT_DOFS_MAX])
+// a row for each axis, then one for each pair of axes. Returns det J, J = d(x, z)/d(xi, eta).
+double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,
+                             double b[STRAINS_MAX][ELEMENT_DOFS_MAX])
 {
-    ShapeValues shape = shape_at(kind, point[0], point[1]);
-    double jacobian[2][2];
-    double determinant = shape_jacobian(kind, &shape, position, jacobian);
-    int32_t nodes = element_node_count(kind);
-    for (int32_t a = 0; a < nodes; a++) {
-        double xi = shape.slope[a][0], eta = shape.slope[a][1];
-        double d_x = (jacobian[1][1] * xi - jacobian[1][0] * eta) / determinant;
-        double d_z = (jacobian[0][0] * eta - jacobian[0][1] * xi) / determinant;
-        b[0][2 * a] = d_x;
-        b[0][2 * a + 1] = 0;
-        b[1][2 * a] = 0;
-        b[1][2 * a + 1] = d_z;
-        b[2][2 * a] = d_z;
-        b[2][2 * a + 1] = d_x;
-    }
+    ShapeValues shape = shape_at(kind, point);
+    MeshPlace gradient[ELEMENT_NODES_MAX];
+    double determinant = shape_gradients(kind, &shape, position, gradient);
+    int32_t dim = element_dim(kind), nodes = element_node_count(kind), row = dim;
+    memset(b, 0, STRAINS_MAX * sizeof *b);
+    for (int32_t a = 0; a < nodes; a++)
+        for (int32_t d = 0; d < dim; d++) b[d][dim * a + d] = gradient[a][d];
+    for (int32_t d = 0; d < dim; d++)
+        for (int32_t f = d + 1; f < dim; f++, row++)
+            for (int32_t a = 0; a < nodes; a++) {
+                b[row][dim * a + d] = gradient[a][f];
+                b[row][dim * a + f] = gradient[a][d];
+            }
     return determinant;
 }
 
-// out += weight * B' D B
-static void add_quadratic_form(int32_t dofs, const double b[3][ELEMENT_DOFS_MAX],
-                               const double d[3][3], double weight,
+// out += weight * B' D B; rows beyond the element's strains are zero.
+static void add_quadratic_form(int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
                                double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
 {
     for (int32_t j = 0; j < dofs; j++) {
-        double stress[3];
-        for (int r = 0; r < 3; r++)
-            stress[r] = weight * (d[r][0] * b[0][j] + d[r][1] * b[1][j] + d[r][2] * b[2][j]);
-        for (int32_t i = 0; i < dofs; i++)
-            out[i][j] += b[0][i] * stress[0] + b[1][i] * stress[1] + b[2][i] * stress[2];
+        double stress[STRAINS_MAX];
+        for (int32_t r = 0; r < STRAINS_MAX; r++) {
+            double sum = 0;
+            for (int32_t c = 0; c < STRAINS_MAX; c++) sum += d[r][c] * b[c][j];
+            stress[r] = weight * sum;
+        }
+        for (int32_t i = 0; i < dofs; i++) {
+            double sum = 0;
+            for (int32_t r = 0; r < STRAINS_MAX; r++) sum += b[r][i] * stress[r];
+            out[i][j] += sum;
+        }
     }
 }
 
 // Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of
 // Hinton, Rock and Zienkiewicz (Earthq. Eng. Struct. Dyn. 4, 1976) keeps all positive.
-static void lump_mass(ElementKind kind, const double (*position)[2], double density,
+static void lump_mass(ElementKind kind, const MeshPlace *position, double density,
                       ElementMatrices *out)
 {
     Quadrature quadrature = shape_mass_quadrature(kind);
@@ -54,8 +58,8 @@ static void lump_mass(ElementKind kind, const double (*position)[2], double dens
     double square_sum = 0;
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
-        ShapeValues shape = shape_at(kind, point[0], point[1]);
-        double weight = quadrature.weight[q] * shape_jacobian(kind, &shape, position, NULL);
+        ShapeValues shape = shape_at(kind, point);
+        double weight = quadrature.weight[q] * shape_jacobian(kind, &shape, position);
         for (int32_t a = 0; a < nodes; a++) {
             double square = weight * shape.value[a] * shape.value[a];
             out->mass[a] += square;
@@ -66,27 +70,29 @@ static void lump_mass(ElementKind kind, const double (*position)[2], double dens
 }
 
 // By the element's own quadrature, per unit width.
-static void integrate(ElementKind kind, const double (*position)[2], const double elastic[3][3],
-                      const double viscous[3][3], ElementMatrices *out)
+static void integrate(ElementKind kind, const MeshPlace *position,
+                      const double elastic[STRAINS_MAX][STRAINS_MAX],
+                      const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
 {
-    double b[3][ELEMENT_DOFS_MAX];
+    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
+    int32_t dim = element_dim(kind);
     memset(out, 0, sizeof *out);
-    out->dof_count = 2 * element_node_count(kind);
+    out->dof_count = dim * element_node_count(kind);
     Quadrature quadrature = shape_quadrature(kind);
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
         add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
         add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
-        for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % 2][j];
+        for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % dim][j];
         out->area += weight;
     }
 }
 
-void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                       ElementMatrices *out)
 {
-    double elastic[3][3], viscous[3][3];
+    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
     material_elastic(material, elastic);
     material_viscous(material, viscous);
     integrate(kind, position, elastic, viscous, out);
@@ -100,10 +106,10 @@ static void take_areal_part(double d[3][3])
     d[0][1] = d[1][0] = -d[2][2];
 }
 
-void element_shape_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                             ElementMatrices *out)
 {
-    double elastic[3][3], viscous[3][3];
+    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
     material_elastic(material, elastic);
     material_viscous(material, viscous);
     take_areal_part(elastic);

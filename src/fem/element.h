@@ -7,29 +7,29 @@
 #include "fem/material.h"
 #include "io/mesh/shape_functions.h"
 
-enum { ELEMENT_DOFS_MAX = 2 * ELEMENT_NODES_MAX };
+enum { ELEMENT_DOFS_MAX = DIM_MAX * ELEMENT_NODES_MAX, STRAINS_MAX = DIM_MAX * (DIM_MAX + 1) / 2 };
 
 typedef struct ElementMatrices {
-    int32_t dof_count;   // 2 * nodes: x and z of each in turn
+    int32_t dof_count;   // dim * nodes: x to z of each in turn
     double stiffness[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per length
     double damping[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per velocity
     double mass[ELEMENT_NODES_MAX];   // mass/width of each node
-    double areal[ELEMENT_DOFS_MAX];   // int (N_a,x  N_a,z): by u the growth of the area, length
+    double areal[ELEMENT_DOFS_MAX];   // int (N_a,x to N_a,z): by u the growth of the area, length
     double area;
 } ElementMatrices;
 
-// position: [nodes][2]. Mass is lumped in proportion to int N_a^2, keeping the total: on T3 and on
+// position: [nodes]. Mass is lumped in proportion to int N_a^2, keeping the total: on T3 and on
 // parallelograms Q4 this is the row sum.
-void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                       ElementMatrices *out);
 
 // The same without what a change of area meets: K and C of the strain less its areal part, which
 // fem/element_group adds as a mean.
-void element_shape_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                             ElementMatrices *out);
 
-// B at one point: strain[3] = B [3][dofs] u; returns det J.
-double element_strain_matrix(ElementKind kind, const double (*position)[2], const double point[2],
-                             double b[3][ELEMENT_DOFS_MAX]);
+// B at one point: strain = B [strains][dofs] u; returns det J.
+double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,
+                             double b[STRAINS_MAX][ELEMENT_DOFS_MAX]);
 
 #endif

@@ -32,7 +32,8 @@ static int by_length(const void *left, const void *right)
 
 static int32_t corners_of(const Mesh *mesh, int32_t e)
 {
-    return mesh->kind[e] == ELEMENT_T3 ? 3 : mesh->kind[e] == ELEMENT_Q4 ? 4 : 0;
+    int32_t corners = element_corner_count(mesh->kind[e]);
+    return element_node_count(mesh->kind[e]) == corners ? corners : 0;
 }
 
 // Both sides of the edges between two elements of one region that may be grouped; their number.
@@ -45,10 +46,12 @@ static int32_t list_sides(const Mesh *mesh, const uint8_t *is_mean, Side *sides)
         const int32_t *node = mesh->element_nodes + mesh->first_node[e];
         for (int32_t a = 0; a < corners; a++) {
             int32_t one = node[a], two = node[(a + 1) % corners];
-            double x = mesh->position[2 * two] - mesh->position[2 * one];
-            double z = mesh->position[2 * two + 1] - mesh->position[2 * one + 1];
-            sides[count++] =
-                (Side){one < two ? one : two, one < two ? two : one, x * x + z * z, e, -1};
+            double square = 0;
+            for (int32_t d = 0; d < mesh->dim; d++) {
+                double way = mesh_place(mesh, two)[d] - mesh_place(mesh, one)[d];
+                square += way * way;
+            }
+            sides[count++] = (Side){one < two ? one : two, one < two ? two : one, square, e, -1};
         }
     }
     qsort(sides, (size_t)count, sizeof *sides, by_edge);
@@ -171,30 +174,26 @@ void element_group_of(const Mesh *mesh, int32_t e, ElementGroup *group)
 }
 
 // Of one element, from its first node, so that equal shapes have equal matrices.
-static void find_offsets(const Mesh *mesh, int32_t e, double offset[ELEMENT_NODES_MAX][2])
+static void find_offsets(const Mesh *mesh, int32_t e, MeshPlace offset[ELEMENT_NODES_MAX])
 {
-    int32_t first = mesh->first_node[e], nodes = mesh->first_node[e + 1] - first;
-    const double *origin = mesh->position + 2 * (int64_t)mesh->element_nodes[first];
-    memset(offset, 0, ELEMENT_NODES_MAX * sizeof *offset);
-    for (int32_t a = 0; a < nodes; a++)
-        for (int d = 0; d < 2; d++)
-            offset[a][d] = mesh->position[2 * (int64_t)mesh->element_nodes[first + a] + d] -
-                           origin[d];
+    int32_t first = mesh->first_node[e];
+    mesh_offsets(mesh, mesh->element_nodes + first, mesh->first_node[e + 1] - first, offset);
 }
 
 // place: [nodes of the element] among those of the group.
-static void add_member(const ElementMatrices *member, const int32_t *place, ElementMatrices *out)
+static void add_member(int32_t dim, const ElementMatrices *member, const int32_t *place,
+                       ElementMatrices *out)
 {
     for (int32_t i = 0; i < member->dof_count; i++) {
-        int32_t row = 2 * place[i / 2] + i % 2;
+        int32_t row = node_dof(dim, place[dof_node(dim, i)], dof_axis(dim, i));
         out->areal[row] += member->areal[i];
         for (int32_t j = 0; j < member->dof_count; j++) {
-            int32_t column = 2 * place[j / 2] + j % 2;
+            int32_t column = node_dof(dim, place[dof_node(dim, j)], dof_axis(dim, j));
             out->stiffness[row][column] += member->stiffness[i][j];
             out->damping[row][column] += member->damping[i][j];
         }
     }
-    for (int32_t a = 0; 2 * a < member->dof_count; a++) out->mass[place[a]] += member->mass[a];
+    for (int32_t a = 0; dim * a < member->dof_count; a++) out->mass[place[a]] += member->mass[a];
     out->area += member->area;
 }
 
@@ -222,25 +221,25 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
                             ElementMatrices *out)
 {
     const Material *material = &materials[mesh_region(mesh, group->element[0])];
-    double offset[ELEMENT_NODES_MAX][2];
+    MeshPlace offset[ELEMENT_NODES_MAX];
     if (!group->is_mean) {
         find_offsets(mesh, group->element[0], offset);
-        element_matrices((ElementKind)mesh->kind[group->element[0]], (const double(*)[2])offset,
+        element_matrices((ElementKind)mesh->kind[group->element[0]], (const MeshPlace *)offset,
                          material, out);
         return;
     }
     ElementGroup known = *group;
     memset(out, 0, sizeof *out);
-    out->dof_count = 2 * group->node_count;
+    out->dof_count = mesh->dim * group->node_count;
     for (int32_t m = 0; m < group->count; m++) {
         int32_t e = group->element[m], place[ELEMENT_NODES_MAX], first = mesh->first_node[e];
         ElementMatrices member;
         find_offsets(mesh, e, offset);
-        element_shape_matrices((ElementKind)mesh->kind[e], (const double(*)[2])offset, material,
+        element_shape_matrices((ElementKind)mesh->kind[e], (const MeshPlace *)offset, material,
                                &member);
-        for (int32_t a = 0; 2 * a < member.dof_count; a++)
+        for (int32_t a = 0; mesh->dim * a < member.dof_count; a++)
             place[a] = place_of(&known, mesh->element_nodes[first + a]);
-        add_member(&member, place, out);
+        add_member(mesh->dim, &member, place, out);
     }
     add_areal(material, out);
 }

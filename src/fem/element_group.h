@@ -43,7 +43,7 @@ void element_group_of(const Mesh *mesh, int32_t e, ElementGroup *group);
 void element_group_matrices(const Mesh *mesh, const Material *materials, const ElementGroup *group,
                             ElementMatrices *out);
 
-// g [2 * node_count] of the group's nodes over its area: its mean areal strain is g u.
+// g [dim * node_count] of the group's nodes over its area: its mean areal strain is g u.
 void element_group_areal(const Mesh *mesh, const ElementGroup *group, double *g);
 
 #endif

@@ -17,8 +17,9 @@ enum { MESH_PATH_SIZE = 1024 };
 // elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
+    int32_t dim;   // numbers of a place, and displacements of a node
     int32_t node_count;
-    double *position;   // [node_count * 2] (x, z), length; owned
+    double *position;   // [node_count * dim] from x to z, length; owned
     int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
     int32_t element_count;
     int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
@@ -36,6 +37,42 @@ typedef struct Mesh {
     double x_min, x_max;   // extent, length
     double z_min, z_max;
 } Mesh;
+
+// Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
+// from there to the node, and to d.
+static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
+{
+    return dim * node + d;
+}
+static inline int32_t dof_node(int32_t dim, int32_t dof)
+{
+    return dof / dim;
+}
+static inline int32_t dof_axis(int32_t dim, int32_t dof)
+{
+    return dof % dim;
+}
+
+// Where a node is: [mesh->dim]; and its z.
+static inline const double *mesh_place(const Mesh *mesh, int32_t node)
+{
+    return mesh->position + (int64_t)mesh->dim * node;
+}
+static inline double mesh_height(const Mesh *mesh, int32_t node)
+{
+    return mesh_place(mesh, node)[mesh->dim - 1];
+}
+
+// Where nodes [count] are: place [count]; offsets: from the first of them.
+void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place);
+void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset);
+
+// "(0.5, 0)": a place in a message.
+enum { PLACE_TEXT_SIZE = 64 };
+const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE]);
+
+// Between two nodes, length.
+double mesh_distance(const Mesh *mesh, int32_t one, int32_t two);
 
 // Which of a list of materials element e is made of.
 static inline int32_t mesh_region(const Mesh *mesh, int32_t e)

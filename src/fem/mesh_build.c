@@ -35,7 +35,8 @@ void mesh_destroy(Mesh *mesh)
 // Moves the arrays; `file` is empty afterwards, so destroying both is always right.
 static void take_over(MeshFile *file, const char *path, Mesh *mesh)
 {
-    *mesh = (Mesh){.node_count = file->node_count,
+    *mesh = (Mesh){.dim = file->dim,
+                   .node_count = file->node_count,
                    .position = file->position,
                    .node_number = file->node_number,
                    .element_count = file->element_count,
@@ -55,11 +56,43 @@ static void find_extent(Mesh *mesh)
     mesh->x_min = mesh->z_min = INFINITY;
     mesh->x_max = mesh->z_max = -INFINITY;
     for (int32_t i = 0; i < mesh->node_count; i++) {
-        mesh->x_min = fmin(mesh->x_min, mesh->position[2 * i]);
-        mesh->x_max = fmax(mesh->x_max, mesh->position[2 * i]);
-        mesh->z_min = fmin(mesh->z_min, mesh->position[2 * i + 1]);
-        mesh->z_max = fmax(mesh->z_max, mesh->position[2 * i + 1]);
+        mesh->x_min = fmin(mesh->x_min, mesh_place(mesh, i)[0]);
+        mesh->x_max = fmax(mesh->x_max, mesh_place(mesh, i)[0]);
+        mesh->z_min = fmin(mesh->z_min, mesh_height(mesh, i));
+        mesh->z_max = fmax(mesh->z_max, mesh_height(mesh, i));
     }
+}
+
+void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place)
+{
+    for (int32_t a = 0; a < count; a++)
+        memcpy(place[a], mesh_place(mesh, nodes[a]), (size_t)mesh->dim * sizeof(double));
+}
+
+void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset)
+{
+    const double *origin = mesh_place(mesh, nodes[0]);
+    mesh_places(mesh, nodes, count, offset);
+    for (int32_t a = 0; a < count; a++)
+        for (int32_t d = 0; d < mesh->dim; d++) offset[a][d] -= origin[d];
+}
+
+double mesh_distance(const Mesh *mesh, int32_t one, int32_t two)
+{
+    double length = 0;
+    for (int32_t d = 0; d < mesh->dim; d++)
+        length = hypot(length, mesh_place(mesh, two)[d] - mesh_place(mesh, one)[d]);
+    return length;
+}
+
+const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE])
+{
+    int length = snprintf(text, PLACE_TEXT_SIZE, "(");
+    for (int32_t d = 0; d < mesh->dim; d++)
+        length += snprintf(text + length, PLACE_TEXT_SIZE - (size_t)length, "%s%g",
+                           d > 0 ? ", " : "", mesh_place(mesh, node)[d]);
+    snprintf(text + length, PLACE_TEXT_SIZE - (size_t)length, ")");
+    return text;
 }
 
 // --- checks -------------------------------------------------------------------------------------
@@ -76,6 +109,7 @@ static const char *group_of_node(const Mesh *mesh, int32_t i)
 // A node of no element has no stiffness: the matrix would be singular.
 static bool check_nodes(const Mesh *mesh, Error *err)
 {
+    char at[PLACE_TEXT_SIZE];
     bool *used = NEW_ARRAY(bool, mesh->node_count, err);
     if (!used) goto cleanup;
     for (int32_t k = 0; k < mesh->first_node[mesh->element_count]; k++)
@@ -83,10 +117,9 @@ static bool check_nodes(const Mesh *mesh, Error *err)
     for (int32_t i = 0; i < mesh->node_count; i++) {
         if (used[i]) continue;
         const char *group = group_of_node(mesh, i);
-        FAIL(err, ERROR_INPUT, "%s: node %lld at (%g, %g) is on no surface element%s%s%s",
-             mesh->path, (long long)mesh->node_number[i], mesh->position[2 * i],
-             mesh->position[2 * i + 1], group ? "; it belongs to group '" : "", group ? group : "",
-             group ? "'" : "");
+        FAIL(err, ERROR_INPUT, "%s: node %lld at %s is on no surface element%s%s%s", mesh->path,
+             (long long)mesh->node_number[i], mesh_place_text(mesh, i, at),
+             group ? "; it belongs to group '" : "", group ? group : "", group ? "'" : "");
     }
 cleanup:
     memory_free(used);
@@ -109,19 +142,20 @@ cleanup:
 
 // Positions of the nodes of element e, and their mean; returns the square of the longest distance
 // from node 0, the scale of its Jacobian.
-static double gather(const Mesh *mesh, int32_t e, double (*position)[2], double centre[2])
+static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace centre)
 {
     int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
     double scale = 0;
-    centre[0] = centre[1] = 0;
+    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], count, position);
+    memset(centre, 0, sizeof(MeshPlace));
     for (int32_t a = 0; a < count; a++) {
-        int32_t i = mesh->element_nodes[mesh->first_node[e] + a];
-        for (int32_t d = 0; d < 2; d++) {
-            position[a][d] = mesh->position[2 * i + d];
+        double square = 0;
+        for (int32_t d = 0; d < mesh->dim; d++) {
+            double way = position[a][d] - position[0][d];
             centre[d] += position[a][d] / count;
+            square += way * way;
         }
-        double x = position[a][0] - position[0][0], z = position[a][1] - position[0][1];
-        scale = fmax(scale, x * x + z * z);
+        scale = fmax(scale, square);
     }
     return scale;
 }
@@ -141,28 +175,26 @@ static void set_probes(ProbePoints *probes)
         Quadrature rule = shape_quadrature((ElementKind)kind);
         int32_t count = 0;
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
-            double xi, eta;
-            shape_node((ElementKind)kind, a, &xi, &eta);
-            probes->shape[kind][count++] = shape_at((ElementKind)kind, xi, eta);
+            probes->shape[kind][count++] =
+                shape_at((ElementKind)kind, shape_node((ElementKind)kind, a));
         }
         for (int32_t q = 0; q < rule.count; q++)
-            probes->shape[kind][count++] =
-                shape_at((ElementKind)kind, rule.point[q][0], rule.point[q][1]);
+            probes->shape[kind][count++] = shape_at((ElementKind)kind, rule.point[q]);
         probes->count[kind] = count;
     }
 }
 
 // Smallest and largest determinant of element e over its probes, over the scale; its centre.
 static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32_t e,
-                              double range[2], double centre[2])
+                              double range[2], MeshPlace centre)
 {
-    double position[ELEMENT_NODES_MAX][2];
+    MeshPlace position[ELEMENT_NODES_MAX];
     double scale = gather(mesh, e, position, centre);
     ElementKind kind = mesh->kind[e];
     range[0] = INFINITY, range[1] = -INFINITY;
     for (int32_t q = 0; q < probes->count[kind]; q++) {
         double determinant =
-            shape_jacobian(kind, &probes->shape[kind][q], (const double(*)[2])position, NULL);
+            shape_jacobian(kind, &probes->shape[kind][q], (const MeshPlace *)position);
         range[0] = fmin(range[0], determinant);
         range[1] = fmax(range[1], determinant);
     }
@@ -189,12 +221,14 @@ static bool check_orientation(Mesh *mesh, Error *err)
 {
     bool clockwise = false;   // as the first element is, all must be
     int32_t first_bad = -1;
-    double bad_range[2] = {0}, bad_centre[2] = {0};
+    double bad_range[2] = {0};
+    MeshPlace bad_centre = {0};
     ProbePoints *probes = NEW_ARRAY(ProbePoints, 1, err);
     if (!probes) goto cleanup;
     set_probes(probes);
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        double range[2], centre[2];
+        double range[2];
+        MeshPlace centre;
         determinant_range(mesh, probes, e, range, centre);
         bool reversed = range[1] < -AREA_TOLERANCE;
         if (e == 0) clockwise = reversed;
@@ -229,6 +263,7 @@ static bool check_curves(const Mesh *mesh, Error *err)
 {
     MeshEdges table = {0};
     int32_t *listed = NULL;   // by edge of the table: the last group that lists it, + 1
+    char at[PLACE_TEXT_SIZE];
     TRY(mesh_edges_build(mesh, &table, err));
     listed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err);
     if (!listed) goto cleanup;
@@ -239,22 +274,19 @@ static bool check_curves(const Mesh *mesh, Error *err)
             int32_t middle = group->nodes_per_edge == 3 ? nodes[2] : -1;
             const MeshEdge *edge = mesh_edges_find(&table, nodes[0], nodes[1]);
             if (!edge || edge->middle != middle)
-                FAIL(
-                    err, ERROR_INPUT,
-                    "%s: group '%s': its edge from node %lld to %lld at (%g, %g) is not an edge of "
-                    "any element",
-                    mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
-                    (long long)mesh->node_number[nodes[1]], mesh->position[2 * nodes[0]],
-                    mesh->position[2 * nodes[0] + 1]);
+                FAIL(err, ERROR_INPUT,
+                     "%s: group '%s': its edge from node %lld to %lld at %s is not an edge of any "
+                     "element",
+                     mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
+                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at));
             int32_t *last = &listed[edge - table.edges];
             if (*last == g + 1)
                 FAIL(err, ERROR_INPUT,
-                     "%s: group '%s' has its edge from node %lld to %lld at (%g, %g) twice: a load "
-                     "on it would act twice (a curve named twice, or once more reversed, in the "
-                     "physical group?)",
+                     "%s: group '%s' has its edge from node %lld to %lld at %s twice: a load on it "
+                     "would act twice (a curve named twice, or once more reversed, in the physical "
+                     "group?)",
                      mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
-                     (long long)mesh->node_number[nodes[1]], mesh->position[2 * nodes[0]],
-                     mesh->position[2 * nodes[0] + 1]);
+                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at));
             *last = g + 1;
         }
     }
@@ -277,18 +309,19 @@ static int32_t part_of(int32_t *parent, int32_t i)
 // The box of the part that `root` stands for, in `text`.
 static void describe_part(const Mesh *mesh, int32_t *parent, int32_t root, char text[160])
 {
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    int32_t nodes = 0;
+    int32_t nodes = 0, up = mesh->dim - 1;
+    MeshPlace low, high;
+    for (int32_t d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
     for (int32_t i = 0; i < mesh->node_count; i++) {
         if (part_of(parent, i) != root) continue;
         nodes++;
-        for (int32_t d = 0; d < 2; d++) {
-            low[d] = fmin(low[d], mesh->position[2 * i + d]);
-            high[d] = fmax(high[d], mesh->position[2 * i + d]);
+        for (int32_t d = 0; d < mesh->dim; d++) {
+            low[d] = fmin(low[d], mesh_place(mesh, i)[d]);
+            high[d] = fmax(high[d], mesh_place(mesh, i)[d]);
         }
     }
-    snprintf(text, 160, "%d nodes in x = %g ... %g, z = %g ... %g", nodes, low[0], high[0], low[1],
-             high[1]);
+    snprintf(text, 160, "%d nodes in x = %g ... %g, z = %g ... %g", nodes, low[0], high[0], low[up],
+             high[up]);
 }
 
 // All elements hang together by their nodes; parts that only touch share none.

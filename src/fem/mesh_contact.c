@@ -23,23 +23,26 @@ static double extent(const Mesh *mesh)
 
 double mesh_gap(const Mesh *mesh, int32_t node)
 {
-    double z = mesh->position[2 * node + 1];
+    double z = mesh_height(mesh, node);
     return z > PLACE_TOLERANCE * extent(mesh) ? z : 0;
 }
 
-// By x, then z. `position` comes third, as qsort_r passes it: no state outside the call.
-static int compare_places(const void *a, const void *b, void *position)
+// By x first, by z last. `context` comes third, as qsort_r passes it: no state outside the call.
+static int compare_places(const void *a, const void *b, void *context)
 {
-    const double *first = (const double *)position + 2 * *(const int32_t *)a;
-    const double *second = (const double *)position + 2 * *(const int32_t *)b;
-    if (first[0] != second[0]) return first[0] < second[0] ? -1 : 1;
-    return (first[1] > second[1]) - (first[1] < second[1]);
+    const Mesh *mesh = context;
+    const double *first = mesh_place(mesh, *(const int32_t *)a);
+    const double *second = mesh_place(mesh, *(const int32_t *)b);
+    for (int32_t d = 0; d < mesh->dim; d++)
+        if (first[d] != second[d]) return first[d] < second[d] ? -1 : 1;
+    return 0;
 }
 
 // By place, so that numbers given out by gmsh do not decide the order of contact nodes.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
 {
-    if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
+    Mesh order = *mesh;   // qsort_r takes no const
+    if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, &order);
 }
 
 // The error lists the curves that there are.
@@ -79,10 +82,10 @@ static bool is_contact_name(const char *name)
 }
 
 // Curves by their first node, which is their leftmost.
-static int compare_starts(const void *a, const void *b, void *position)
+static int compare_starts(const void *a, const void *b, void *context)
 {
     const MeshCurve *first = a, *second = b;
-    return compare_places(&first->nodes[0], &second->nodes[0], position);
+    return compare_places(&first->nodes[0], &second->nodes[0], context);
 }
 
 // Fills contact->curves from the names, or from every curve that is called a contact.
@@ -99,9 +102,10 @@ static bool pick_curves(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], 
             TRY(mesh_curve(mesh, mesh->groups[g].name, &contact->curves[contact->curve_count++],
                            err));
     MeshCurve none;
+    Mesh order = *mesh;   // qsort_r takes no const
     if (contact->curve_count == 0) TRY(mesh_curve(mesh, "contact", &none, err));
     qsort_r(contact->curves, (size_t)contact->curve_count, sizeof *contact->curves, compare_starts,
-            mesh->position);
+            &order);
 cleanup:
     return error_is_clean(err);
 }
@@ -119,7 +123,7 @@ static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *
         for (int32_t k = 0; k < curve->edge_count; k++) {
             const int32_t *nodes = curve->edge_nodes + k * curve->nodes_per_edge;
             const MeshEdge *edge = mesh_edges_find(&table, nodes[0], nodes[1]);
-            double x = mesh->position[2 * nodes[0]];
+            double x = mesh_place(mesh, nodes[0])[0];
             if (edge->elements != 1)
                 FAIL(err, ERROR_INPUT,
                      "%s: contact group '%s' runs inside the block at x = %g, not on its edge",
@@ -175,7 +179,7 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
     for (int32_t k = 1; k < contact->node_count; k++) {
         int32_t a = contact->nodes[k - 1], b = contact->nodes[k];
         const char *name = contact->curves[contact->curve_of[k]].name;
-        const double *at_a = mesh->position + 2 * a, *at_b = mesh->position + 2 * b;
+        const double *at_a = mesh_place(mesh, a), *at_b = mesh_place(mesh, b);
         if (at_b[0] - at_a[0] > tolerance) continue;
         if (fabs(at_b[1] - at_a[1]) > tolerance)
             FAIL(err, ERROR_INPUT,
@@ -198,13 +202,13 @@ static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *er
 {
     int32_t lowest = contact->nodes[0];
     for (int32_t k = 1; k < contact->node_count; k++)
-        if (mesh->position[2 * contact->nodes[k] + 1] < mesh->position[2 * lowest + 1])
+        if (mesh_height(mesh, contact->nodes[k]) < mesh_height(mesh, lowest))
             lowest = contact->nodes[k];
     if (mesh_gap(mesh, lowest) > 0)
         FAIL(err, ERROR_INPUT,
              "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = %g",
-             mesh->path, (long long)mesh->node_number[lowest], mesh->position[2 * lowest],
-             mesh->position[2 * lowest + 1]);
+             mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+             mesh_height(mesh, lowest));
 cleanup:
     return error_is_clean(err);
 }
@@ -222,7 +226,7 @@ static bool check_order(const Mesh *mesh, const MeshContact *contact, Error *err
             if (abs(place[nodes[1]] - place[nodes[0]]) == curve->nodes_per_edge - 1) continue;
             FAIL(err, ERROR_INPUT,
                  "%s: contact group '%s' turns back over itself near x = %g, z = %g", mesh->path,
-                 curve->name, mesh->position[2 * nodes[0]], mesh->position[2 * nodes[0] + 1]);
+                 curve->name, mesh_place(mesh, nodes[0])[0], mesh_height(mesh, nodes[0]));
         }
     }
 cleanup:

@@ -4,12 +4,6 @@
 
 #include "base/memory.h"
 
-// Corners of an element; its edge k runs from corner k to the next one.
-static int32_t corner_count(ElementKind kind)
-{
-    return kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
-}
-
 // In the bucket of the lower end; NULL: not there (yet).
 static MeshEdge *find_edge(const MeshEdges *table, int32_t low, int32_t high)
 {
@@ -24,8 +18,8 @@ static bool add_edge(const Mesh *mesh, int32_t element, const MeshEdge *edge, in
                      MeshEdges *table, Error *err)
 {
     MeshEdge *known = find_edge(table, low, edge->high);
-    const double *from = mesh->position + 2 * low, *to = mesh->position + 2 * edge->high;
-    double x = (from[0] + to[0]) / 2, z = (from[1] + to[1]) / 2;
+    const double *from = mesh_place(mesh, low), *to = mesh_place(mesh, edge->high);
+    double x = (from[0] + to[0]) / 2, z = (from[mesh->dim - 1] + to[mesh->dim - 1]) / 2;
     if (!known) {
         table->edges[table->last[low]++] = *edge;
         goto cleanup;
@@ -45,13 +39,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Mid-side node k of a quadratic element follows its corners: it is on the edge from corner k.
+// Edge k of an element runs from corner k to the next; mid-side node k of a quadratic one, which
+// follows its corners, is on it.
 static bool fill_edges(const Mesh *mesh, MeshEdges *table, Error *err)
 {
     for (int32_t e = 0; e < mesh->element_count; e++) {
         const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-        int32_t corners = corner_count(mesh->kind[e]);
-        bool straight = mesh->kind[e] == ELEMENT_T3 || mesh->kind[e] == ELEMENT_Q4;
+        int32_t corners = element_corner_count(mesh->kind[e]);
+        bool straight = element_node_count(mesh->kind[e]) == corners;
         for (int32_t k = 0; k < corners; k++) {
             int32_t a = nodes[k], b = nodes[(k + 1) % corners], low = a < b ? a : b;
             MeshEdge edge = {.high = a < b ? b : a,
@@ -74,7 +69,7 @@ bool mesh_edges_build(const Mesh *mesh, MeshEdges *table, Error *err)
     if (!(table->last = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
     for (int32_t e = 0; e < mesh->element_count; e++) {
         const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-        int32_t corners = corner_count(mesh->kind[e]);
+        int32_t corners = element_corner_count(mesh->kind[e]);
         for (int32_t k = 0; k < corners; k++) {
             int32_t a = nodes[k], b = nodes[(k + 1) % corners];
             table->first[(a < b ? a : b) + 1]++;

@@ -10,17 +10,15 @@
 // By the element's own quadrature: exact where sides are straight.
 double mesh_element_area(const Mesh *mesh, int32_t e)
 {
-    double position[ELEMENT_NODES_MAX][2], area = 0;
+    MeshPlace position[ELEMENT_NODES_MAX];
+    double area = 0;
     ElementKind kind = mesh->kind[e];
-    for (int32_t a = 0; a < element_node_count(kind); a++) {
-        int32_t i = mesh->element_nodes[mesh->first_node[e] + a];
-        position[a][0] = mesh->position[2 * i];
-        position[a][1] = mesh->position[2 * i + 1];
-    }
+    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], element_node_count(kind),
+                position);
     Quadrature rule = shape_quadrature(kind);
     for (int32_t q = 0; q < rule.count; q++) {
-        ShapeValues shape = shape_at(kind, rule.point[q][0], rule.point[q][1]);
-        area += rule.weight[q] * shape_jacobian(kind, &shape, (const double(*)[2])position, NULL);
+        ShapeValues shape = shape_at(kind, rule.point[q]);
+        area += rule.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)position);
     }
     return area;
 }
@@ -33,12 +31,10 @@ MeshSummary mesh_summarise(const Mesh *mesh)
     for (int32_t e = 0; e < mesh->element_count; e++) {
         ElementKind kind = mesh->kind[e];
         const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-        int32_t corners = kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
+        int32_t corners = element_corner_count(kind);
         double shortest = INFINITY, longest = 0;
         for (int32_t k = 0; k < corners; k++) {
-            const double *from = mesh->position + 2 * nodes[k];
-            const double *to = mesh->position + 2 * nodes[(k + 1) % corners];
-            double length = hypot(to[0] - from[0], to[1] - from[1]);
+            double length = mesh_distance(mesh, nodes[k], nodes[(k + 1) % corners]);
             shortest = fmin(shortest, length);
             longest = fmax(longest, length);
         }

@@ -76,18 +76,21 @@ static int32_t place_in_row(NodalStress *stress, int32_t point, int32_t node)
 // To the row of `point`: `share` of what the mean areal strain of element e's group is above that
 // of its own slopes `b` there.
 static void add_areal(const Mesh *mesh, int32_t e, int32_t point, double share,
-                      const double b[3][ELEMENT_DOFS_MAX], NodalStress *stress)
+                      const double b[STRAINS_MAX][ELEMENT_DOFS_MAX], NodalStress *stress)
 {
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
     double mean[ELEMENT_DOFS_MAX];
     ElementGroup group;
     element_group_of(mesh, e, &group);
     element_group_areal(mesh, &group, mean);
-    for (int32_t i = 0; i < 2 * group.node_count; i++)
-        stress->areal[place_in_row(stress, point, group.node[i / 2])][i % 2] += share * mean[i];
+    for (int32_t a = 0; a < group.node_count; a++)
+        for (int32_t d = 0; d < mesh->dim; d++)
+            stress->areal[place_in_row(stress, point, group.node[a])][d] +=
+                share * mean[node_dof(mesh->dim, a, d)];
     for (int32_t a = 0; a < mesh->first_node[e + 1] - mesh->first_node[e]; a++)
-        for (int d = 0; d < 2; d++)
-            stress->areal[place_in_row(stress, point, element[a])][d] -= share * b[d][2 * a + d];
+        for (int32_t d = 0; d < mesh->dim; d++)
+            stress->areal[place_in_row(stress, point, element[a])][d] -=
+                share * b[d][node_dof(mesh->dim, a, d)];
 }
 
 // To the row of the point at element `e`'s node `at`: `share` of the slopes d/dx, d/dz of its shape
@@ -97,15 +100,15 @@ static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, No
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
     int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
     int32_t point = nodal_stress_points(stress, mesh, e)[at];
-    double position[ELEMENT_NODES_MAX][2], place[2], b[3][ELEMENT_DOFS_MAX];
-    for (int32_t a = 0; a < nodes; a++)
-        memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
-    shape_node(mesh->kind[e], at, &place[0], &place[1]);
-    element_strain_matrix(mesh->kind[e], (const double(*)[2])position, place, b);
+    MeshPlace position[ELEMENT_NODES_MAX];
+    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
+    mesh_places(mesh, element, nodes, position);
+    element_strain_matrix(mesh->kind[e], (const MeshPlace *)position, shape_node(mesh->kind[e], at),
+                          b);
     for (int32_t a = 0; a < nodes; a++) {
         int32_t k = place_in_row(stress, point, element[a]);
-        stress->slope[k][0] += share * b[0][2 * a];
-        stress->slope[k][1] += share * b[1][2 * a + 1];
+        for (int32_t d = 0; d < mesh->dim; d++)
+            stress->slope[k][d] += share * b[d][node_dof(mesh->dim, a, d)];
     }
     if (mesh->mean_next && mesh->mean_next[e] >= 0) add_areal(mesh, e, point, share, b, stress);
 }
@@ -150,7 +153,7 @@ cleanup:
 // Kept over a run and filled anew at each time that is written.
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
-    *stress = (NodalStress){.point_count = mesh->node_count};
+    *stress = (NodalStress){.dim = mesh->dim, .point_count = mesh->node_count};
     if (mesh->region) TRY(split_nodes(mesh, stress, err));
     TRY(prepare_rows(mesh, stress, err));
     int64_t count = stress->point_count;
@@ -189,8 +192,8 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
     double more = 0, more_rate = 0;
     int32_t end = stress->row[point] + stress->row_length[point];
     for (int32_t k = stress->row[point]; k < end; k++) {
-        const double *u = displacement + 2 * stress->column[k];
-        const double *v = velocity + 2 * stress->column[k];
+        const double *u = displacement + node_dof(stress->dim, stress->column[k], 0);
+        const double *v = velocity + node_dof(stress->dim, stress->column[k], 0);
         double x = stress->slope[k][0], z = stress->slope[k][1];
         found.strain[0] += x * u[0];
         found.strain[1] += z * u[1];
@@ -199,12 +202,12 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
         found.rate[1] += z * v[1];
         found.rate[2] += z * v[0] + x * v[1];
         if (!stress->areal) continue;
-        for (int d = 0; d < 2; d++) {
+        for (int32_t d = 0; d < stress->dim; d++) {
             more += 0.5 * stress->areal[k][d] * u[d];
             more_rate += 0.5 * stress->areal[k][d] * v[d];
         }
     }
-    for (int d = 0; d < 2; d++) {
+    for (int32_t d = 0; d < stress->dim; d++) {
         found.strain[d] += more;
         found.rate[d] += more_rate;
     }
@@ -220,7 +223,7 @@ static double von_mises(const double stress[3], double out_of_plane)
 }
 
 // Von Mises is that of the mean stress, not the mean of the elements' von Mises.
-// displacement, velocity: [2 * nodes] of the full mesh. stress->total has the viscous part, C's
+// displacement, velocity: [dim * nodes] of the full mesh. stress->total has the viscous part, C's
 // stress at this velocity, stress->elastic has not.
 void nodal_stress_recover(const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress)

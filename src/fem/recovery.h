@@ -16,9 +16,10 @@ typedef struct NodalStress {
     double *von_mises;   // [point_count] of the total stress, stress; owned
     int32_t *row, *row_length;   // [point_count] where a point's row of the operator begins; owned
     int32_t *column;   // a row's nodes, and at each:
-    double (*slope)[2];   // d/dx, d/dz of shape functions, means over the point's elements; owned
-    double (*areal)[2];   // by u what the areal strain is above that of the slopes, where elements
+    MeshPlace *slope;   // d/dx to d/dz of shape functions, means over the point's elements; owned
+    MeshPlace *areal;   // by u what the areal strain is above that of the slopes, where elements
         // share one; owned; NULL: none do
+    int32_t dim;
     int32_t point_count;   // from the mesh's nodes on
     int32_t *points;   // [mesh->first_node[elements]] in the place of element_nodes; owned; NULL:
         // points are nodes
@@ -32,7 +33,7 @@ const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, 
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);
 
-// displacement, velocity: [2 * node_count]
+// displacement, velocity: [dim * node_count]
 void nodal_stress_recover(const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress);
 

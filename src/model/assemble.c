@@ -91,20 +91,23 @@ static bool add_loads(Model *model, Error *err)
     Bulk *bulk = &model->bulk;
     MeshCurve curve;
     double reference = load_reference(scene), unit = 0;
+    int32_t up = bulk->dim - 1;
     if (scene->load.pressure != 0) {
-        double traction[2] = {0, -scene->load.pressure / reference};
+        MeshPlace traction = {0};
+        traction[up] = -scene->load.pressure / reference;
         bool found = mesh_curve(&model->mesh, scene->groups.top, &curve, err);
         TRY(scene_blame(scene, "groups.top", found, err));
         bulk_add_traction(&model->mesh, &curve, traction, bulk);
     }
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         const SceneTraction *given = &scene->load.tractions[k];
-        double traction[2] = {given->x / reference, given->z / reference};
+        MeshPlace traction = {given->x / reference};
+        traction[up] = given->z / reference;
         bool found = mesh_curve(&model->mesh, given->group, &curve, err);
         TRY(scene_blame(scene, "load.tractions", found, err));
         bulk_add_traction(&model->mesh, &curve, traction, bulk);
     }
-    for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) unit -= bulk->load[dof];
+    for (int32_t dof = up; dof < bulk->dof_count; dof += bulk->dim) unit -= bulk->load[dof];
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
     model->unit_load.resultant = unit;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
@@ -152,8 +155,9 @@ bool model_hold_supports(Model *model, Error *err)
         bool found = mesh_curve(&model->mesh, support->group, &curve, err);
         if (!scene_blame(scene, "load.supports", found, err)) return false;
         for (int32_t i = 0; i < curve.node_count; i++) {
-            if (support->x) bulk_hold(2 * curve.nodes[i], &model->bulk);
-            if (support->z) bulk_hold(2 * curve.nodes[i] + 1, &model->bulk);
+            int32_t first = node_dof(model->mesh.dim, curve.nodes[i], 0);
+            if (support->x) bulk_hold(first, &model->bulk);
+            if (support->z) bulk_hold(first + model->mesh.dim - 1, &model->bulk);
         }
     }
     return true;

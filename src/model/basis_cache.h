@@ -6,23 +6,16 @@
 //     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
 //     CACHE/<name>.modes     u = modes [u_b; q], kept and read only where fields of the bulk are
 //                            asked for
-//     CACHE/<name>.lock      there while a process builds the basis: others wait and read it
 #ifndef AMONTONS_MODEL_BASIS_CACHE_H
 #define AMONTONS_MODEL_BASIS_CACHE_H
 
 #include "reduction/reduced_bulk.h"
-#include "io/cache/cache_file.h"
-#include "io/files/file_lock.h"
+#include "io/cache/store.h"
 
 // Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing that is valid:
 // `note` then says why. with_modes: the modes must be there too. name: empty for none.
 bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, bool *found,
                       char note[CACHE_NOTE_SIZE], Error *err);
-
-// Waits while another process builds the basis, some minutes at the most. true: no other will
-// until file_lock_release; look once more whether it is there now. false: no lock is to be had, go
-// on without. name: empty for none.
-bool basis_cache_lock(const char *name, FileLock *lock);
 
 // false: it could not be stored, `note` says why. Never an error.
 bool basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE]);

@@ -33,7 +33,8 @@ cleanup:
 // Measured no farther than the contact nodes reach: what lies beyond is not guessed.
 static bool add_profile(const Scene *scene, Interface *interface, Error *err)
 {
-    static const double ROUNDING = 1e-9;   // of positions, over the contact's length
+    // Of positions, over the contact's length: a file may hold five digits, far less than a cell.
+    static const double ROUNDING = 1e-4;
     SceneProfile profile = {0};
     int32_t last = interface->contact_count - 1;
     double first_x = interface->x[0], last_x = interface->x[last];

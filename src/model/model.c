@@ -113,7 +113,7 @@ Machine model_machine(const Model *model)
 {
     const Interface *interface = &model->interface;
     return (Machine){.stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness : 0,
-                     .first = 2 * interface->contact_count};
+                     .first = interface_rod(interface, 0)};
 }
 
 void model_rod_strip(const Scene *scene, double height, double *middle, double *width)

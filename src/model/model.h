@@ -9,7 +9,7 @@
 #include "reduction/reduced_bulk.h"
 #include "contact/friction_law.h"
 #include "contact/rod.h"
-#include "io/cache/cache_file.h"
+#include "io/cache/store.h"
 #include "model/choice.h"
 #include "record/observation.h"
 #include "scene/scene.h"
@@ -46,7 +46,6 @@ typedef struct Model {
     ExpectedCost expected;
     bool is_reduced;   // what was chosen
     bool from_cache;   // the basis was: nothing of the full mesh was factored
-    bool upper_from_cache;   // it was not, but what is far above the line that pads end at was
     char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
     double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s
 } Model;

@@ -14,7 +14,6 @@
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
 #include "model/extremes.h"
-#include "model/far_cache.h"
 #include "model/gaps.h"
 #include "model/shape_cache.h"
 #include "model/stages.h"
@@ -99,37 +98,12 @@ static bool list_rotation(const Model *model, const ReductionBlock *block, Shape
     const Interface *interface = &shape->interface;
     shape->rotation = NEW_ARRAY(double, interface->count, err);
     for (int32_t k = 0; shape->rotation && k < interface->count; k++) {
-        const double *at = block->position + 2 * (interface->dofs[k] / 2);
-        double turned = interface->dofs[k] % 2 == 0 ? -at[1] : at[0];
+        int32_t dim = block->bulk.dim, dof = interface->dofs[k], up = dim - 1;
+        const double *at = block->position + dim * dof_node(dim, dof);
+        double turned = dof_axis(dim, dof) == 0 ? -at[up] : at[0];
         shape->rotation[k] = turned * model->length;
     }
     return shape->rotation != NULL;
-}
-
-// What is far from the contact, of the upper block alone, and the basis with it.
-static bool build_upper(Model *model, const ReductionBlock *block, const Interface *interface,
-                        ReductionDef *def, Error *err)
-{
-    UpperBlock upper = {0};
-    FarBlock far = {0};
-    FarCacheDef far_def = {.upper = &upper,
-                           .far = {def->tolerance, def->scales, def->materials},
-                           .with_fields = def->modes,
-                           .keep = model->scene->reduction.cache};
-    if (interface->count >= FAR_INTERFACE)
-        TRY(upper_block_create(&model->mesh, block, interface->dofs, interface->count, &upper,
-                               err));
-    if (upper.interface_count > 0) {
-        TRY(far_cache_obtain(&far_def, &far, &model->upper_from_cache, model->cache_note, err));
-        def->above.block = &far;
-        def->above.dofs = upper.dofs;
-    }
-    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, def, &model->reduced,
-                        err));
-cleanup:
-    far_block_destroy(&far);
-    upper_block_destroy(&upper);
-    return error_is_clean(err);
 }
 
 // By its symmetry, where it has one.
@@ -143,7 +117,8 @@ static bool build_basis(Model *model, const ReductionBlock *block, const Interfa
     if (mirror.found)
         TRY(symmetry_reduction_build(&mirror, interface->count, def, &model->reduced, err));
     else
-        TRY(build_upper(model, block, interface, def, err));
+        TRY(reduction_build(&block->bulk, interface->dofs, interface->count, def, &model->reduced,
+                            err));
 cleanup:
     mirror_destroy(&mirror);
     malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
@@ -185,7 +160,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     }
     TRY(load_basis(model, block, shape, err));
     if (model->from_cache) goto cleanup;
-    if (basis_cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
+    if (cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
     if (model->from_cache) goto cleanup;
     TRY(model_blame_extremes(model, build_basis(model, block, interface, &def, err), err));
     if (!basis_cache_store(shape->basis, &model->reduced, model->cache_note)) shape->basis[0] = 0;
@@ -201,7 +176,7 @@ static double rod_reach(const Model *model)
     const Mesh *mesh = &model->mesh;
     double reach = 0;
     for (int32_t j = 0; j < interface->rod_count; j++)
-        reach = fmax(reach, mesh->position[2 * interface->rod_node[j]] - mesh->x_min);
+        reach = fmax(reach, mesh_place(mesh, interface->rod_node[j])[0] - mesh->x_min);
     return reach / model->length;
 }
 
@@ -412,7 +387,8 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     TRY(find_shape(model, key, &shape, &found, err));
     if (notice && (!found || wants_mesh(scene))) TRY(notice->tell(notice->self, "meshing", err));
     if (!found || wants_mesh(scene)) TRY(model_read_mesh(model, err));
-    if (found && wants_mesh(scene) && 2 * model->mesh.node_count != model->reduced.full_dofs)
+    if (found && wants_mesh(scene) &&
+        model->mesh.dim * model->mesh.node_count != model->reduced.full_dofs)
         found = forget_shape(model, &shape);
     if (notice && !found) TRY(notice->tell(notice->self, "reducing", err));
     if (!found) TRY(model_build_bulk(model, err));

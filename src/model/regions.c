@@ -39,7 +39,7 @@ static double mean_width(const Model *model, int32_t k)
     double low = INFINITY, high = -INFINITY;
     for (int32_t e = 0; e < mesh->element_count; e++) {
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
-            double z = mesh->position[2 * mesh->element_nodes[a] + 1];
+            double z = mesh_height(mesh, mesh->element_nodes[a]);
             if (mesh_region(mesh, e) != k) continue;
             low = fmin(low, z);
             high = fmax(high, z);
@@ -88,8 +88,8 @@ static int32_t find_region(const Mesh *mesh, const uint8_t *on, const double *z)
             int32_t node = mesh->element_nodes[a];
             if (!on[node]) continue;
             count++;
-            bottom = fmin(bottom, mesh->position[2 * node + 1]);
-            top = fmax(top, mesh->position[2 * node + 1]);
+            bottom = fmin(bottom, mesh_height(mesh, node));
+            top = fmax(top, mesh_height(mesh, node));
         }
         if (count >= 2 && (!z || (bottom <= *z && *z <= top))) return mesh_region(mesh, e);
     }
@@ -112,7 +112,7 @@ static RodEnd find_end(const Model *model, const MeshCurve *rod, const uint8_t *
     const Mesh *mesh = &model->mesh;
     double z = model->interface.rod_z[j], under = -INFINITY, over = INFINITY;
     for (int32_t k = 0; k < rod->node_count; k++) {
-        double other = mesh->position[2 * rod->nodes[k] + 1];
+        double other = mesh_height(mesh, rod->nodes[k]);
         if (other < z) under = fmax(under, other);
         if (other > z) over = fmin(over, other);
     }

@@ -3,13 +3,12 @@
 // parameters it is given, and the keys of the scene that choose nodes. A .geo that draws on more
 // than these (io/mesh/mesh_source) is meshed every time.
 //
-// What is read is checked against the counts that stand in the file itself (io/cache/cache_file
-// checks that the file is whole), and anything that does not fit means that the shape is made anew.
+// What is read is checked against the counts that stand in the file itself (io/cache/store checks
+// that the file is whole), and anything that does not fit means that the shape is made anew.
 #include "model/shape_cache.h"
 
 #include "base/computation.h"
 #include "base/memory.h"
-#include "io/cache/cache_file.h"
 #include "io/mesh/mesh_source.h"
 #include "model/basis_cache.h"
 #include "scene/materials.h"
@@ -17,14 +16,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { COUNTS = 4 };   // contact and rod nodes, pads, gaps
-
-// Names travel as the bytes of doubles, filled up with zeros.
-enum {
-    NAME_NUMBERS = GROUP_NAME_SIZE / sizeof(double),
-    BASIS_NUMBERS = HASH_TEXT_SIZE / sizeof(double) + 1
-};
 
 // Zeroed is fine.
 void shape_destroy(Shape *shape)
@@ -103,154 +94,71 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Indices travel as doubles: exact up to 2^53. limit: what they are below.
-static bool read_indices(const CacheFile *file, const char *name, int32_t count, double limit,
-                         int32_t **out, Error *err)
+// Regions that there can be, and an index within 32 bits.
+static bool is_possible(const ShapeSizes *sizes)
 {
-    if (!cache_file_array(file, name, count)) return false;
-    *out = NEW_ARRAY(int32_t, count, err);
-    return *out && cache_file_whole(file, name, count, limit, *out);
-}
-
-// Copies: the file's bytes go when it is closed. false without an error: not there, or not so long.
-static bool read_numbers(const CacheFile *file, const char *name, int64_t count, double **out,
-                         Error *err)
-{
-    const double *values = cache_file_array(file, name, count);
-    if (!values) return false;
-    *out = NEW_ARRAY(double, count, err);
-    if (*out) memcpy(*out, values, (size_t)count * sizeof(double));
-    return *out != NULL;
-}
-
-// A name that fills its place would have no end: the last byte is set whatever the file says.
-static bool read_names(const CacheFile *file, Interface *interface, Error *err)
-{
-    int64_t count = interface->pad_count;
-    const double *values = cache_file_array(file, "pad_name", count * NAME_NUMBERS);
-    if (!values) return false;
-    interface->pad_name = memory_array(count, GROUP_NAME_SIZE, err);
-    if (!interface->pad_name) return false;
-    memcpy(interface->pad_name, values, (size_t)count * GROUP_NAME_SIZE);
-    for (int64_t k = 0; k < count; k++) interface->pad_name[k][GROUP_NAME_SIZE - 1] = 0;
-    return true;
-}
-
-// false without an error: an array is missing or of another length.
-static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
-{
-    int32_t counts[COUNTS];
-    const double *sizes = cache_file_array(file, "sizes", sizeof(ShapeSizes) / sizeof(double));
-    const double *basis = cache_file_array(file, "basis", BASIS_NUMBERS);
-    const double *face = cache_file_array(file, "rod_face", 2);
-    if (!cache_file_whole(file, "counts", COUNTS, CACHE_COUNT_LIMIT, counts)) return false;
-    if (!sizes || !basis || !face) return false;
-    memcpy(&shape->sizes, sizes, sizeof shape->sizes);
-    double dofs = shape->sizes.full_dofs, nodes = dofs / 2;
-    if (!(dofs < INT32_MAX && shape->sizes.elements >= 0 && shape->sizes.elements < INT32_MAX))
-        return false;
-    const RodEnd *end = shape->sizes.rod_end;
+    const RodEnd *end = sizes->rod_end;
     const double region[] = {end[0].region[0], end[0].region[1], end[1].region[0], end[1].region[1],
-                             shape->sizes.contact_region};
+                             sizes->contact_region};
     for (size_t k = 0; k < sizeof region / sizeof *region; k++)
         if (!(region[k] >= 0 && region[k] < MATERIALS_MAX)) return false;
-    memcpy(shape->basis, basis, HASH_TEXT_SIZE);
-    shape->basis[HASH_TEXT_SIZE - 1] = 0;
-    Interface *interface = &shape->interface;
-    interface->contact_count = counts[0];
-    interface->rod_count = counts[1];
-    interface->pad_count = counts[2];
-    interface->count = 2 * interface->contact_count + interface->rod_count;
-    memcpy(interface->rod_face, face, sizeof interface->rod_face);
-    return read_indices(file, "node", interface->contact_count, nodes, &interface->node, err) &&
-           read_numbers(file, "x", interface->contact_count, &interface->x, err) &&
-           read_numbers(file, "weight", interface->contact_count, &interface->weight, err) &&
-           read_indices(file, "pad", interface->contact_count, counts[2], &interface->pad, err) &&
-           read_names(file, interface, err) &&
-           (counts[3] == 0 || (counts[3] == interface->contact_count &&
-                               read_numbers(file, "gap", counts[3], &interface->gap, err))) &&
-           read_indices(file, "rod_node", interface->rod_count, nodes, &interface->rod_node, err) &&
-           read_numbers(file, "rod_z", interface->rod_count, &interface->rod_z, err) &&
-           read_numbers(file, "rod_share", interface->rod_count, &interface->rod_share, err) &&
-           read_indices(file, "dofs", interface->count, dofs, &interface->dofs, err) &&
-           read_numbers(file, "rotation", interface->count, &shape->rotation, err);
+    return sizes->full_dofs >= 0 && sizes->full_dofs < INT32_MAX && sizes->elements >= 0 &&
+           sizes->elements < INT32_MAX;
 }
 
-// A shape that is not valid is no error: found is false and `note` says why.
+// dofs: of the mesh.
+static void archive_interface(Interface *interface, int32_t dofs, Archive *archive)
+{
+    bool has_gap = interface->gap != NULL;
+    archive_length(archive, &interface->dim);
+    archive_length(archive, &interface->contact_count);
+    archive_length(archive, &interface->rod_count);
+    archive_length(archive, &interface->pad_count);
+    archive_require(archive, interface->dim >= 2 && interface->dim <= DIM_MAX);
+    if (archive->failed) return;
+    int32_t contact = interface->contact_count, rod = interface->rod_count;
+    int32_t nodes = dofs / interface->dim;
+    interface->count = interface_rod(interface, rod);
+    archive_new_indices(archive, &interface->node, contact, 0, nodes);
+    archive_new_numbers(archive, &interface->x, contact);
+    archive_new_numbers(archive, &interface->weight, contact);
+    archive_flag(archive, &has_gap);
+    if (has_gap) archive_new_numbers(archive, &interface->gap, contact);
+    archive_new_indices(archive, &interface->pad, contact, 0, interface->pad_count);
+    interface->pad_name =
+        archive_new(archive, interface->pad_name, interface->pad_count, GROUP_NAME_SIZE);
+    for (int32_t k = 0; interface->pad_name && k < interface->pad_count; k++)
+        archive_text(archive, interface->pad_name[k], GROUP_NAME_SIZE);
+    archive_new_indices(archive, &interface->rod_node, rod, 0, nodes);
+    archive_new_numbers(archive, &interface->rod_z, rod);
+    archive_new_numbers(archive, &interface->rod_share, rod);
+    archive_numbers(archive, interface->rod_face, 2);
+    archive_new_indices(archive, &interface->dofs, interface->count, 0, dofs);
+}
+
+static void archive_shape(void *self, Archive *archive)
+{
+    Shape *shape = self;
+    archive_numbers(archive, &shape->sizes.length, sizeof shape->sizes / sizeof(double));
+    archive_require(archive, is_possible(&shape->sizes));
+    if (archive->failed) return;
+    archive_text(archive, shape->basis, sizeof shape->basis);
+    archive_interface(&shape->interface, (int32_t)shape->sizes.full_dofs, archive);
+    archive_new_numbers(archive, &shape->rotation, shape->interface.count);
+}
+
 bool shape_cache_load(const char *key, Shape *shape, bool *found, char note[CACHE_NOTE_SIZE],
                       Error *err)
 {
-    char path[CACHE_PATH_SIZE], reason[CACHE_REASON_SIZE] = "";
-    CacheFile file = {0};
     *shape = (Shape){0};
-    *found = false;
-    if (!key[0] || !cache_file_path(key, "shape", path)) goto cleanup;
-    TRY(cache_file_read(path, key, &file, found, reason, err));
-    if (*found && !read_shape(&file, shape, err)) {
-        *found = false;
-        snprintf(reason, sizeof reason, "an array is missing");
-    }
-    if (reason[0]) snprintf(note, CACHE_NOTE_SIZE, "a cached shape is not used: %s", reason);
-cleanup:
-    cache_file_destroy(&file);
+    bool done =
+        cache_load(&(CacheItem){CACHE_SHAPE, key, archive_shape, shape}, NULL, found, note, err);
     if (!*found) shape_destroy(shape);
-    return error_is_clean(err);
-}
-
-static CacheArray list_numbers(const char *name, const double *values, int64_t count)
-{
-    CacheArray array = {.count = count, .values = values};
-    snprintf(array.name, sizeof array.name, "%s", name);
-    return array;
-}
-
-// `copy` [count] holds the numbers until the file is written.
-static CacheArray list_indices(const char *name, const int32_t *values, int32_t count, double *copy)
-{
-    for (int32_t k = 0; k < count; k++) copy[k] = values[k];
-    return list_numbers(name, copy, count);
-}
-
-// Some kilobytes: all of it in one file.
-static bool store_shape(const char *key, const Shape *shape, Error *err)
-{
-    char path[CACHE_PATH_SIZE];
-    const Interface *interface = &shape->interface;
-    int32_t contact = interface->contact_count, rod = interface->rod_count, m = interface->count;
-    double counts[COUNTS] = {contact, rod, interface->pad_count, interface->gap ? contact : 0},
-           basis[BASIS_NUMBERS] = {0};
-    int64_t names = (int64_t)interface->pad_count * NAME_NUMBERS;
-    memcpy(basis, shape->basis, HASH_TEXT_SIZE);
-    double *copy = NEW_ARRAY(double, 2 * contact + rod + m + names, err), *name_copy;
-    if (!copy || !cache_file_path(key, "shape", path)) goto cleanup;
-    name_copy = copy + 2 * contact + rod + m;
-    if (interface->pad_name) memcpy(name_copy, interface->pad_name, (size_t)names * sizeof(double));
-    CacheArray arrays[] = {
-        list_numbers("counts", counts, COUNTS),
-        list_numbers("sizes", &shape->sizes.length, sizeof(ShapeSizes) / sizeof(double)),
-        list_numbers("basis", basis, BASIS_NUMBERS),
-        list_indices("node", interface->node, contact, copy),
-        list_numbers("x", interface->x, contact),
-        list_numbers("weight", interface->weight, contact),
-        list_numbers("gap", interface->gap, interface->gap ? contact : 0),
-        list_indices("pad", interface->pad, contact, copy + contact),
-        list_numbers("pad_name", name_copy, names),
-        list_indices("rod_node", interface->rod_node, rod, copy + 2 * contact),
-        list_numbers("rod_z", interface->rod_z, rod),
-        list_numbers("rod_share", interface->rod_share, rod),
-        list_numbers("rod_face", interface->rod_face, 2),
-        list_indices("dofs", interface->dofs, m, copy + 2 * contact + rod),
-        list_numbers("rotation", shape->rotation, m)};
-    TRY(cache_file_write(path, key, arrays, sizeof arrays / sizeof *arrays, err));
-cleanup:
-    memory_free(copy);
-    return error_is_clean(err);
+    return done;
 }
 
 void shape_cache_store(const char *key, const Shape *shape, char note[CACHE_NOTE_SIZE])
 {
-    Error err = {0};
-    if (key[0] && !store_shape(key, shape, &err))
-        snprintf(note, CACHE_NOTE_SIZE, "the shape is not kept for the next run: %.180s",
-                 err.message);
+    Shape same = *shape;
+    cache_store(&(CacheItem){CACHE_SHAPE, key, archive_shape, &same}, note);
 }

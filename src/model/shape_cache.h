@@ -5,14 +5,14 @@
 // factorisation. Pressure, velocities, density, friction law and units of stress are not in the
 // key. Called by model/obtain.
 //
-//     CACHE/<key>.shape     (io/cache/cache_file says where CACHE is)
+//     CACHE/<key>.shape     (io/cache/cache_folder says where CACHE is)
 #ifndef AMONTONS_MODEL_SHAPE_CACHE_H
 #define AMONTONS_MODEL_SHAPE_CACHE_H
 
 #include "base/hash.h"
 #include "fem/material.h"
 #include "contact/interface.h"
-#include "io/cache/cache_file.h"
+#include "io/cache/store.h"
 #include "model/model.h"
 #include "scene/scene.h"
 

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "page/numbers.h"
 
+#include "base/text.h"
+#include "io/text/json_reader.h"
+
 #include <math.h>
 #include <string.h>
 
-enum { DIGITS = 5, PATH_SIZE = 80, DECIMALS_MAX = 12 };
+enum { DIGITS = 5, PATH_SIZE = 80 };
+static const double BIG = 1e4, LENGTH_KNOWN_TO = 0.01;
+static const double OLDER_KNOWN_TO = 0.01;   // of mu: what a mesh usually leaves
 
 typedef enum NumberKind {
-    NUMBER_ESTIMATE,   // has an error, or should
-    NUMBER_FOUND,   // of which no error is computed
+    NUMBER_ESTIMATE,   // has an error bar, or is known to so much
+    NUMBER_LENGTH,   // over L, of which no error is computed
     NUMBER_PLAIN   // a count, or an error itself
 } NumberKind;
 
@@ -24,11 +29,11 @@ static const NumberRow RESULTS[] = {
      "what it takes to slide steadily"},
     {"results.mu_hold", NUMBER_ESTIMATE, "<i>\u03bc</i><sub>hold</sub>",
      "what the contact holds: the lowest load ratio at which the load dropped"},
-    {"results.mu_max", NUMBER_FOUND, "<i>\u03bc</i><sub>max</sub>",
+    {"results.mu_max", NUMBER_ESTIMATE, "<i>\u03bc</i><sub>max</sub>",
      "largest load ratio <i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> of the run"},
-    {"results.l_c_over_L", NUMBER_FOUND, "<i>l</i><sub>c</sub>/<i>L</i>",
+    {"results.l_c_over_L", NUMBER_LENGTH, "<i>l</i><sub>c</sub>/<i>L</i>",
      "critical length: how far slow slip had come when the block slid"},
-    {"results.l_sc_over_L", NUMBER_FOUND, "<i>l</i><sub>sc</sub>/<i>L</i>",
+    {"results.l_sc_over_L", NUMBER_LENGTH, "<i>l</i><sub>sc</sub>/<i>L</i>",
      "how far it had come when it was first not certified stable"},
     {"results.mu_M_peaks", NUMBER_PLAIN, "peaks that count", "for <i>\u03bc</i><sub>M</sub>"},
     {"results.period", NUMBER_PLAIN, "period", "peaks repeat after so many slidings; 0: not yet"},
@@ -39,7 +44,8 @@ static const NumberRow RESULTS[] = {
 static const NumberRow EVENTS[] = {
     {"quasi-static", NUMBER_PLAIN, "quasi-static precursors", "slow slip grew from an edge"},
     {"bounded rapid", NUMBER_PLAIN, "bounded rapid precursors", "rapid slip stopped on its way"},
-    {"leading rapid", NUMBER_PLAIN, "leading rapid precursors", "slip crossed the whole contact"},
+    {"leading rapid", NUMBER_PLAIN, "slidings of the whole block",
+     "slip crossed the whole contact; the paper\u2019s leading rapid precursors"},
 };
 
 static const NumberRow CHECKS[] = {
@@ -56,43 +62,47 @@ static const NumberRow CHECKS[] = {
     {"timing_s.total", NUMBER_PLAIN, "time taken, s", "by the clock"},
 };
 
-void estimate_write(HtmlWriter *html, double value, double error, bool has_error)
+void estimate_write(HtmlWriter *html, double value, double bar, double known_to)
 {
-    if (!isfinite(value)) {
-        html_markup(html, "none");
-    } else if (isfinite(error) && error > 0 && fabs(value) < 1e4 && error > 1e-9) {
-        int decimals = (int)fmin(fmax(1 - floor(log10(error)), 0), DECIMALS_MAX);
-        html_markup(html, "%s%.*f&nbsp;\u00b1&nbsp;%.*f", value < 0 ? "\u2212" : "", decimals,
-                    fabs(value), decimals, error);
-    } else {
-        html_number(html, value, DIGITS);
-        if (isfinite(error)) {
-            html_markup(html, "&nbsp;\u00b1&nbsp;");
-            html_number(html, error, 2);
-        } else if (has_error) {
-            html_markup(html, " <span class='unknown'>error not known</span>");
-        }
+    char text[TEXT_ESTIMATE_SIZE], *between;
+    if (!isfinite(value) || fabs(value) >= BIG) {
+        html_markup(html, isfinite(value) ? "" : "none");
+        if (isfinite(value)) html_number(html, value, DIGITS);
+        return;
     }
+    text_estimate(fabs(value), bar, known_to, text);
+    between = strstr(text, " +- ");
+    if (between) *between = 0;
+    html_markup(html, "%s%s", value < 0 ? "\u2212" : "", text);
+    if (between) html_markup(html, "&nbsp;\u00b1&nbsp;%s", between + 4);
+    if (isnan(known_to) && isnan(bar))
+        html_markup(html, " <span class='unknown'>error not known</span>");
+}
+
+double run_known_to(const RunSource *run, const char *path, double *bar)
+{
+    char beside[PATH_SIZE];
+    snprintf(beside, sizeof beside, "%s_error", path);
+    double error = run_number(run, beside);
+    snprintf(beside, sizeof beside, "%s_known_to", path);
+    double known_to = OLDER_KNOWN_TO * fabs(run_number(run, path));
+    if (run->json) json_find_number(run->json, beside, &known_to);   // older results do not say
+    snprintf(beside, sizeof beside, "%s_error_parts.mesh", path);
+    *bar = isfinite(run_number(run, beside)) ? error : (double)NAN;
+    return known_to;
 }
 
 static void write_cell(HtmlWriter *html, const RunSource *run, const NumberRow *row)
 {
-    char path[PATH_SIZE];
-    double value = run_number(run, row->path);
+    double value = run_number(run, row->path), bar = NAN;
     html_markup(html, "<td class='number' data-path='%s'>", row->path);
-    if (row->kind == NUMBER_PLAIN) {
-        if (isfinite(value))
-            html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
-        else
-            html_markup(html, "none");
+    if (row->kind != NUMBER_PLAIN) {
+        double known_to = run_known_to(run, row->path, &bar);
+        estimate_write(html, value, bar, row->kind == NUMBER_LENGTH ? LENGTH_KNOWN_TO : known_to);
+    } else if (isfinite(value)) {
+        html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
     } else {
-        snprintf(path, sizeof path, "%s_error", row->path);
-        double error = run_number(run, path);
-        estimate_write(html, value, error, true);
-        snprintf(path, sizeof path, "%s_error_parts.mesh", row->path);
-        if (isfinite(error) && !isfinite(run_number(run, path)))
-            html_markup(html,
-                        "<br><span class='unknown'>the mesh\u2019s error is not known</span>");
+        html_markup(html, "none");
     }
     html_markup(html, "</td>");
 }
@@ -131,7 +141,10 @@ static void begin_table(HtmlWriter *html, const char *caption, const RunSource *
 
 void numbers_write(HtmlWriter *html, const RunSource *runs, int32_t count)
 {
-    begin_table(html, "What was found. \u00b1 is 95 %.", runs, count);
+    begin_table(html,
+                "What was found. \u00b1 is 95 %; without it: the digits "
+                "that finer meshes keep as a rule, the last within 1.",
+                runs, count);
     write_rows(html, RESULTS, sizeof RESULTS / sizeof *RESULTS, write_cell, runs, count);
     write_rows(html, EVENTS, sizeof EVENTS / sizeof *EVENTS, write_event_cell, runs, count);
     html_markup(html, "</tbody></table></div>\n");

@@ -6,9 +6,10 @@
 #include "io/text/html_writer.h"
 #include "page/run_source.h"
 
-// "0.3275 +- 0.0001", to the error's second digit. NaN: none, and where the value has an error that
-// is not known, that is said.
-void estimate_write(HtmlWriter *html, double value, double error, bool has_error);
+// As text_estimate has it; that nothing is known of its error is said.
+void estimate_write(HtmlWriter *html, double value, double bar, double known_to);
+// Of the result at `path` in run.json; *bar: its error bar, NaN: none was asked for. NaN: unknown.
+double run_known_to(const RunSource *run, const char *path, double *bar);
 
 // What was found, and how far the computation can be trusted: two tables, each with a caption. Of
 // one run they also say what a number means.

@@ -62,13 +62,13 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
     if (isfinite(mu_M)) {
         html_markup(html, " The block as a whole slides at <i>F</i><sub>T</sub>/<i>F</i>"
                           "<sub>N</sub> = <strong><i>\u03bc</i><sub>M</sub> = ");
-        estimate_write(html, mu_M, run_number(run, "results.mu_M_error"), true);
-        bool mesh_known = isfinite(run_number(run, "results.mu_M_error_parts.mesh"));
+        double bar = NAN, known_to = run_known_to(run, "results.mu_M", &bar);
+        estimate_write(html, mu_M, bar, known_to);
         html_markup(html, "</strong>%s.",
-                    mesh_known ? ""
-                    : steady ? ", slowly and steadily: no sliding was fast (the mesh\u2019s error "
-                               "is not known)"
-                             : " (of the peaks alone: the mesh\u2019s error is not known)");
+                    steady        ? ", slowly and steadily: no sliding was fast"
+                    : !isnan(bar) ? ""
+                                  : " (in the digits that finer meshes keep as a rule; there is no "
+                                    "error bar)");
     } else {
         bool told = strncmp(is, "none: ", 6) == 0;
         html_markup(html, " There is no <i>\u03bc</i><sub>M</sub>: ");

@@ -170,16 +170,25 @@ static bool write_figures(HtmlWriter *html, const SweepSource *sweep, Error *err
 
 // --- tables --------------------------------------------------------------------------------------
 
-// A number with the error in the column after it, where there is one; or a text.
+// The column NAME_error or NAME_known_to beside NAME; -1: there is none.
+static int32_t column_beside(const CsvTable *table, int32_t column, const char *ending)
+{
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%.200s_%s", csv_name(table, column), ending);
+    return csv_column(table, name);
+}
+
+// A number with its error bar, where there is one, or in the digits that are known; or a text.
 static void write_cell(HtmlWriter *html, const CsvTable *table, int32_t row, int32_t column)
 {
     double value = csv_value(table, row, column);
-    char error[NAME_SIZE];
-    snprintf(error, sizeof error, "%.200s_error", csv_name(table, column));
-    int32_t beside = csv_column(table, error);
+    int32_t beside = column_beside(table, column, "error");
+    int32_t known = column_beside(table, column, "known_to");
     if (isfinite(value) || (beside >= 0 && !*csv_cell(table, row, column))) {
+        double error = csv_value(table, row, beside);
+        double known_to = known >= 0 ? csv_value(table, row, known) : beside >= 0 ? error : 0;
         html_markup(html, "<td class='number'>");
-        estimate_write(html, value, csv_value(table, row, beside), beside >= 0);
+        estimate_write(html, value, error == known_to ? error : (double)NAN, known_to);
     } else {
         html_markup(html, "<td>");
         html_text(html, csv_cell(table, row, column));
@@ -194,16 +203,20 @@ static bool is_shown(const SweepSource *sweep, const CsvTable *table, int32_t co
         "steps",        "unsolved",        "solve_s", "total_s",   "energy_error", "contact_error",
         "moment_error", "reduction_error", "run",     "rank_from", "rank_to",      "message",
         "warnings",     "spread",          "low",     "high"};
+    static const char *const endings[] = {"_error", "_known_to"};
     const char *name = csv_name(table, column);
     char value[NAME_SIZE];
     int32_t key = csv_column(&sweep->table, name);
     if (key >= 0 && sweep->is_key[key]) return sweep->varies[key];
     for (size_t k = 0; k < sizeof left_out / sizeof *left_out; ++k)
         if (strcmp(name, left_out[k]) == 0) return false;
-    snprintf(value, sizeof value, "%s", name);
-    char *end = text_ends_with(name, "_error") ? strstr(value, "_error") : NULL;
-    if (end) *end = 0;
-    return !end || csv_column(table, value) < 0;
+    for (int32_t k = 0; k < 2; ++k) {
+        snprintf(value, sizeof value, "%s", name);
+        char *end = text_ends_with(name, endings[k]) ? strstr(value, endings[k]) : NULL;
+        if (end) *end = 0;
+        if (end && csv_column(table, value) >= 0) return false;
+    }
+    return true;
 }
 
 static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTable *table,
@@ -239,12 +252,12 @@ static void write_tables(HtmlWriter *html, const SweepSource *sweep)
     int32_t rows = sweep->table.rows, shown = rows < ROWS_MAX ? rows : ROWS_MAX;
     sheet_part(html, &POINTS);
     snprintf(caption, sizeof caption,
-             "%d of %d points, with \u00b1 where an error is known; more columns in sweep.csv",
+             "%d of %d points, with \u00b1 where there is an error bar; more columns in sweep.csv",
              shown, rows);
     if (run_number(&sweep->run, "scene.accuracy.mu") == 0)
         html_markup(html,
-                    "<p class='note'>\u00b1 leaves out the mesh\u2019s error, which is not "
-                    "known; <code>set: {accuracy.mu: 1%%}</code> in the study asks for it.</p>\n");
+                    "<p class='note'>mu in the digits that finer meshes keep as a rule; "
+                    "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
     write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
 }
 

@@ -90,6 +90,9 @@ Answers answers_of(const Drops *drops)
                        .mu_M_high = NAN,
                        .mu_M_spread = NAN,
                        .mu_max = drops->mu_max,
+                       .mu_M_known_to = NAN,
+                       .mu_hold_known_to = NAN,
+                       .mu_max_known_to = NAN,
                        .critical_length = NAN,
                        .subcritical_length = NAN};
     answers.regime = regime_of(drops);
@@ -219,6 +222,7 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     json_number(json, "mu_M", answers->mu_M.value);
     json_number(json, "mu_M_error", answers->mu_M.error);
     write_parts(json, "mu_M_error_parts", &answers->mu_M_parts);
+    json_number(json, "mu_M_known_to", answers->mu_M_known_to);
     json_number(json, "mu_M_spread", answers->mu_M_spread);
     json_number(json, "mu_M_low", answers->mu_M_low);
     json_number(json, "mu_M_high", answers->mu_M_high);
@@ -229,7 +233,9 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     json_number(json, "mu_hold", answers->mu_hold.value);
     json_number(json, "mu_hold_error", answers->mu_hold.error);
     write_parts(json, "mu_hold_error_parts", &answers->mu_hold_parts);
+    json_number(json, "mu_hold_known_to", answers->mu_hold_known_to);
     json_number(json, "mu_max", answers->mu_max);
+    json_number(json, "mu_max_known_to", answers->mu_max_known_to);
     json_number(json, "l_sc_over_L", answers->subcritical_length / length);
     json_number(json, "l_c_over_L", answers->critical_length / length);
     answers_write_peaks(answers, drops, length, json);

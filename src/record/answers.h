@@ -36,6 +36,9 @@ typedef struct Answers {
     Estimate mu_hold;   // error: half the range of the lowest branch, or twice the standard error
     Estimate mu_drops;   // mean of the load drops; error: twice the standard error
     double mu_max;
+    // How far other meshes and runs usually are from these, 95 %: the bar, where one is known; else
+    // what one mesh alone is usually off by (record/error_bars). NaN: cells are too long for slip.
+    double mu_M_known_to, mu_hold_known_to, mu_max_known_to;
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none
     double subcritical_length;   // mean l_sc of those that have one
 } Answers;

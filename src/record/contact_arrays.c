@@ -45,7 +45,7 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
     ContactArrays *arrays = self;
     const State *state = seen->state;
     for (int32_t i = 0; i < arrays->count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
+        int32_t t = interface_tangent(seen->interface, i), n = interface_normal(seen->interface, i);
         double weight = seen->interface->weight[i];
         double displacement = state->displacement[seen->system->interface_dofs[t]];
         if (!arrays->started) arrays->origin[i] = displacement;

@@ -8,7 +8,8 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Of mu, over nodes or cells: scatter of one mesh, and slope on the way to cells of no size.
+// Of mu, over nodes along the contact or cells: scatter of one mesh, and slope on the way to ever
+// smaller cells.
 // Chosen on 78 of the 160 cases before those of promise.py and on strangers' problems for tuning
 // (validation/benchmark/priors.md). One contact has two lengths: by how much mu rises as slip comes
 // one cell farther goes with the contact's, whether slip is resolved with that which slips.
@@ -20,7 +21,6 @@ static const double MOST = 0.5;   // of the contact, slipped slowly before slip 
 enum { SCATTER_LEVELS = 4 };   // so many levels would it be worth to know that scatter
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
-static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
 
 // NaN: a run has no such answer.
 static double mean_of(const Level *level, AnswerKind kind)
@@ -102,11 +102,11 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
                 level_value(&levels->list[level - 1], kind));
 }
 
-// Contact nodes of the coarsest level that has such an answer; 0: none has.
-static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
+// Nodes along the contact of the coarsest level that has such an answer; 0: none has.
+static double coarsest_nodes(const Levels *levels, AnswerKind kind)
 {
     for (int32_t l = 0; l < levels->count; l++)
-        if (is_known(&levels->list[l], kind)) return levels->list[l].contact_nodes;
+        if (is_known(&levels->list[l], kind)) return levels->list[l].nodes_along;
     return 0;
 }
 
@@ -115,13 +115,13 @@ static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
 static bool is_alone(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
-    return !is_known(last, kind) || last->contact_nodes == coarsest_nodes(levels, kind);
+    return !is_known(last, kind) || last->nodes_along == coarsest_nodes(levels, kind);
 }
 
 double level_cells(const Level *level)
 {
-    if (level->pads > 1) return (double)level->contact_nodes / level->pads - 1;
-    return isnan(level->slip_cells) ? level->contact_nodes - 1 : level->slip_cells;
+    if (level->pads > 1) return level->nodes_along / level->pads - 1;
+    return isnan(level->slip_cells) ? level->nodes_along - 1 : level->slip_cells;
 }
 
 bool levels_resolved(const Levels *levels)
@@ -129,14 +129,14 @@ bool levels_resolved(const Levels *levels)
     return level_cells(&levels->list[levels->count - 1]) >= SLIP_CELLS_ENOUGH;
 }
 
-// What decides on a level, over its contact nodes, from all levels up to it: of each alone it is
-// counted in whole cells.
+// What decides on a level, over its nodes along the contact, from all levels up to it: of each
+// alone it is counted in whole cells.
 static double deciding_part(const Levels *levels)
 {
     double cells = 0, nodes = 0;
     for (int32_t l = 0; l < levels->count; l++) {
         cells += fmax(level_cells(&levels->list[l]), 0.5);
-        nodes += levels->list[l].contact_nodes;
+        nodes += levels->list[l].nodes_along;
     }
     return cells / nodes;
 }
@@ -155,8 +155,8 @@ static double by_nodes(const Level *level, double part, const double constants[4
 static double scatter_of(const Level *level, double part, double origin)
 {
     const double constants[] = {SCATTER_PADS, SCATTER_WHOLE, SCATTER, SCATTER_SLIP};
-    double own = by_nodes(level, part, constants) / level->contact_nodes;
-    double few = fmax(SLIP_CELLS_ENOUGH / (part * level->contact_nodes), 1);
+    double own = by_nodes(level, part, constants) / level->nodes_along;
+    double few = fmax(SLIP_CELLS_ENOUGH / (part * level->nodes_along), 1);
     return hypot(own * few, level->end_wait / origin);
 }
 
@@ -166,11 +166,11 @@ static double variance_of_runs(const Level *level, double spread)
     return isnan(spread) ? 0 : spread * spread / level->run_count;
 }
 
-// What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
-// that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
-// 0, as far as SLOPE, before anything is known.
+// What the levels say together: value = a + b / n on n nodes along the contact, each level off by a
+// scatter that falls like 1 / n, and by what its few runs leave of their spread over branches; b is
+// about 0, as far as SLOPE, before anything is known.
 typedef struct Limit {
-    double value;   // a: on cells of no size
+    double value;   // a: in the limit of ever smaller cells
     double mesh;   // of a, 95 %, from scatter and b; NaN: one level
     double runs, drops;   // of a: variance by branches; error by drops
 } Limit;
@@ -193,7 +193,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
-        double x = 1.0 / level->contact_nodes, v = level_value(level, kind) / origin - 1;
+        double x = 1.0 / level->nodes_along, v = level_value(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
         double runs = variance_of_runs(level, spread) / (origin * origin);
         double own = scatter_of(level, part, origin), w = weight[l] = 1 / (own * own + runs);
@@ -206,7 +206,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     Limit limit = {.value = origin * (1 + a)};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
-        double c = weight[l] * (Sxx - Sx / level->contact_nodes) / determinant;
+        double c = weight[l] * (Sxx - Sx / level->nodes_along) / determinant;
         if (weight[l] > 0) add_level(level, kind, c, spread, &limit);
     }
     int32_t free = levels_known(levels, kind) - 1;
@@ -297,6 +297,33 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
     return levels->count > 0 ? &levels->list[levels->count - 1].answer[kind] : NULL;
 }
 
+// Over the value. NaN: cells are too long for slip.
+static double usual_of_one(const Level *level)
+{
+    const double slopes[] = {SLOPE_PADS, SLOPE_WHOLE, SLOPE, SLOPE_SLIP};
+    double part = fmax(level_cells(level), 0.5) / level->nodes_along;
+    double slope = by_nodes(level, part, slopes) / level->nodes_along;
+    double usual = ERROR_BAR * hypot(scatter_of(level, part, 1), slope);
+    return level->undamped ? (double)NAN : fmax(usual, STEPS);
+}
+
+double levels_known_to(const Levels *levels, AnswerKind kind)
+{
+    const ErrorBar *answer = levels_answer(levels, kind);
+    double others = hypot(known(answer->parts.branches), known(answer->parts.drops));
+    double usual = usual_of_one(&levels->list[levels->count - 1]);
+    return isnan(answer->bar) ? hypot(usual * answer->value, others) : answer->bar;
+}
+
+void level_answer_for(const Level *level, Answers *answers)
+{
+    double usual = usual_of_one(level);
+    answers->mu_M_known_to = hypot(usual * answers->mu_M.value, known(answers->mu_M.error));
+    answers->mu_hold_known_to =
+        hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
+    answers->mu_max_known_to = fabs(usual * answers->mu_max);
+}
+
 void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
@@ -310,120 +337,16 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
     answers->mu_hold_parts = mu_hold->parts;
+    answers->mu_M_known_to = levels_known_to(levels, ANSWER_MU_M);
+    answers->mu_hold_known_to = levels_known_to(levels, ANSWER_MU_HOLD);
 }
 
 double levels_order(const Levels *levels)
 {
     int32_t last = levels->count - 1;
     if (last < 2) return NAN;
-    double ratio = (double)levels->list[last].contact_nodes / levels->list[last - 1].contact_nodes;
+    double ratio = levels->list[last].nodes_along / levels->list[last - 1].nodes_along;
     return log(difference(levels, last - 1, levels->asked) /
                difference(levels, last, levels->asked)) /
            log(ratio);
-}
-
-// The runs of a level by the branch that their answer lies on, into `sorted` [LEVEL_RUNS_MAX].
-static int32_t sort_runs(const Level *level, AnswerKind kind, SeriesItem *sorted)
-{
-    int32_t count = 0;
-    for (int32_t k = 0; k < level->run_count; k++) {
-        double value = level->runs[k].answer[kind].value;
-        if (!isnan(value)) sorted[count++] = (SeriesItem){.value = value};
-    }
-    series_sort(sorted, count);
-    return count;
-}
-
-// --- run.json -----------------------------------------------------------------------------------
-
-static void write_bars(const ErrorBar answer[ANSWER_KINDS], JsonWriter *json)
-{
-    for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++) {
-        const ErrorBar *bar = &answer[kind];
-        json_begin_object(json, ANSWER_NAMES[kind]);
-        json_number(json, "value", bar->value);
-        json_number(json, "bar", bar->bar);
-        error_parts_write(&bar->parts, json);
-        json_end(json);
-    }
-}
-
-static void write_runs(const Level *level, JsonWriter *json)
-{
-    json_begin_list(json, "runs");
-    for (int32_t k = 0; k < level->run_count; k++) {
-        const LevelRun *run = &level->runs[k];
-        json_begin_object(json, NULL);
-        json_number(json, "pressure", run->pressure);
-        json_number(json, "mu_M", run->answer[ANSWER_MU_M].value);
-        json_number(json, "mu_hold", run->answer[ANSWER_MU_HOLD].value);
-        json_integer(json, "peaks", run->peaks);
-        json_integer(json, "period", run->period);
-        json_text(json, "run_in", run_in_name(run->run_in));
-        json_integer(json, "steps", run->steps);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// Values to which the runs of the last level come, and which part of them.
-static void write_branches(const Levels *levels, JsonWriter *json)
-{
-    SeriesItem sorted[LEVEL_RUNS_MAX];
-    SeriesBranch branch;
-    const Level *last = &levels->list[levels->count - 1];
-    int32_t count = levels->count > 0 ? sort_runs(last, levels->asked, sorted) : 0;
-    json_begin_list(json, "branches");
-    for (int32_t k = 0; k < count;) {
-        k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
-        json_begin_object(json, NULL);
-        json_number(json, "mu", branch.mean);
-        json_number(json, "share", (double)branch.count / count);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// Numbers of none are null.
-static void write_cut(const LevelCut *cut, JsonWriter *json)
-{
-    bool none = cut->mesh == 0;
-    json_begin_object(json, "cut");
-    json_number(json, "mesh", none ? (double)NAN : cut->mesh);
-    json_number(json, "run", none ? (double)NAN : cut->run);
-    json_number(json, "contact_nodes", none ? (double)NAN : cut->contact_nodes);
-    json_number(json, "U", none ? (double)NAN : cut->U);
-    json_number(json, "part", none ? (double)NAN : cut->part);
-    json_number(json, "mu_M", none ? (double)NAN : cut->mu_M);
-    json_number(json, "mu_hold", none ? (double)NAN : cut->mu_hold);
-    json_end(json);
-}
-
-void levels_write_json(const Levels *levels, JsonWriter *json)
-{
-    json_begin_object(json, "accuracy");
-    json_number(json, "wanted", levels->wanted);
-    json_boolean(json, "met", levels->met);
-    json_text(json, "of", ANSWER_NAMES[levels->asked]);
-    json_text(json, "ended", levels->ended);
-    write_cut(&levels->cut, json);
-    json_number(json, "observed_order", levels_order(levels));
-    write_branches(levels, json);
-    json_begin_list(json, "levels");
-    for (int32_t l = 0; l < levels->count; l++) {
-        const Level *level = &levels->list[l];
-        json_begin_object(json, NULL);
-        json_number(json, "refine", level->refine);
-        json_integer(json, "contact_nodes", level->contact_nodes);
-        json_number(json, "seconds", level->seconds);
-        json_boolean(json, "undamped", level->undamped);
-        json_number(json, "slip_cells", level->slip_cells);
-        json_number(json, "cells", level_cells(level));
-        json_number(json, "end_wait", level->end_wait);
-        write_bars(level->answer, json);
-        write_runs(level, json);
-        json_end(json);
-    }
-    json_end(json);
-    json_end(json);
 }

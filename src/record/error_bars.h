@@ -7,14 +7,14 @@
 //   drops      twice the standard error that the finite number of load drops leaves
 //   branches   twice the standard error of the mean over runs, their spread taken from all levels;
 //              both weighed as the levels are
-//   mesh       value = a + b / n on n contact nodes is estimated from the levels together (Bayes:
-//              values scatter from mesh to mesh, as slip stops at nodes, and by what few runs leave
-//              of branches; the scatter of a level and the slope b are what they usually are,
-//              until levels are enough to say more).
-//              a, on cells of no size, is the answer, Student's 95 % of its deviation the part. At
-//              least what steps and reduction leave. Levels whose cells are too long for slip
-//              (`undamped`) have no part in it; where slip turns fast on too few cells they
-//              scatter more, and so where the last nodes of the contact hold the block: three
+//   mesh       value = a + b / n on n nodes along the contact is estimated from the levels together
+//              (Bayes: values scatter from mesh to mesh, as slip stops at nodes, and by what few
+//              runs leave of branches; the scatter of a level and the slope b are what they
+//              usually are, until levels are enough to say more).
+//              a, the limit of ever smaller cells, is the answer, Student's 95 % of its deviation
+//              the part. At least what steps and reduction leave. Levels whose cells are too long
+//              for slip (`undamped`) have no part in it; where slip turns fast on too few cells
+//              they scatter more, and so where the last nodes of the contact hold the block: three
 //              times what mu rises by meanwhile (`end_wait`) is added. One level: its own
 //              value, nothing known.
 //
@@ -47,6 +47,7 @@ typedef struct ErrorBar {
 typedef struct Level {
     double refine;   // mesh.set.refine
     int32_t contact_nodes;
+    double nodes_along;   // along its length (contact/interface), of which a cell is 1/nodes_along
     int32_t pads;   // pieces of the contact, at least 1
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
     double slip_cells;   // least that slipped before slow slip turned fast; NaN: not known
@@ -103,8 +104,16 @@ bool levels_resolved(const Levels *levels);
 // A run of the last level has no answer, as its run-in was not over.
 bool levels_run_in(const Levels *levels);
 
+// How far the answer of all levels is known: the bar, or what the last mesh alone usually leaves.
+double levels_known_to(const Levels *levels, AnswerKind kind);
+
+// What one mesh alone, without its runs, usually leaves open: into how far answers are known. Twice
+// what is usual of scatter and slope, and what the drops of a run leave. NaN: nothing is known.
+void level_answer_for(const Level *level, Answers *answers);
+
 // Puts value, error and parts of both answers in the place of those of one run; without any whole
-// run that one's answers stay, of whose errors nothing is known.
+// run that one's answers stay, of whose errors nothing is known. Where the mesh's part of a bar is
+// not known the last mesh alone says how far answers are.
 void levels_answer_for(const Levels *levels, Answers *answers);
 
 // Of the last three levels, for the asked answer: ln(difference before / last difference) over ln

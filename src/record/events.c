@@ -166,7 +166,7 @@ static double fast_front(const Events *events, const Observation *seen, int32_t 
     const Interface *interface = seen->interface;
     for (int32_t i = interface->contact_count - 1; i >= 0; i--) {
         if (interface->pad[i] == pad &&
-            fabs(seen->state->slip_rate[interface_tangent(i)]) > events->rate_start)
+            fabs(seen->state->slip_rate[interface_tangent(interface, i)]) > events->rate_start)
             return interface->x[i];
     }
     return NAN;

@@ -9,22 +9,11 @@
 
 #include <string.h>
 
-// VTK's numbers of our element kinds; the node orders are the same.
-static uint8_t vtk_cell_type(ElementKind kind)
-{
-    static const uint8_t types[] = {[ELEMENT_T3] = 5,
-                                    [ELEMENT_T6] = 22,
-                                    [ELEMENT_Q4] = 9,
-                                    [ELEMENT_Q8] = 23,
-                                    [ELEMENT_Q9] = 28};
-    return types[kind];
-}
-
 // Of a point: points that follow the nodes stand where materials meet (fem/recovery).
-static int64_t node_of(const FieldFiles *files, int64_t point)
+static int32_t node_of(const FieldFiles *files, int64_t point)
 {
-    int64_t nodes = files->mesh->node_count;
-    return point < nodes ? point : files->stress.extra_node[point - nodes];
+    int32_t nodes = files->mesh->node_count;
+    return point < nodes ? (int32_t)point : files->stress.extra_node[point - nodes];
 }
 
 // VTK's cells: offsets [cells + 1] into connectivity, and a type each. Third coordinates stay 0.
@@ -40,14 +29,14 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
     files->cell_types = NEW_ARRAY(uint8_t, cells, err);
     if (!error_is_clean(err)) return false;
     for (int64_t i = 0; i < points; i++) {
-        int64_t node = node_of(files, i);
-        files->points[3 * i] = mesh->position[2 * node];
-        files->points[3 * i + 1] = mesh->position[2 * node + 1];
+        int32_t node = node_of(files, i);
+        memcpy(files->points + 3 * i, mesh_place(mesh, node), (size_t)mesh->dim * sizeof(double));
     }
     const int32_t *all = nodal_stress_points(&files->stress, mesh, 0);
     for (int64_t e = 0; e <= cells; e++) files->offsets[e] = mesh->first_node[e];
     for (int64_t k = 0; k < corners; k++) files->connectivity[k] = all[k];
-    for (int64_t e = 0; e < cells; e++) files->cell_types[e] = vtk_cell_type(mesh->kind[e]);
+    for (int64_t e = 0; e < cells; e++)
+        files->cell_types[e] = element_info((ElementKind)mesh->kind[e])->vtk_type;
     return true;
 }
 
@@ -94,8 +83,8 @@ void field_files_destroy(FieldFiles *files)
     *files = (FieldFiles){0};
 }
 
-// state: [2 * nodes] displacement and velocity of the mesh. Three components, the third 0, as VTK
-// has no vectors of two.
+// state: [dim * nodes] displacement and velocity of the mesh. Three components, the last 0 in the
+// plane, as VTK has no vectors of two.
 bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
                             Error *err)
 {
@@ -103,10 +92,10 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
     int64_t points = files->stress.point_count;
     double *displacement = files->vectors, *velocity = files->vectors + 3 * points;
     for (int64_t i = 0; i < points; i++) {
-        int64_t node = node_of(files, i);
-        for (int d = 0; d < 2; d++) {
-            displacement[3 * i + d] = state->displacement[2 * node + d];
-            velocity[3 * i + d] = state->velocity[2 * node + d];
+        int32_t first = node_dof(mesh->dim, node_of(files, i), 0);
+        for (int32_t d = 0; d < mesh->dim; d++) {
+            displacement[3 * i + d] = state->displacement[first + d];
+            velocity[3 * i + d] = state->velocity[first + d];
         }
     }
     nodal_stress_recover(files->materials, state->displacement, state->velocity, &files->stress);

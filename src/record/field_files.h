@@ -27,7 +27,7 @@ typedef struct FieldFiles {
 
 // Of the whole mesh. Nothing is owned.
 typedef struct FieldState {
-    const double *displacement, *velocity;   // [2 * nodes]
+    const double *displacement, *velocity;   // [dim * nodes]
     double time;
 } FieldState;
 

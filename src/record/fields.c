@@ -128,7 +128,8 @@ bool fields_flush(Fields *fields, Error *err)
 // At the first time that is written: until then nobody knows the system.
 static bool start_writer(Fields *fields, const Observation *seen, Error *err)
 {
-    int64_t dofs = seen->system->dof_count, whole = 2 * (int64_t)fields->files.mesh->node_count;
+    const Mesh *mesh = fields->files.mesh;
+    int64_t dofs = seen->system->dof_count, whole = (int64_t)mesh->dim * mesh->node_count;
     int64_t line = (int64_t)FIELD_LINE_ARRAYS * seen->interface->contact_count;
     WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
     if (fields->writer) return true;
@@ -138,8 +139,8 @@ static bool start_writer(Fields *fields, const Observation *seen, Error *err)
         if (!copy->storage) copy->storage = memory_bytes(8 * (2 * dofs + 2 * whole + line), err);
         TRY(copy->storage);
         double *next = copy->storage;
-        for (int d = 0; d < 2; d++, next += dofs) copy->unknowns[d] = next;
-        for (int d = 0; d < 2; d++, next += whole) copy->whole[d] = next;
+        for (int which = 0; which < 2; which++, next += dofs) copy->unknowns[which] = next;
+        for (int which = 0; which < 2; which++, next += whole) copy->whole[which] = next;
         copy->line = next;
     }
     TRY(worker_create(&def, &fields->writer, err));
@@ -178,7 +179,7 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
     double *columns[FIELD_LINE_ARRAYS];
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) columns[k] = line + k * count;
     for (int32_t i = 0; i < count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
+        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
         double slip_rate = state->slip_rate[t];
         columns[0][i] = slip_rate;
         columns[1][i] = state->displacement[dofs[t]];

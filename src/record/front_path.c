@@ -66,7 +66,7 @@ static double passage(const FrontPath *path, double before, double now, double t
 void front_path_follow(FrontPath *path, const Observation *seen)
 {
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
-        double rate = fabs(seen->state->slip_rate[interface_tangent(i)]);
+        double rate = fabs(seen->state->slip_rate[interface_tangent(seen->interface, i)]);
         if (rate > path->threshold && isnan(path->arrival[i]))
             path->arrival[i] = passage(path, path->rate_before[i], rate, seen->t);
     }
@@ -77,7 +77,7 @@ void front_path_follow(FrontPath *path, const Observation *seen)
 void front_path_keep(FrontPath *path, const Observation *seen)
 {
     for (int32_t i = 0; i < seen->interface->contact_count; i++)
-        path->rate_before[i] = fabs(seen->state->slip_rate[interface_tangent(i)]);
+        path->rate_before[i] = fabs(seen->state->slip_rate[interface_tangent(seen->interface, i)]);
     path->t_before = seen->t;
 }
 

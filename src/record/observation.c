@@ -70,10 +70,11 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
     double load = scales->load * load_factor(scheme->course, state->time);
     seen.mu = seen.rod_force / load;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        seen.normal_force += state->reaction[interface_normal(i)];
-        double height = state->displacement[seen.system->interface_dofs[interface_normal(i)]];
+        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
+        seen.normal_force += state->reaction[n];
+        double height = state->displacement[seen.system->interface_dofs[n]];
         seen.penetration = fmax(seen.penetration, -height - interface_gap(interface, i));
-        seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[interface_tangent(i)]));
+        seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[t]));
     }
     Moments moments = sum_moments(control);
     double moment_scale = scales->load * scales->length;

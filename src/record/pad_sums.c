@@ -20,12 +20,12 @@ void pad_sums(const Observation *seen, PadSum *sums)
     memset(sums, 0, (size_t)interface->pad_count * sizeof *sums);
     for (int32_t i = 0; i < interface->contact_count; i++) {
         PadSum *sum = &sums[interface->pad[i]];
-        sum->normal_force += state->reaction[interface_normal(i)];
-        sum->shear -= state->reaction[interface_tangent(i)];
+        sum->normal_force += state->reaction[interface_normal(interface, i)];
+        sum->shear -= state->reaction[interface_tangent(interface, i)];
         if (!status_slips(state->status[i])) continue;
         sum->slipping += interface->weight[i];
         sum->slipping_cells += cells_of(interface, i);
-        sum->fastest = fmax(sum->fastest, fabs(state->slip_rate[interface_tangent(i)]));
+        sum->fastest = fmax(sum->fastest, fabs(state->slip_rate[interface_tangent(interface, i)]));
     }
 }
 

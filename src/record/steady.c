@@ -71,6 +71,7 @@ void steady_answer(const Steady *steady, Answers *answers)
     if (!is_steady(steady, answers)) return;
     answers->mu_M = steady_mu(steady);
     answers->mu_M.error = 0.5 * STEADY_RANGE * answers->mu_M.value;   // what it is known to
+    answers->mu_M_known_to = answers->mu_M.error;
     answers->mu_M_parts = (ErrorParts){NAN, NAN, NAN};
 }
 
@@ -79,7 +80,8 @@ const char *steady_words(const Steady *steady, const Answers *answers)
     if (is_steady(steady, answers)) return "steady sliding";
     if (!isnan(answers->mu_M.value)) return "peaks";
     if (steady->slides) return "none: the block slides slowly, and F_T/F_N is not steady yet";
-    if (answers->peaks > 0) return "none: after the start only parts of the block slid";
+    if (answers->peaks > 0)
+        return "none: what slidings of the whole block there were belong to the start or run-in";
     if (steady->events && steady->events->kinds[EVENT_LEADING] > 0)
         return "none: the block slid from the start on, and not once from rest";
     if (answers->regime.count > 0) return "none: only parts of the block slid in this run";

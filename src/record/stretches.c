@@ -63,8 +63,8 @@ void stretches_read(const Stretches *stretches, const Observation *seen, double 
     double *shear = state, *lag = state + stretches->count, normal = 0;
     memset(state, 0, 2 * (size_t)stretches->count * sizeof *state);
     for (int32_t i = 0; i < stretches->contact_count; i++) {
-        int32_t s = stretches->of_node[i], t = interface_tangent(i);
-        normal += now->reaction[interface_normal(i)];
+        int32_t s = stretches->of_node[i], t = interface_tangent(seen->interface, i);
+        normal += now->reaction[interface_normal(seen->interface, i)];
         shear[s] -= now->reaction[t];
         lag[s] += seen->U - now->displacement[seen->system->interface_dofs[t]];
     }

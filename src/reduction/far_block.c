@@ -27,8 +27,7 @@ void far_block_destroy(FarBlock *block)
     memory_free(block->patches);
     memory_free(block->couplings);
     memory_free(block->indices);
-    memory_free(block->matrices);
-    memory_free(block->fields);
+    memory_free(block->numbers);
     memory_free(block->stiffness);
     far_samples_destroy(&block->samples);
     *block = (FarBlock){0};
@@ -41,44 +40,36 @@ static double *take(double **numbers, int64_t count)
     return taken;
 }
 
-bool far_block_make_lists(int32_t patches, int32_t couplings, FarBlock *block, Error *err)
+// Room for all that the sizes of patches and couplings say.
+static bool make_room(FarBlock *block, Error *err)
 {
-    block->patches = NEW_ARRAY(FarPatch, patches, err);
-    block->couplings = NEW_ARRAY(FarCoupling, couplings, err);
-    block->patch_count = patches;
-    block->coupling_count = couplings;
-    return error_is_clean(err);
-}
-
-static void count_entries(FarBlock *block)
-{
-    block->index_count = block->number_count = block->field_count = 0;
+    int64_t indices = 0, numbers = 0;
     for (int32_t p = 0; p < block->patch_count; p++) {
         int64_t q = block->patches[p].count, size = block->patches[p].size;
-        block->index_count += size;
-        block->number_count += 2 * q * (q + 1);
-        block->field_count += size * q;
+        indices += size;
+        numbers += q * (size + 2 * q + 2);
     }
     for (int32_t c = 0; c < block->coupling_count; c++) {
         const FarCoupling *coupling = &block->couplings[c];
-        if (coupling->before == NO_PATCH) block->index_count += coupling->count;
-        block->number_count += 2 * (int64_t)coupling->count * block->patches[coupling->patch].count;
+        if (coupling->before == NO_PATCH) indices += coupling->count;
+        numbers += 2 * (int64_t)coupling->count * block->patches[coupling->patch].count;
     }
+    block->indices = NEW_ARRAY(int32_t, indices, err);
+    block->numbers = NEW_ARRAY(double, numbers, err);
+    return error_is_clean(err);
 }
 
-bool far_block_lay_out(FarBlock *block, Error *err)
+static bool lay_out(FarBlock *block, Error *err)
 {
-    count_entries(block);
-    block->indices = NEW_ARRAY(int32_t, block->index_count, err);
-    block->matrices = NEW_ARRAY(double, block->number_count, err);
-    if (!block->indices || !block->matrices) return false;
+    if (!make_room(block, err)) return false;
     int32_t *indices = block->indices;
-    double *numbers = block->matrices;
+    double *numbers = block->numbers;
     for (int32_t p = 0; p < block->patch_count; p++) {
         FarPatch *patch = &block->patches[p];
         int64_t q = patch->count;
         patch->dofs = indices;
         indices += patch->size;
+        patch->field = take(&numbers, patch->size * q);
         patch->rotation = take(&numbers, q * q);
         patch->damping = take(&numbers, q * q);
         patch->mass = take(&numbers, q);
@@ -95,15 +86,6 @@ bool far_block_lay_out(FarBlock *block, Error *err)
         coupling->damping = take(&numbers, entries);
     }
     return true;
-}
-
-bool far_block_lay_out_fields(FarBlock *block, Error *err)
-{
-    double *fields = block->fields = NEW_ARRAY(double, block->field_count, err);
-    for (int32_t p = 0; fields && p < block->patch_count; p++)
-        block->patches[p].field =
-            take(&fields, (int64_t)block->patches[p].size * block->patches[p].count);
-    return block->fields;
 }
 
 static void building_destroy(Building *work)
@@ -316,10 +298,13 @@ static bool fill_block(Building *work, Error *err)
     FarBlock *block = work->block;
     int32_t couplings = 0;
     TRY(list_borders(work, &couplings, err));
-    TRY(far_block_make_lists(work->patches.count, couplings, block, err));
+    block->patch_count = work->patches.count;
+    block->patches = NEW_ARRAY(FarPatch, block->patch_count, err);
+    block->couplings = NEW_ARRAY(FarCoupling, couplings, err);
+    if (!error_is_clean(err)) goto cleanup;
+    block->coupling_count = couplings;
     list_sizes(work);
-    TRY(far_block_lay_out(block, err));
-    TRY(far_block_lay_out_fields(block, err));
+    TRY(lay_out(block, err));
     for (int32_t p = 0; p < block->patch_count; p++) TRY(project(work, p, err));
     for (int32_t p = 0, first = 0; p < block->patch_count; p++) {
         TRY(couple(work, p, first, BULK_STIFFNESS, err));
@@ -349,7 +334,7 @@ bool far_block_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t i
                       const FarFieldDef *def, FarBlock *block, Error *err)
 {
     Building work = {.bulk = bulk, .block = block};
-    *block = (FarBlock){.dof_count = bulk->dof_count};
+    *block = (FarBlock){0};
     TRY(far_patches_create(&bulk->pattern, interface_dofs, interface_count, &work.patches, err));
     if (work.patches.count > 0) TRY(replace(interface_dofs, interface_count, def, &work, err));
 cleanup:

@@ -10,20 +10,14 @@
 // with blocks beside the diagonal where two patches touch. M is diagonal: F'MF is made so. The
 // error in S is measured at a point that the modes were not made at; where it is no small part of
 // what is allowed nothing is replaced.
-//
-// The bulk may be the upper block alone, its interface the line that it stands on
-// (reduction/upper_block): then all this serves every design that has this block. The energy of a
-// response is the sum of that below and that above the line, so that S of the contact is off by no
-// larger part than S of the line.
-// Called by reduction/reduction and model/obtain; stored by model/far_cache; used by
-// reduction/far_field.
+// Called by reduction/reduction; used by reduction/far_field.
 #ifndef AMONTONS_REDUCTION_FAR_BLOCK_H
 #define AMONTONS_REDUCTION_FAR_BLOCK_H
 
 #include "reduction/far_samples.h"
 
-// Of a patch with what is near or with a patch before it. Pointers of both structs but `field` lead
-// into the block's `indices` and `matrices`.
+// Of a patch with what is near or with a patch before it. Pointers of both structs lead into
+// the block's `indices` and `numbers`.
 typedef struct FarCoupling {
     int32_t patch, before;   // the columns'; the rows': NO_PATCH
     int32_t count;   // rows: of near unknowns those that touch it, of a patch all coordinates
@@ -35,7 +29,7 @@ typedef struct FarPatch {
     int32_t size;   // unknowns that are replaced
     int32_t *dofs;   // [size] which of the bulk, ascending
     int32_t count;   // their modes, columns of F = field * rotation, F'(K/E)F = 1
-    double *field;   // [size * count]; NULL: read from a cache and not asked for
+    double *field;   // [size * count]
     double *rotation;   // [count^2]
     double *damping;   // [count^2] F'CF
     double *mass;   // [count] F'MF, diagonal
@@ -43,16 +37,13 @@ typedef struct FarPatch {
 } FarPatch;
 
 typedef struct FarBlock {
-    int32_t dof_count;   // of the bulk
     int32_t patch_count;   // 0: nothing is replaced
     FarPatch *patches;   // [patch_count] owned, as all below
     int32_t coupling_count;
     FarCoupling *couplings;   // [coupling_count] by patch, then by what is before
-    int64_t index_count, number_count, field_count;
-    int32_t *indices;   // [index_count] dofs of each patch, then the rows of each coupling
-    double *matrices;   // [number_count] rotation, damping, mass, load of each, then the couplings
-    double *fields;   // [field_count] of each patch; NULL: as above
-    double *stiffness;   // [interface_count^2] S of K/E; NULL: read from a cache
+    int32_t *indices;
+    double *numbers;
+    double *stiffness;   // [interface_count^2] S of K/E
     FarSamples samples;   // what the error is measured by; until it is (far_field_measure)
     double error;   // of S, over what is allowed
 } FarBlock;
@@ -61,11 +52,6 @@ typedef struct FarBlock {
 // error it leaves is not measured yet (far_field_measure).
 bool far_block_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                       const FarFieldDef *def, FarBlock *block, Error *err);
-// Room for the lists. Then, where counts and sizes of patches and couplings are set, for all but
-// the fields, and for these.
-bool far_block_make_lists(int32_t patches, int32_t couplings, FarBlock *block, Error *err);
-bool far_block_lay_out(FarBlock *block, Error *err);
-bool far_block_lay_out_fields(FarBlock *block, Error *err);
 void far_block_destroy(FarBlock *block);
 
 #endif

@@ -4,8 +4,6 @@
 #include "base/dense.h"
 #include "base/memory.h"
 
-#include <stdlib.h>
-
 // Of what is allowed: a larger error of S and all is done on the whole bulk.
 static const double ERROR_MAX = 0.15;
 
@@ -17,8 +15,6 @@ typedef struct Filling {
     double unit;   // E
     int32_t *place;   // [dofs of the mesh] among the near ones; FAR
     int32_t *cursor;   // [dofs of the bulk] where the next entry of a row goes
-    int32_t *order;   // [dofs of the bulk] of the rows of a coupling
-    const FarCoupling *coupling;   // which
 } Filling;
 
 void far_field_destroy(FarField *far)
@@ -28,11 +24,6 @@ void far_field_destroy(FarField *far)
     memory_free(far->near);
     memory_free(far->first);
     *far = (FarField){0};
-}
-
-static int32_t dof_of(const FarField *far, int32_t dof)
-{
-    return far->dofs ? far->dofs[dof] : dof;
 }
 
 static bool divide(Filling *work, Error *err)
@@ -46,7 +37,7 @@ static bool divide(Filling *work, Error *err)
     if (!error_is_clean(err)) return false;
     for (int32_t p = 0; p < block->patch_count; p++)
         for (int32_t i = 0; i < block->patches[p].size; i++)
-            work->place[dof_of(far, block->patches[p].dofs[i])] = FAR;
+            work->place[block->patches[p].dofs[i]] = FAR;
     for (int32_t dof = 0; dof < dofs; dof++) {
         if (work->place[dof] == FAR) continue;
         work->place[dof] = far->near_count;
@@ -61,7 +52,7 @@ static bool divide(Filling *work, Error *err)
 // Where row i of a coupling stands among the unknowns.
 static int32_t row_of(const Filling *work, const FarCoupling *coupling, int64_t i)
 {
-    if (coupling->before == NO_PATCH) return work->place[dof_of(work->far, coupling->rows[i])];
+    if (coupling->before == NO_PATCH) return work->place[coupling->rows[i]];
     return work->far->first[coupling->before] + (int32_t)i;
 }
 
@@ -98,7 +89,6 @@ static bool make_room(Filling *work, Error *err)
                    .held = NEW_ARRAY(uint8_t, size, err),
                    .area = work->mesh->area};
     work->cursor = NEW_ARRAY(int32_t, size, err);
-    work->order = NEW_ARRAY(int32_t, size, err);
     if (!error_is_clean(err)) goto cleanup;
     count_entries(work);
     for (int64_t i = 0; i < size; i++) {
@@ -139,27 +129,14 @@ static void fill_near(Filling *work)
     }
 }
 
-// Of near unknowns: that of the bulk that the modes are of need not be that of the mesh.
-static int by_row(const void *left, const void *right, void *context)
-{
-    const Filling *work = context;
-    int32_t a = row_of(work, work->coupling, *(const int32_t *)left);
-    int32_t b = row_of(work, work->coupling, *(const int32_t *)right);
-    return (a > b) - (a < b);
-}
-
 // A block above the diagonal (rows before columns) or what faces it below.
 static void fill_coupling(Filling *work, const FarCoupling *coupling, bool above)
 {
     const FarField *far = work->far;
     int64_t count = coupling->count;
     int32_t first = far->first[coupling->patch], end = far->first[coupling->patch + 1];
-    work->coupling = coupling;
-    for (int32_t i = 0; i < coupling->count; i++) work->order[i] = i;
-    if (coupling->before == NO_PATCH)
-        qsort_r(work->order, (size_t)count, sizeof *work->order, by_row, work);
-    for (int32_t k = 0; k < coupling->count; k++) {
-        int32_t i = work->order[k], row = row_of(work, coupling, i);
+    for (int32_t i = 0; i < coupling->count; i++) {
+        int32_t row = row_of(work, coupling, i);
         for (int32_t c = first; c < end; c++) {
             int64_t at = (c - first) * count + i;
             add_entry(work, above ? row : c, above ? c : row, coupling->stiffness[at],
@@ -215,7 +192,6 @@ cleanup:
     memory_free(dofs);
     memory_free(work.place);
     memory_free(work.cursor);
-    memory_free(work.order);
     return error_is_clean(err);
 }
 
@@ -249,7 +225,7 @@ bool far_field_expand(const FarField *far, const double *reduced, int32_t column
                        dense_view(turned, patch->count, columns), 1, 0, fields);
         for (int64_t j = 0; j < columns; j++)
             for (int64_t i = 0; i < patch->size; i++)
-                full[j * mesh + dof_of(far, patch->dofs[i])] = fields[j * patch->size + i];
+                full[j * mesh + patch->dofs[i]] = fields[j * patch->size + i];
     }
 cleanup:
     memory_free(turned);

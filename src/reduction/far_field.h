@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The bulk that is left where a FarBlock replaces what is far from the interface: unknowns that are
 // near, a few rows of elements, and many small dense blocks, few of them high up. Called by
-// reduction/reduction and reduction/far_block.
+// reduction/reduction.
 #ifndef AMONTONS_REDUCTION_FAR_FIELD_H
 #define AMONTONS_REDUCTION_FAR_FIELD_H
 
@@ -9,8 +9,6 @@
 
 typedef struct FarField {
     const FarBlock *block;   // not owned
-    const int32_t *dofs;   // [block->dof_count] its unknowns among those of the mesh; NULL: the
-        // same; not owned
     Bulk bulk;   // near unknowns in the mesh's order, then coordinates; owned, as what follows
     BulkOperator system;   // of `bulk`; owned
     int32_t mesh_dofs, near_count;
@@ -18,13 +16,12 @@ typedef struct FarField {
     int32_t *first;   // [patches + 1] of a patch's coordinates among the unknowns of `bulk`
 } FarField;
 
-// mesh: of which the block's bulk is all or a part. unit: E.
+// mesh: the block's. unit: E.
 bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t interface_count,
                       double unit, FarField *far, Error *err);
 void far_field_destroy(FarField *far);
 
-// block: that of `far`, of all of its mesh, created just now: measures what its modes leave, on
-// that mesh; nothing is replaced where it is too much.
+// block: that of `far`: measures what its modes leave; nothing is replaced where it is too much.
 bool far_field_measure(FarField *far, FarBlock *block, Error *err);
 
 // full [mesh_dofs * columns] from those of `far->bulk`, reduced, [its dofs * columns].

@@ -40,9 +40,10 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
 {
     TRY(allocate_full(bulk, interface_dofs, interface_count, system, err));
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
-    for (int32_t dof = 0; position && dof < bulk->dof_count; dof += 2) {
-        system->rotation[dof] = -position[dof + 1];
-        system->rotation[dof + 1] = position[dof];
+    for (int32_t dof = 0; position && dof < bulk->dof_count; dof += bulk->dim) {
+        int32_t up = dof + bulk->dim - 1;
+        system->rotation[dof] = -position[up];
+        system->rotation[up] = position[dof];
         system->mass_total += bulk->mass[dof];
     }
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);

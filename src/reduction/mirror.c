@@ -53,10 +53,10 @@ void mirror_destroy(Mirror *mirror)
     *mirror = (Mirror){0};
 }
 
-// u_x, and not u_z, has another sign in the image of a motion.
-static double sign_of(int32_t dof)
+// u_x, and no other, has another sign in the image of a motion.
+static double sign_of(const Bulk *bulk, int32_t dof)
 {
-    return dof % 2 == 0 ? -1 : 1;
+    return dof_axis(bulk->dim, dof) == 0 ? -1 : 1;
 }
 
 // The roots of the diagonal of K and of C.
@@ -86,7 +86,7 @@ static bool is_alike(const Finder *find, double tolerance)
             int32_t row = pattern->index[k], at = first;
             while (at < end && pattern->index[at] != find->image[row]) at++;
             if (at == end) return false;
-            double sign = sign_of(row) * sign_of(j);
+            double sign = sign_of(bulk, row) * sign_of(bulk, j);
             double stiffness = fabs(bulk->stiffness[k] - sign * bulk->stiffness[at]);
             double damping = fabs(bulk->damping[k] - sign * bulk->damping[at]);
             if (!(stiffness <= tolerance * find->root[0][row] * find->root[0][j] &&
@@ -98,9 +98,9 @@ static bool is_alike(const Finder *find, double tolerance)
 }
 
 // Part 0: alike on both sides. The sign of what moves in one direction is the other's in part 1.
-static double sign_in(int part, int32_t dof)
+static double sign_in(const Bulk *bulk, int part, int32_t dof)
 {
-    return part == 0 ? sign_of(dof) : -sign_of(dof);
+    return part == 0 ? sign_of(bulk, dof) : -sign_of(bulk, dof);
 }
 
 static bool list_unknowns(Finder *find, int p, SymmetryMap *map, Error *err)
@@ -110,7 +110,7 @@ static bool list_unknowns(Finder *find, int p, SymmetryMap *map, Error *err)
     if (!part_of || !symmetry_map_create(dofs, map, err)) return false;
     for (int32_t dof = 0; dof < dofs; dof++) {
         int32_t image = find->image[dof];
-        double sign = sign_in(p, dof);
+        double sign = sign_in(find->bulk, p, dof);
         part_of[dof] = image < dof ? part_of[image] : NONE;
         if (image < dof || (image == dof && sign < 0)) continue;
         part_of[dof] = map->count;
@@ -214,7 +214,7 @@ static bool map_border(const Finder *find, int p, MirrorPart *part, Error *err)
         if (unknown == NONE || image < k) continue;
         int32_t first = part->unknowns.one[unknown] == dof ? k : image;
         part->border_dofs[part->border.count] = unknown;
-        symmetry_map_append(&part->border, first, k + image - first, sign_in(p, dof));
+        symmetry_map_append(&part->border, first, k + image - first, sign_in(find->bulk, p, dof));
     }
     return true;
 }
@@ -244,10 +244,11 @@ static bool list_border(Finder *find, const int32_t *interface_dofs, int32_t m, 
 static bool look(const int32_t *node_image, const int32_t *interface_dofs, int32_t m,
                  double tolerance, Finder *find, Error *err)
 {
-    int32_t dofs = find->bulk->dof_count;
+    int32_t dofs = find->bulk->dof_count, dim = find->bulk->dim;
     find->image = NEW_ARRAY(int32_t, dofs, err);
     if (!find->image) return false;
-    for (int32_t dof = 0; dof < dofs; dof++) find->image[dof] = 2 * node_image[dof / 2] + dof % 2;
+    for (int32_t dof = 0; dof < dofs; dof++)
+        find->image[dof] = node_dof(dim, node_image[dof_node(dim, dof)], dof_axis(dim, dof));
     if (!list_border(find, interface_dofs, m, err) || !find_roots(find, err)) return false;
     find->found = find->border_count - m <= MIRRORED_MAX * m && is_alike(find, tolerance);
     return true;
@@ -257,12 +258,12 @@ bool mirror_is_likely(const Bulk *bulk, const double *position, const int32_t *i
                       int32_t m, bool *likely, Error *err)
 {
     Finder find = {.bulk = bulk};
-    int32_t nodes = bulk->dof_count / 2, *image = NEW_ARRAY(int32_t, nodes, err);
+    int32_t nodes = bulk->dof_count / bulk->dim, *image = NEW_ARRAY(int32_t, nodes, err);
     double *places = NEW_ARRAY(double, bulk->dof_count, err);
     *likely = false;
     if (!places || !image) goto cleanup;
     memcpy(places, position, (size_t)bulk->dof_count * sizeof *places);
-    TRY(mirror_nodes_find(places, nodes, image, likely, err));
+    TRY(mirror_nodes_find(bulk->dim, places, nodes, image, likely, err));
     if (*likely) TRY(look(image, interface_dofs, m, NEARLY_ALIKE, &find, err));
     *likely = find.found;
 cleanup:

@@ -3,9 +3,11 @@
 #include "reduction/mirror_nodes.h"
 
 #include "base/memory.h"
+#include "fem/mesh.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double SLANT = 0.6180339887498949;   // of the direction: no ratio of small numbers
 
@@ -17,9 +19,11 @@ typedef struct Place {
     int32_t node;
 } Place;
 
-static double along(double x, double z)
+static double along(int32_t dim, const double *at)
 {
-    return x + SLANT * z;
+    double sum = at[0], part = 1;
+    for (int32_t d = 1; d < dim; d++) sum += (part *= SLANT) * at[d];
+    return sum;
 }
 
 static int by_place(const void *left, const void *right)
@@ -28,54 +32,79 @@ static int by_place(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-// The node within `apart` of (x, z), or -1.
-static int32_t node_at(const Place *places, int32_t count, const double *position, double x,
-                       double z, double apart)
+static bool are_close(int32_t dim, const double *one, const double *other, double apart)
 {
-    double reach = along(apart, apart), from = along(x, z) - reach;
-    int32_t first = 0, end = count;
+    for (int32_t d = 0; d < dim; d++)
+        if (!(fabs(one[d] - other[d]) <= apart)) return false;
+    return true;
+}
+
+// What is looked through.
+typedef struct Nodes {
+    int32_t dim, count;
+    const double *position;   // [count * dim]
+    Place *places;   // [count] in order; owned
+    double apart;
+} Nodes;
+
+// The node at a place, or -1.
+static int32_t node_at(const Nodes *nodes, const double *at)
+{
+    MeshPlace corner;
+    for (int32_t d = 0; d < DIM_MAX; d++) corner[d] = nodes->apart;
+    double reach = along(nodes->dim, corner), from = along(nodes->dim, at) - reach;
+    int32_t first = 0, end = nodes->count;
     while (first < end) {
         int32_t middle = first + (end - first) / 2;
-        if (places[middle].along < from)
+        if (nodes->places[middle].along < from)
             first = middle + 1;
         else
             end = middle;
     }
-    for (int32_t k = first; k < count && places[k].along <= from + 2 * reach; k++) {
-        const double *at = position + 2 * (int64_t)places[k].node;
-        if (fabs(at[0] - x) <= apart && fabs(at[1] - z) <= apart) return places[k].node;
+    for (int32_t k = first; k < nodes->count && nodes->places[k].along <= from + 2 * reach; k++) {
+        int32_t node = nodes->places[k].node;
+        const double *there = nodes->position + node_dof(nodes->dim, node, 0);
+        if (are_close(nodes->dim, there, at, nodes->apart)) return node;
     }
     return -1;
 }
 
-bool mirror_nodes_find(double *position, int32_t nodes, int32_t *image, bool *found, Error *err)
+// Both into the middle: x over the mirror, all else alike.
+static void put_together(int32_t dim, double sum, double *here, double *there)
+{
+    here[0] = (here[0] + (sum - there[0])) / 2;
+    there[0] = sum - here[0];
+    for (int32_t d = 1; d < dim; d++) there[d] = here[d] = (here[d] + there[d]) / 2;
+}
+
+bool mirror_nodes_find(int32_t dim, double *position, int32_t nodes, int32_t *image, bool *found,
+                       Error *err)
 {
     double least = INFINITY, most = -INFINITY;
-    Place *places = NEW_ARRAY(Place, nodes, err);
-    if (!places) return false;
+    Nodes all = {dim, nodes, position, NEW_ARRAY(Place, nodes, err), 0};
+    if (!all.places) return false;
     for (int32_t i = 0; i < nodes; i++) {
-        const double *at = position + 2 * (int64_t)i;
-        places[i] = (Place){along(at[0], at[1]), i};
+        const double *at = position + node_dof(dim, i, 0);
+        all.places[i] = (Place){along(dim, at), i};
         least = fmin(least, at[0]);
         most = fmax(most, at[0]);
     }
-    double sum = least + most, apart = APART * (most - least);
-    qsort(places, (size_t)nodes, sizeof *places, by_place);
+    double sum = least + most;
+    all.apart = APART * (most - least);
+    qsort(all.places, (size_t)nodes, sizeof *all.places, by_place);
     *found = true;
     for (int32_t i = 0; *found && i < nodes; i++) {
-        const double *at = position + 2 * (int64_t)i;
-        image[i] = node_at(places, nodes, position, sum - at[0], at[1], apart);
+        MeshPlace across;
+        memcpy(across, position + node_dof(dim, i, 0), (size_t)dim * sizeof(double));
+        across[0] = sum - across[0];
+        image[i] = node_at(&all, across);
         *found = image[i] >= 0;
     }
     for (int32_t i = 0; *found && i < nodes; i++) *found = image[image[i]] == i;
-    for (int32_t i = 0; *found && i < nodes; i++) {
-        if (image[i] < i) continue;
-        double *here = position + 2 * (int64_t)i, *there = position + 2 * (int64_t)image[i];
-        here[0] = (here[0] + (sum - there[0])) / 2;
-        here[1] = (here[1] + there[1]) / 2;
-        there[0] = sum - here[0];
-        there[1] = here[1];
-    }
-    memory_free(places);
+    for (int32_t i = 0; *found && i < nodes; i++)
+        if (image[i] >= i)
+            put_together(dim, sum, position + node_dof(dim, i, 0),
+                         position + node_dof(dim, image[i], 0));
+    memory_free(all.places);
     return true;
 }

@@ -52,8 +52,8 @@ typedef struct Builder {
     double *excess;   // [m^2] S_r - S
     double *values;   // [m] eigenvalues
     double *eigen_work;   // [dense_eigen_work(m)]
-    BulkOperator mesh;   // the whole, where it was needed itself
-    FarBlock own;   // where no upper block is known; its `stiffness` also where one is
+    BulkOperator mesh;   // the whole, where nothing is replaced
+    FarBlock far_block;
     FarField far;   // far.block NULL: nothing is replaced
 } Builder;
 
@@ -67,7 +67,7 @@ static void builder_destroy(Builder *work)
     memory_free(work->eigen_work);
     bulk_operator_destroy(&work->mesh);
     far_field_destroy(&work->far);
-    far_block_destroy(&work->own);
+    far_block_destroy(&work->far_block);
 }
 
 static bool builder_create(Builder *work, Error *err)
@@ -328,7 +328,7 @@ static void add_far_field(const Builder *work)
     ReducedBulk *reduced = work->reduced;
     int64_t m = reduced->interface_count;
     reduced->full_dofs = far->mesh_dofs;
-    memcpy(reduced->stiffness, work->own.stiffness, (size_t)(m * m) * sizeof(double));
+    memcpy(reduced->stiffness, far->block->stiffness, (size_t)(m * m) * sizeof(double));
     for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
         ParameterPoint point = {.inertia = reduced->errors.inertia[level]};
         reduced->errors.error[level] += far->block->error * allowed_error(work, point);
@@ -340,7 +340,7 @@ static bool build_on(Builder *work, Error *err)
     const ReductionDef *def = work->def;
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
-    double slowest = work->own.samples.slowest;   // where the whole mesh was looked at
+    double slowest = work->far_block.samples.slowest;   // where the whole mesh was looked at
     TRY(builder_create(work, err));
     if (slowest > 0) TRY(list_training_points(work, slowest, err));
     if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
@@ -361,41 +361,18 @@ cleanup:
     return error_is_clean(err);
 }
 
-// S of K/E on the whole mesh.
-static bool find_statics(Builder *work, Error *err)
-{
-    int64_t m = work->mesh.interface_count, entries = m * m;
-    OperatorTerms terms = {
-        .stiffness = 1 / work->def->scales.stiffness, .lift = true, .schur_only = true};
-    InterfaceOperator *statics = interface_operator_create(&work->mesh, terms, err);
-    work->own.stiffness = NEW_ARRAY(double, entries, err);
-    if (statics && work->own.stiffness)
-        memcpy(work->own.stiffness, interface_operator_schur(statics),
-               (size_t)entries * sizeof(double));
-    interface_operator_destroy(statics);
-    return error_is_clean(err);
-}
-
-// What is far is that of the upper block, where its modes are known, else of the whole.
 static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
                         Error *err)
 {
     const ReductionDef *def = work->def;
     FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
-    const FarBlock *above = def->above.block;
-    bool known = above && above->patch_count > 0;
-    work->far.block = known ? above : &work->own;
-    if (known) {
-        work->far.dofs = def->above.dofs;
-        TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &work->mesh, err));
-        TRY(find_statics(work, err));
-    } else {
-        TRY(far_block_create(bulk, interface_dofs, m, &far_def, &work->own, err));
-    }
-    if (work->far.block->patch_count > 0)
-        TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
-    if (work->own.patch_count > 0) TRY(far_field_measure(&work->far, &work->own, err));
-    if (work->far.block->patch_count == 0) work->far.block = NULL;
+    FarBlock *block = &work->far_block;
+    TRY(far_block_create(bulk, interface_dofs, m, &far_def, block, err));
+    if (block->patch_count == 0) goto cleanup;
+    work->far.block = block;
+    TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
+    TRY(far_field_measure(&work->far, block, err));
+    if (block->patch_count == 0) work->far.block = NULL;
 cleanup:
     return error_is_clean(err);
 }

@@ -28,17 +28,11 @@
 #include "fem/assembly.h"
 #include "reduction/reduced_bulk.h"
 
-typedef struct FarBlock FarBlock;   // reduction/far_block
-
 typedef struct ReductionDef {
     double tolerance;   // of responses, relative, in the energy norm
     BulkScales scales;   // of the bulk to reduce
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
-    struct {
-        const FarBlock *block;   // NULL: what is far is found in the whole bulk
-        const int32_t *dofs;   // [block->dof_count] its unknowns
-    } above;   // of the upper block (reduction/upper_block); not owned
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay.

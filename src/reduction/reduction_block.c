@@ -58,11 +58,11 @@ void reduction_block_destroy(ReductionBlock *block)
 }
 
 // A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
-static bool find_images(ReductionBlock *block, int32_t nodes, Error *err)
+static bool find_images(ReductionBlock *block, int32_t dim, int32_t nodes, Error *err)
 {
     bool found = false;
     block->image = NEW_ARRAY(int32_t, nodes, err);
-    if (!block->image || !mirror_nodes_find(block->position, nodes, block->image, &found, err))
+    if (!block->image || !mirror_nodes_find(dim, block->position, nodes, block->image, &found, err))
         return false;
     if (found) return true;
     memory_free(block->image);
@@ -78,14 +78,14 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
 {
     double length = mesh->x_max - mesh->x_min;
     *block = (ReductionBlock){.materials = normalise(materials)};
-    block->position = NEW_ARRAY(double, 2 * (int64_t)mesh->node_count, err);
+    int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
+    block->position = NEW_ARRAY(double, numbers, err);
     if (!block->position) goto cleanup;
-    for (int32_t i = 0; i < mesh->node_count; i++) {
-        const double *at = mesh->position + 2 * (int64_t)i;
-        block->position[2 * i] = put_on_grid((at[0] - mesh->x_min) / length);
-        block->position[2 * i + 1] = put_on_grid(at[1] / length);
+    for (int64_t k = 0; k < numbers; k++) {
+        double start = k % mesh->dim == 0 ? mesh->x_min : 0;
+        block->position[k] = put_on_grid((mesh->position[k] - start) / length);
     }
-    TRY(find_images(block, mesh->node_count, err));
+    TRY(find_images(block, mesh->dim, mesh->node_count, err));
     Mesh scaled = *mesh;   // borrows all but the positions
     scaled.position = block->position;
     TRY(bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err));

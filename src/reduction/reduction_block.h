@@ -11,7 +11,7 @@
 #include "fem/assembly.h"
 
 typedef struct ReductionBlock {
-    double *position;   // [nodes * 2] over L, from the trailing end on; owned
+    double *position;   // [nodes * dim] over L, from the trailing end on; owned
     int32_t *image;   // [nodes] at the mirror image of each; NULL: some have none; owned
     Materials materials;   // normalised: means of 1
     Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned

@@ -8,7 +8,7 @@
 #include "reduction/mirror.h"
 #include "reduction/reduction.h"
 
-// m: unknowns of the interface. def: without `above`. The mirror's maps go into `reduced`.
+// m: unknowns of the interface. The mirror's maps go into `reduced`.
 bool symmetry_reduction_build(Mirror *mirror, int32_t m, const ReductionDef *def,
                               ReducedBulk *reduced, Error *err);
 

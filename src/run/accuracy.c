@@ -171,6 +171,7 @@ static void show_level(const Accuracy *accuracy)
                       .answer = ANSWER_NAMES[accuracy->levels.asked],
                       .value = answer->value,
                       .bar = answer->bar,
+                      .known_to = levels_known_to(&accuracy->levels, accuracy->levels.asked),
                       .mesh = answer->parts.mesh,
                       .seconds = level->seconds,
                       .seconds_next = next_seconds(accuracy)};

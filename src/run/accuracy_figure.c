@@ -2,6 +2,7 @@
 #include "run/accuracy_figure.h"
 
 #include "amontons.h"
+#include "base/text.h"
 #include "io/files/folder.h"
 #include "io/text/json_writer.h"
 
@@ -98,11 +99,13 @@ bool accuracy_figure(const Levels *levels, const char *title, const char *folder
 static void name_estimates(const Levels *levels, char words[ESTIMATES_SIZE])
 {
     for (int32_t l = 0, used = 0; l < levels->count && used < ESTIMATES_SIZE; l++) {
-        const ErrorBar *answer = answer_of(levels, l);
-        char bar[24] = "";
-        if (answer->parts.mesh >= 0) snprintf(bar, sizeof bar, " +- %.1g", answer->bar);
-        used += snprintf(words + used, (size_t)(ESTIMATES_SIZE - used), "%s%.4f%s on %d%s",
-                         l > 0 ? ", " : "", answer->value, bar, levels->list[l].contact_nodes,
+        Levels until = *levels;
+        char value[TEXT_ESTIMATE_SIZE];
+        until.count = l + 1;
+        text_estimate(answer_of(levels, l)->value, answer_of(levels, l)->bar,
+                      levels_known_to(&until, levels->asked), value);
+        used += snprintf(words + used, (size_t)(ESTIMATES_SIZE - used), "%s%s on %d%s",
+                         l > 0 ? ", " : "", value, levels->list[l].contact_nodes,
                          l > 0 ? "" : " contact nodes");
     }
 }

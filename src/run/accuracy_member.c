@@ -6,8 +6,8 @@
 #include "model/step_rule.h"
 #include "run/end_wait.h"
 #include "run/level_scene.h"
+#include "run/one_mesh.h"
 #include "run/stop_request.h"
-#include "run/warnings.h"
 #include "scene/programs.h"
 
 #include <math.h>
@@ -116,15 +116,6 @@ static bool contact_has_nodes(const Interface *interface)
     return interface->contact_count >= CONTACT_NODES_MIN;
 }
 
-// On most nodes friction weakens faster than viscosity can damp: cells are too long for slip.
-static bool is_undamped(const Simulation *simulation)
-{
-    double worst = 0;
-    int32_t undamped =
-        undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst);
-    return 2 * undamped > simulation->model.interface.contact_count;
-}
-
 // A StepCallback: says which run of which mesh it is, and what is known so far.
 static void show_member(const StepView *view, void *context)
 {
@@ -209,9 +200,7 @@ bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Erro
     TRY(simulation_create_by(scene, &options, first ? INFINITY : deadline, &simulation, err));
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
-    level->contact_nodes = interface->contact_count;
-    level->pads = interface->pad_count;
-    level->undamped = is_undamped(simulation);
+    one_mesh_read(simulation, level);
     if (coarse && (*coarse = level->undamped || !contact_has_nodes(interface))) goto cleanup;
     double begun = clock_seconds();
     TRY(step_until_known(accuracy, simulation, &wait, err));

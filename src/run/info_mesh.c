@@ -21,9 +21,7 @@ static const char *dimension_name(int32_t dimension)
 static double edge_length(const Mesh *mesh, const MeshGroup *group, int32_t edge)
 {
     const int32_t *nodes = group->edge_nodes + (int64_t)edge * group->nodes_per_edge;
-    const double *a = mesh->position + 2 * (int64_t)nodes[0];
-    const double *b = mesh->position + 2 * (int64_t)nodes[1];
-    return hypot(b[0] - a[0], b[1] - a[1]);
+    return mesh_distance(mesh, nodes[0], nodes[1]);
 }
 
 // How long the curve is, and its cells.

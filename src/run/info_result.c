@@ -4,6 +4,7 @@
 
 #include "base/apart.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/files/text_file.h"
 #include "io/hdf5/result_file.h"
 #include "io/text/json_reader.h"
@@ -17,8 +18,7 @@
 enum { PATH_SIZE = 1100, EVENTS_SHOWN_MAX = 200, REPORT_BYTES_MAX = 1 << 28 };
 enum { HISTORY_SECONDS_MAX = 5 };   // of processor time
 
-// "  label   value +- error" for each of these entries of run.json that is there; the error is that
-// of `path`_error.
+// "  label   value" for each of these entries of run.json that is there.
 static const struct {
     const char *path, *label;
 } entries[] = {
@@ -53,6 +53,23 @@ static void write_value(const char *text, const char *path, FILE *out)
         fprintf(out, fabs(number) < 1e15 && number == floor(number) ? "%.0f" : "%.6g", number);
 }
 
+// A result of which run.json tells how far it is known; false: another.
+static bool write_estimate(const char *text, const char *path, FILE *out)
+{
+    char beside[PATH_SIZE], words[TEXT_ESTIMATE_SIZE];
+    double value = NAN, known_to = NAN, error = NAN;
+    snprintf(beside, sizeof beside, "%s_known_to", path);
+    if (!json_find_number(text, beside, &known_to)) return false;
+    snprintf(beside, sizeof beside, "%s_error", path);
+    json_find_number(text, beside, &error);
+    json_find_number(text, path, &value);
+    bool has_bar = error == known_to;
+    text_estimate(value, has_bar ? error : (double)NAN, known_to, words);
+    fputs(words, out);
+    if (!has_bar && !isnan(value)) fprintf(out, " (on this mesh %.6g)", value);
+    return true;
+}
+
 // What is missing in run.json (a failed run has no mu_M) is left out. It may be long: each event is
 // in it, and no tree is made of it.
 static bool write_run(const char *folder, FILE *out, Error *err)
@@ -74,13 +91,9 @@ static bool write_run(const char *folder, FILE *out, Error *err)
              lines);
     }
     for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
-        double error = NAN;
         if (!json_may_hold(text, entries[k].path)) continue;
         fprintf(out, "  %-18s ", entries[k].label);
-        write_value(text, entries[k].path, out);
-        snprintf(path, sizeof path, "%s_error", entries[k].path);
-        if (json_find_number(text, path, &error) && isfinite(error))
-            fprintf(out, " +- %.1g", error);
+        if (!write_estimate(text, entries[k].path, out)) write_value(text, entries[k].path, out);
         fputc('\n', out);
     }
 cleanup:

@@ -104,7 +104,6 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_boolean(json, "by_halves", model->reduced.symmetry != NULL);
     json_text(json, "mesh_by", mesh_maker(model));
     json_boolean(json, "from_cache", model->from_cache);
-    json_boolean(json, "upper_from_cache", model->upper_from_cache);
     write_expected(json, model);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);

@@ -128,7 +128,6 @@ static void archive_report(Simulation *simulation, int64_t in_loop, Archive *arc
     archive_number(archive, &simulation->timing.output);
     archive_count(archive, &in_loop);
     archive_flag(archive, &simulation->model.from_cache);
-    archive_flag(archive, &simulation->model.upper_from_cache);
     archive_text(archive, simulation->model.cache_note, sizeof simulation->model.cache_note);
     if (!archive_reads(archive)) return;
     simulation->started = clock_seconds() - elapsed;

@@ -9,6 +9,7 @@
 #include "model/obtain.h"
 #include "run/checkpoint.h"
 #include "run/explicit_loop.h"
+#include "run/one_mesh.h"
 #include "run/output.h"
 #include "run/saved_state.h"
 #include "run/start.h"
@@ -302,10 +303,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of several meshes and runs, where there are; of this run else.
-static Answers answers_to_report(const Simulation *simulation)
+// Of several meshes and runs, where there are; of this run else. *least: the load drop that counts
+// before which the fewest cells slipped; NULL: none.
+static Answers answers_to_report(const Simulation *simulation, const Event **least)
 {
     Answers answers = answers_of(&simulation->drops);
+    *least = drops_least_resolved(&simulation->drops, answers.first);
+    one_mesh_answer(simulation, *least, &answers);
     if (simulation->levels) levels_answer_for(simulation->levels, &answers);
     steady_answer(&simulation->steady, &answers);
     return answers;
@@ -341,8 +345,8 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
-    Answers answers = answers_to_report(simulation);
-    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
+    const Event *least = NULL;
+    Answers answers = answers_to_report(simulation, &least);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);

@@ -20,14 +20,15 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
     if (!simulation->options.whole_block)
         FAIL(err, ERROR_INPUT,
              "the motion of the whole block is kept only where RunOptions.whole_block asks for it");
+    int64_t dofs = (int64_t)mesh->dim * mesh->node_count;
     if (!simulation->block_motion)
-        TRY((simulation->block_motion = NEW_ARRAY(double, 4 * (int64_t)mesh->node_count, err)));
+        TRY((simulation->block_motion = NEW_ARRAY(double, 2 * dofs, err)));
     double *displacement = simulation->block_motion;
-    double *velocity = displacement + 2 * (int64_t)mesh->node_count;
+    double *velocity = displacement + dofs;
     TRY(bulk_operator_recover(system, 2, (const double *[]){now->displacement, now->velocity},
                               (double *[]){displacement, velocity}, err));
     *view = (BlockView){.nodes = mesh->node_count,
-                        .dimensions = 2,
+                        .dimensions = mesh->dim,
                         .elements = mesh->element_count,
                         .position = mesh->position,
                         .displacement = displacement,

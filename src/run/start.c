@@ -64,12 +64,15 @@ static void set_moving(const Model *model, State *state)
 {
     const Interface *interface = &model->interface;
     const BulkOperator *system = &model->system;
-    double velocity[2] = {model->scene->start.velocity_x, model->scene->start.velocity_z};
+    int32_t dim = interface->dim;
     const uint8_t *held = model->bulk.held;
     int32_t moved = system->reduced ? interface->count : state->dof_count;
     for (int32_t k = 0; k < moved; k++) {
         int32_t dof = system->reduced ? interface->dofs[k] : k;
-        if (!held || !held[dof]) state->velocity[k] += velocity[dof % 2];
+        int32_t axis = dof_axis(dim, dof);
+        if (held && held[dof]) continue;
+        if (axis == 0) state->velocity[k] += model->scene->start.velocity_x;
+        if (axis == dim - 1) state->velocity[k] += model->scene->start.velocity_z;
     }
     for (int32_t k = 0; k < interface->count; k++)
         state->slip_rate[k] = state->velocity[system->interface_dofs[k]];

@@ -54,7 +54,7 @@ static void fill_bounds(const Model *model, const StaticSolution *solution, doub
     const Interface *interface = &model->interface;
     memset(bound, 0, (size_t)interface->count * sizeof(double));
     for (int32_t i = 0; i < interface->contact_count; i++)
-        bound[interface_normal(i)] = -interface_gap(interface, i);
+        bound[interface_normal(interface, i)] = -interface_gap(interface, i);
     for (int32_t j = 0; j < interface->rod_count; j++)
         bound[interface_rod(interface, j)] = solution->rod_way;
 }
@@ -107,6 +107,7 @@ cleanup:
 static void find_reactions(const Model *model, StaticSolution *solution)
 {
     const Mesh *mesh = &model->mesh;
+    int32_t dofs[ELEMENT_DOFS_MAX];
     ElementGroup group;
     ElementMatrices matrices;
     for (int32_t dof = 0; dof < model->bulk.dof_count; dof++)
@@ -114,12 +115,14 @@ static void find_reactions(const Model *model, StaticSolution *solution)
     for (int32_t e = 0; e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
         element_group_matrices(mesh, model->materials.list, &group, &matrices);
+        for (int32_t i = 0; i < matrices.dof_count; i++)
+            dofs[i] =
+                node_dof(mesh->dim, group.node[dof_node(mesh->dim, i)], dof_axis(mesh->dim, i));
         for (int32_t row = 0; row < matrices.dof_count; row++) {
             double force = 0;
             for (int32_t column = 0; column < matrices.dof_count; column++)
-                force += matrices.stiffness[row][column] *
-                         solution->displacement[2 * group.node[column / 2] + column % 2];
-            solution->reaction[2 * group.node[row / 2] + row % 2] += force;
+                force += matrices.stiffness[row][column] * solution->displacement[dofs[column]];
+            solution->reaction[dofs[row]] += force;
         }
     }
 }
@@ -185,10 +188,11 @@ static void sum_contact(const Model *model, const StaticSolution *solution, Stat
 {
     const Interface *interface = &model->interface;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        const double *force = solution->reaction + 2 * interface->node[i];
-        summary->shear_force += force[0];
-        summary->normal_force += force[1];
-        summary->pressure_moment += interface->x[i] * force[1];
+        double normal = solution->reaction[interface->dofs[interface_normal(interface, i)]];
+        summary->shear_force +=
+            solution->reaction[interface->dofs[interface_tangent(interface, i)]];
+        summary->normal_force += normal;
+        summary->pressure_moment += interface->x[i] * normal;
         summary->open += solution->status[i] == CONTACT_OPEN;
         summary->sticking += solution->status[i] == CONTACT_STICK;
         summary->slipping += status_slips(solution->status[i]);
@@ -239,11 +243,14 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
                              .rod_nodes = model->interface.rod_count,
                              .iterations = solution->iterations};
     sum_contact(model, solution, &summary);
-    double force[2] = {0}, moment = 0, moved = 0, internal_work = 0, reaction_work = 0, size = 0;
+    MeshPlace force = {0};
+    int32_t up = mesh->dim - 1;
+    double moment = 0, moved = 0, internal_work = 0, reaction_work = 0, size = 0;
     for (int32_t node = 0; node < mesh->node_count; node++) {
-        const double *load = solution->load + 2 * node, *r = solution->reaction + 2 * node;
-        const double *u = solution->displacement + 2 * node, *at = mesh->position + 2 * node;
-        for (int d = 0; d < 2; d++) {
+        int32_t first = node_dof(mesh->dim, node, 0);
+        const double *load = solution->load + first, *r = solution->reaction + first;
+        const double *u = solution->displacement + first, *at = mesh_place(mesh, node);
+        for (int32_t d = 0; d < mesh->dim; d++) {
             force[d] += load[d] + r[d];
             moved += fabs(r[d]);
             size = fmax(size, fabs(at[d]));
@@ -251,14 +258,14 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
             internal_work += (load[d] + r[d]) * u[d];
             summary.load_work += load[d] * u[d];
         }
-        moment += at[0] * (load[1] + r[1]) - at[1] * (load[0] + r[0]);
+        moment += at[0] * (load[up] + r[up]) - at[up] * (load[0] + r[0]);
     }
     summary.elastic_energy = 0.5 * internal_work;
     double scale = moved > 0 ? moved : 1;
     double largest =
         fmax(dense_max_abs(solution->reaction, dofs), dense_max_abs(solution->load, dofs));
     summary.residual = find_residual(model, solution, solution->work) / (largest > 0 ? largest : 1);
-    summary.force_balance = fmax(fabs(force[0]), fabs(force[1])) / scale;
+    summary.force_balance = dense_max_abs(force, mesh->dim) / scale;
     summary.moment_balance = fabs(moment) / (scale * (size > 0 ? size : 1));
     double applied = summary.load_work;
     for (int32_t k = 0; k < model->interface.count; k++)

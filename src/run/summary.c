@@ -4,6 +4,7 @@
 #include "run/summary.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -74,10 +75,9 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     add_phase(summary, "mesh", model->seconds_mesh, model->elements, mesh_note(model, fields));
     snprintf(note, sizeof note, "unknowns for %d%s%s", model->full_dofs,
              model->reduced.symmetry ? ", by halves" : "",
-             cached                    ? ", from the cache"
-             : model->upper_from_cache ? ", the block above its pads from the cache"
-             : reduced                 ? ""
-                                       : ": not reduced");
+             cached    ? ", from the cache"
+             : reduced ? ""
+                       : ": not reduced");
     add_phase(summary, "assemble, reduce", model->seconds_reduce, model->system.dof_count, note);
     add_phase(summary, "relax", timing->relax, simulation->relaxation_steps, "steps before t = 0");
     add_phase(summary, "rungs", control->ladder.seconds, simulation->model.system.factorisations,
@@ -149,6 +149,11 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
     summary->bar_ended = levels->ended;
 }
 
+void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
+{
+    text_estimate(value, bar, known_to, text);
+}
+
 // counters, answers: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary)
@@ -156,10 +161,13 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
     const int32_t *kinds = simulation->events.kinds;
     *summary = (RunSummary){.mu_M = answers->mu_M.value,
                             .mu_M_error = answers->mu_M.error,
+                            .mu_M_known_to = answers->mu_M_known_to,
                             .mu_M_spread = answers->mu_M_spread,
                             .mu_hold = answers->mu_hold.value,
                             .mu_hold_error = answers->mu_hold.error,
+                            .mu_hold_known_to = answers->mu_hold_known_to,
                             .mu_max = answers->mu_max,
+                            .mu_max_known_to = answers->mu_max_known_to,
                             .mu_steady = steady_mu(&simulation->steady).value,
                             .mu_M_is = steady_words(&simulation->steady, answers),
                             .peaks = answers->peaks,

@@ -37,12 +37,12 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     const FrictionLaw *law = certificate->moving.law;
     double length = 0;
     *worst = 0;
-    if (!(friction_drop(law) > 0) || !certificate->damping) return 0;   // the scene was warned of
+    if (!certificate->damping || !(friction_drop(law) > 0)) return 0;   // the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
     int32_t count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int64_t t = interface_tangent(i);
+        int64_t t = interface_tangent(interface, i);
         double slope = friction_steepest(friction_at(law, i));
         double ratio = slope * load / length * interface->weight[i] /
                        schur[t * interface->count + t];
@@ -134,8 +134,8 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
         snprintf(where, sizeof where, "pad \"%s\"", interface->pad_name[least->pad]);
     if (least->slip_cells == 0) {
         warnings_add(warnings,
-                     "slip is not resolved: a node of %s jumped, with no slow slip on it before: "
-                     "%s, and compare mu_M and mu_hold",
+                     "slip is not resolved: on %s a node went from rest to fast slip at once, with "
+                     "no slow slip before: %s, and compare mu_M and mu_hold",
                      where, finer_mesh(scene));
         return;
     }

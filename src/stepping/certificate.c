@@ -54,9 +54,11 @@ void certificate_destroy(Certificate *certificate)
 }
 
 // S with open nodes condensed out; NULL where they alone are singular in it.
-static const double *close_matrix(const State *state, ContactMatrix *matrix)
+static const double *close_matrix(const Certificate *certificate, const State *state,
+                                  ContactMatrix *matrix)
 {
-    return contact_matrix_close(matrix, state->status, state->contact_count);
+    return contact_matrix_close(matrix, state->status, state->contact_count,
+                                certificate->moving.interface->dim);
 }
 
 // part S + (1 - part) S_C - W on F, part < 1, is positive definite; S that of `rung`. Parts of
@@ -69,8 +71,9 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_find(moving, state, false);
     if (!moving->weakens) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
-    if (certificate->damping) damping = close_matrix(state, &certificate->damping_contact);
-    if (part > 0) own = close_matrix(state, rung);
+    if (certificate->damping)
+        damping = close_matrix(certificate, state, &certificate->damping_contact);
+    if (part > 0) own = close_matrix(certificate, state, rung);
     if (!damping || (part > 0 && !own)) return false;
     moving_set_gather(moving, damping, 1 - part, 0, certificate->matrix);
     if (part > 0) moving_set_gather(moving, own, part, 1, certificate->matrix);
@@ -126,7 +129,7 @@ static bool is_positive(Certificate *certificate, const double *closed)
 // nodes.
 static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
-    const double *closed = close_matrix(state, rung);
+    const double *closed = close_matrix(certificate, state, rung);
     int32_t *pivots = certificate->pivots, count = certificate->moving.count;
     if (!closed) return false;
     certificate->checks++;
@@ -164,7 +167,7 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
 {
     double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
-    const double *closed = close_matrix(state, rung);
+    const double *closed = close_matrix(certificate, state, rung);
     if (closed) {
         moving_set_find(&certificate->moving, state, false);
         fill_coupled(certificate, closed);

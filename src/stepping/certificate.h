@@ -64,7 +64,7 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
 bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
                                  double growth);
 
-// No real rate of growth lies within the range of the rungs that are built.
+// No real rate of growth lies within the range of the rungs that are built, those between included.
 bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder);
 
 // Weakening over what the block withstands at s = 1/(gamma dt), the pressure that follows slip

@@ -29,7 +29,7 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
 {
     StagePower power = {.viscous = dense_dot(velocity, viscous_force, dof_count)};
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = interface_tangent(interface, i);
         power.frictional -= contact->velocity[t] * contact->reaction[t];
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {

@@ -200,7 +200,8 @@ static double mean_power(double force, double before, double after)
 // Contact node i; returns the power it dissipates.
 static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
 {
-    int32_t t = interface_tangent(i), n = interface_normal(i);
+    const Interface *interface = scheme->def.interface;
+    int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
     int32_t node = scheme->def.interface->node[i];
     double step = scheme->def.step, kick = scheme->kick[node];
     double *u = scheme->next + NODE_SIZE * node, *v = u + 2;

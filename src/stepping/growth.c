@@ -306,7 +306,7 @@ static void scale_mode(const Growth *growth, double *re, double *im)
     int32_t largest = 0;
     double square = 0;
     for (int32_t i = 0; i < growth->interface->contact_count; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = interface_tangent(growth->interface, i);
         double here = re[t] * re[t] + (im ? im[t] * im[t] : 0);
         if (here > square) {
             square = here;

@@ -35,7 +35,7 @@ static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
 
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
 {
-    int32_t t = interface_tangent(i), n = interface_normal(i);
+    int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
     const FrictionLaw *law = friction_at(set->law, i);
     double speed = fabs(state->slip_rate[t]);
     MovingUnknown *moving = add_unknown(set, t);
@@ -54,8 +54,8 @@ void moving_set_find(MovingSet *set, const State *state, bool with_open)
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (status_slips(state->status[i])) add_slipping(set, state, i);
         if (!with_open || state->status[i] != CONTACT_OPEN) continue;
-        add_unknown(set, interface_tangent(i));
-        add_unknown(set, interface_normal(i));
+        add_unknown(set, interface_tangent(interface, i));
+        add_unknown(set, interface_normal(interface, i));
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         double softness = set->rod->softness[j];

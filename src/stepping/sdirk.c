@@ -69,7 +69,7 @@ static void fill_bounds(Sdirk *scheme, const double *predictor, double time, dou
     const int32_t *dofs = scheme->system->interface_dofs;
     scheme->reach = scaled_step;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t n = interface_normal(i);
+        int32_t n = interface_normal(interface, i);
         scheme->bound[n] = (-predictor[dofs[n]] - interface_gap(interface, i)) / scaled_step;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {

@@ -2,6 +2,7 @@
 """The built program as its users call it: help, exit statuses, messages, progress, signals."""
 import fcntl
 import json
+import math
 import os
 import pty
 import re
@@ -278,7 +279,9 @@ class Run(InFolder):
         self.assertEqual(run["scene"]["mesh"]["set"]["nx"], 10)
         self.assertTrue((result / run["scene"]["mesh"]["file"]).samefile(SOURCE / "meshes/block.geo"))
         shown = float(re.search(r"mu_M +([\d.]+)", done.stdout)[1])
-        self.assertAlmostEqual(shown, run["results"]["mu_M"], delta=6e-5)
+        self.assertAlmostEqual(shown, run["results"]["mu_M"], delta=0.501 * 10**math.ceil(math.log10(run["results"]["mu_M_known_to"])))
+        self.assertNotIn("+-", done.stdout)   # no error bar was asked for
+        self.assertIn(f"on this mesh {run['results']['mu_M']:.4f}", done.stdout)
         accepted = int(re.search(r"steps +(\d+) accepted", done.stdout)[1])
         self.assertEqual(accepted, run["steps"]["accepted"])
         for name in ("force", "slip-map", "contact-density"):
@@ -296,7 +299,7 @@ class Run(InFolder):
         info = amontons("info", result)
         self.assertEqual((info.returncode, info.stderr), (0, ""))
         for name in ("mu_M", "mu_hold", "mu_max"):
-            self.assertRegex(info.stdout, rf"\n  {name} +{run['results'][name]:.6g}\b")
+            self.assertRegex(info.stdout, rf"\n  {name} +\S+ \(on this mesh {run['results'][name]:.6g}\b")
         self.assertEqual(info.stdout.count("\n  leading rapid"),
                          sum(e["kind"].startswith("leading") for e in run["results"]["events"]))
 

@@ -146,10 +146,10 @@ class Instructions(unittest.TestCase):
         slower = json.loads(RECORD.read_text())
         self.assertEqual(compare(recorded, slower), ([], []))
         slower["counts"]["steps, reduced"]["stepping"] *= 1.1
-        slower["counts"]["steps, full"]["bulk"] *= 0.9
+        slower["counts"]["steps, full"]["fem"] *= 0.9
         more, less = compare(recorded, slower)
         self.assertEqual([line.split(":")[1] for line in more], [" stepping"])
-        self.assertEqual([line.split(":")[1] for line in less], [" bulk"])
+        self.assertEqual([line.split(":")[1] for line in less], [" fem"])
 
 
 if __name__ == "__main__":

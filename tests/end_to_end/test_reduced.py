@@ -16,6 +16,7 @@ import numpy as np
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 SCENE = SOURCE / "validation" / "paper" / "fig1.yaml"
+PADS = SOURCE / "validation" / "pads" / "pads.yaml"
 PLACE = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 PLAIN = ["mesh.set.nx=16", "mesh.set.nz=16", "output.fields=none", "output.figures=[]",
          "time.until.U=0.0055"]   # to the second sliding
@@ -32,10 +33,10 @@ class Runs(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.count = 0
 
-    def run_scene(self, *settings):
+    def run_scene(self, *settings, scene=SCENE):
         self.count += 1
         folder = self.folder / str(self.count)
-        done = subprocess.run([BIN / "amontons", "run", SCENE, "-o", folder, "--quiet", "--set",
+        done = subprocess.run([BIN / "amontons", "run", scene, "-o", folder, "--quiet", "--set",
                                *settings], capture_output=True, text=True, timeout=120,
                               env=dict(os.environ, AMONTONS_CACHE=""))
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -113,6 +114,41 @@ class BothPaths(Runs):
             for name in its:
                 scale = max(np.abs(its[name]).max(), 1e-5)   # of the rod: it rests at first
                 np.testing.assert_allclose(mine[name], its[name], atol=1e-3 * scale, err_msg=name)
+
+
+class DefaultPath(Runs):
+    """Default tolerances, on shapes large enough to be reduced by default, at a few pressures. validation/benchmark/default_path.md
+    has what 20 to 40 pressures give: the first peak within 7e-5, later ones within 5e-4 in the median, but for those of another
+    branch (a peak in 30, with any other choice of steps, too), which no limit of a test can be set by."""
+    FIRST, MEDIAN = 2e-4, 1.5e-3
+
+    def compare(self, scene, halves, pressures, ways, *settings):
+        """To the third peak, where the rod has moved `ways` times the pressure."""
+        later = []
+        for pressure in pressures:
+            peaks, model = [], {}
+            for use in ("always", "never"):
+                _, report = self.run_scene("output.history=false", "output.fields=none", "output.figures=[]",
+                                           f"reduction.use={use}", f"load.pressure={pressure}",
+                                           f"time.until.U={ways * pressure}", *settings, scene=scene)
+                model[use] = report["model"]
+                peaks.append(np.array([peak["mu"] for peak in report["results"]["peaks"]]))
+            self.assertEqual(model["always"]["by_halves"], halves)
+            self.assertLess(model["always"]["reduced_dofs"], model["never"]["reduced_dofs"] / 5)
+            common = min(map(len, peaks))
+            self.assertGreaterEqual(common, 3)
+            apart = np.abs(peaks[0][:common] / peaks[1][:common] - 1)
+            self.assertLess(apart[0], self.FIRST)
+            later += list(apart[1:])
+        self.assertLess(np.median(later), self.MEDIAN, later)
+
+    def test_block_by_halves(self):
+        self.compare(SCENE, True, (0.00296, 0.003, 0.00304), 2.2, "mesh.set={nx: 40, nz: 40}")
+
+    def test_unequal_pads_in_one_piece(self):
+        self.compare(PADS, False, (0.0059, 0.0061), 2,
+                     "mesh.set={n: 2, pad_ratio: 2, total_height: 0.5, pad_height: 0.05, fill: 0.6, ends: open, "
+                     "size_contact: 0.0125, size_bulk: 0.05}")
 
 
 class Tricked(Runs):

@@ -98,7 +98,9 @@ class Odd(unittest.TestCase):
             (self.folder / name).mkdir()
             report["status"] = status
             report["message"] = "no more"
-            report["results"] |= {"mu_M": value, "mu_M_error": error, "mu_hold": value, "mu_hold_error": error}
+            for mu in ("mu_M", "mu_hold"):
+                report["results"] |= {mu: value, f"{mu}_error": error, f"{mu}_known_to": error,
+                                      f"{mu}_error_parts": {"mesh": error, "branches": None, "drops": 0}}
             report["scene"]["rod"]["extra"] = [[1,   2], {"a b": "  c  "}, True]
             report["scene"]["load"].pop("supports", None)
             (self.folder / name / "run.json").write_text(json.dumps(report, indent=None if name == "two" else 3))

@@ -6,13 +6,14 @@
 #include "contact_by_hand.h"
 #include "dense_by_hand.h"
 #include "own_laws.h"
+#include "plane.h"
 
 static void random_loads(Random *random, HandContact *hand)
 {
     for (int32_t i = 0; i < hand->interface.contact_count; i++) {
-        hand->g[interface_tangent(i)] = random_between(random, -3, 3);
-        hand->g[interface_normal(i)] = random_between(random, -4, 1.5);
-        hand->bound[interface_normal(i)] = random_between(random, -0.4, 0.1);
+        hand->g[plane_tangent(i)] = random_between(random, -3, 3);
+        hand->g[plane_normal(i)] = random_between(random, -4, 1.5);
+        hand->bound[plane_normal(i)] = random_between(random, -0.4, 0.1);
     }
     for (int32_t j = 0; j < hand->interface.rod_count; j++) {
         hand->g[interface_rod(&hand->interface, j)] = random_between(random, -1, 1);
@@ -195,7 +196,7 @@ static int32_t count_solutions(const HandContact *problem)
         if (!solve_choices(problem, choice, NULL, other.velocity)) continue;
         find_reaction(&other);
         if (sloped) {   // tangents and normals are apart: these r_n hold whatever slips
-            for (int32_t i = 0; i < nodes; i++) pressing[i] = other.reaction[interface_normal(i)];
+            for (int32_t i = 0; i < nodes; i++) pressing[i] = other.reaction[plane_normal(i)];
             if (!solve_choices(problem, choice, pressing, other.velocity)) continue;
             find_reaction(&other);
         }

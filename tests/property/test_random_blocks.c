@@ -2,6 +2,7 @@
 // Blocks of any element, shape, material and friction, driven any way, with steps of any size: what
 // must hold in every step that is solved, whatever happens in it.
 #include "block_rig.h"
+#include "plane.h"
 #include "contact/contact_check.h"
 
 enum { BLOCKS = 200, STEPS = 40 };
@@ -68,12 +69,12 @@ static void check_contact(const BlockRig *rig, const Sdirk *scheme, const State 
     assert_true(residual.gap_force < 1e-6);
     assert_true(residual.penetration * velocity < 1e-8 * force / stiffest);
     for (int32_t i = 0; i < rig->interface.contact_count; i++) {
-        double v = now->slip_rate[interface_tangent(i)];
+        double v = now->slip_rate[plane_tangent(i)];
         if (now->status[i] == CONTACT_STICK) assert_true(v == 0);
         if (now->status[i] == CONTACT_SLIP_FORWARD) assert_true(v >= -1e-9 * velocity);
         if (now->status[i] == CONTACT_SLIP_BACKWARD) assert_true(v <= 1e-9 * velocity);
         // At the end of the step nothing is below the plane, and what touches is on it.
-        double z = now->displacement[rig->interface.dofs[interface_normal(i)]];
+        double z = now->displacement[rig->interface.dofs[plane_normal(i)]];
         double rounding = 1e-9 * dense_max_abs(now->displacement, now->dof_count);
         assert_true(z >= -rounding);
         if (now->status[i] != CONTACT_OPEN) assert_true(z <= rounding);

@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 SCENE = Path(__file__).resolve().parents[1] / "pads" / "pads.yaml"
-# Pads of two lengths: a design that is its own mirror image shares no block, it is reduced by halves. The first one, its
+# Pads of two lengths: a design that is its own mirror image is reduced by halves. The first one, its
 # pads longer, a gap half as wide, another quotient of the lengths.
 UNEQUAL = ["mesh.set.n=2", "mesh.set.pad_ratio=2"]
 DESIGNS = {"2 pads, fill 0.6": UNEQUAL, "fill 0.75": [*UNEQUAL, "mesh.set.fill=0.75"],
@@ -57,7 +57,7 @@ def main():
                     least[title, number] = min(before[0], clock), min(before[1], spent)
                     print(f"{title:18s} {program}: {clock:.2f} s, {spent:.2f} s;", model["contact_nodes"], "nodes,",
                           model["full_dofs"], "unknowns",
-                          "upper block from the cache" if model.get("upper_from_cache") else "", flush=True)
+                          flush=True)
     for title in designs:
         print(f"{title:18s}", *("{:6.2f} {:6.2f}".format(*least[title, k]) for k in range(len(arguments.programs))))
 

@@ -93,7 +93,7 @@ typedef struct Place {
 static Place place_at(ElementKind kind, const double (*position)[2], const double point[2],
                       double weight)
 {
-    Place place = {.shape = shape_at(kind, point[0], point[1])};
+    Place place = {.shape = shape_at(kind, point)};
     place.weight = weight * element_strain_matrix(kind, position, point, place.b);
     for (int32_t a = 0; a < element_node_count(kind); a++) {
         place.x += place.shape.value[a] * position[a][0];

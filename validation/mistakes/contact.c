@@ -110,11 +110,11 @@ static bool solve_glued(ContactSolver *solver, const ContactProblem *problem,
     if (!g) goto cleanup;
     memcpy(g, problem->g, (size_t)count * sizeof *g);
     for (int32_t i = 0; i < problem->interface->contact_count; i++)
-        if (solution->status[i] != CONTACT_OPEN) g[interface_normal(i)] -= glue;
+        if (solution->status[i] != CONTACT_OPEN) g[interface_normal(problem->interface, i)] -= glue;
     glued.g = g;
     solved = __real_contact_solve(solver, &glued, solution);
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
-        int32_t n = interface_normal(i);
+        int32_t n = interface_normal(problem->interface, i);
         if (g[n] != problem->g[n]) solution->reaction[n] -= glue;
     }
 cleanup:
@@ -219,7 +219,7 @@ static bool solve_means(ContactSolver *solver, const ContactProblem *problem,
     if (!solved) goto cleanup;
     memcpy(of.bound, problem->bound, (size_t)size * sizeof *of.bound);
     for (int32_t i = 0; i < problem->interface->contact_count; i++)
-        of.bound[interface_tangent(i)] = 0;   // not used, and may hold anything
+        of.bound[interface_tangent(problem->interface, i)] = 0;   // not used, and may hold anything
     apply(&of, of.means, false, size, of.bound);
     ContactProblem meant = *problem;
     meant.matrix = &of.seen;

@@ -199,7 +199,7 @@ def runaway_table(study, scene, found, points):
                      pad["pressure"] / P * 0.6, pad["load"], pad["drag"], pad["drag"] * pad["length"]])
     study.table(f"Loss of stability at V on the quasi-static path ({scene}.yaml): the pad that the growing "
                 "mode lies on; of the trailing pad its share of load, its weakening over resistance, and its drag",
-                ["P", "n", "mu where oscillations grow", "mu where a node jumps", "mu, stability", "mu_hold, stepping",
+                ["P", "n", "mu where oscillations grow", "mu where a node slips fast at once", "mu, stability", "mu_hold, stepping",
                  "first whole pad, stepping", "pad that goes",
                  "next in mode", "l_c of each pad alone, over its length", "load share",
                  "weakening / resistance", "drag", "drag x length"], rows)

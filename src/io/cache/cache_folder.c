@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The time of use is the file's access time, which io/cache/cache_file sets itself when it reads:
-// file systems mostly do not keep it.
+// The time of use is the file's access time, which io/cache/store sets itself when it reads: file
+// systems mostly do not keep it.
 #include "io/cache/cache_folder.h"
 
 #include "base/memory.h"
@@ -64,8 +64,9 @@ cleanup:
 // 32 digits and letters, and an ending that only we use.
 static bool is_ours(const char *name)
 {
-    static const char *const endings[] = {".mesh",  ".shape", ".basis",
-                                          ".modes", ".upper", ".field"};
+#define ENDING(kind, ending, name) "." ending,
+    static const char *const endings[] = {CACHE_KINDS(ENDING)};
+#undef ENDING
     size_t key = strspn(name, "0123456789abcdef");
     if (key != 32) return false;
     for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The folder of the cache: where it is, what is in it, and how it stays below its limit: what was
 // not used for the longest time goes first. Nothing but our own files is looked at. Called by
-// io/cache/cache_file and run/cache.
+// io/cache/store and run/cache.
 #ifndef AMONTONS_IO_CACHE_CACHE_FOLDER_H
 #define AMONTONS_IO_CACHE_CACHE_FOLDER_H
 
 #include "base/error.h"
 
 #include <limits.h>
+
+// X(kind, ending of its files, what notes call it)
+#define CACHE_KINDS(X)                                                                             \
+    X(CACHE_MESH, "mesh", "mesh")                                                                  \
+    X(CACHE_SHAPE, "shape", "shape")                                                               \
+    X(CACHE_BASIS, "basis", "basis")                                                               \
+    X(CACHE_MODES, "modes", "basis")
+
+#define CACHE_KIND(kind, ending, name) kind,
+typedef enum CacheKind { CACHE_KINDS(CACHE_KIND) CACHE_KIND_COUNT } CacheKind;
+#undef CACHE_KIND
 
 enum { CACHE_ENTRY_SIZE = 48 };
 

@@ -61,14 +61,9 @@ cleanup:
 // VTK's numbers of the cells that record/fields writes.
 static bool find_kind(double type, uint8_t *kind)
 {
-    static const uint8_t types[ELEMENT_KIND_COUNT] = {[ELEMENT_T3] = 5,
-                                                      [ELEMENT_T6] = 22,
-                                                      [ELEMENT_Q4] = 9,
-                                                      [ELEMENT_Q8] = 23,
-                                                      [ELEMENT_Q9] = 28};
     for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
         *kind = (uint8_t)k;
-        if (types[k] == type) return true;
+        if (element_info((ElementKind)k)->vtk_type == type) return true;
     }
     return false;
 }

@@ -2,7 +2,7 @@
 // Meshes that were read before, kept on disk: the second run of a mesh loads no gmsh, which takes a
 // tenth of a second whatever the mesh. Called by io/mesh/mesh_read.
 //
-//     CACHE/<key>.mesh     (io/cache/cache_file says where CACHE is)
+//     CACHE/<key>.mesh     (io/cache/cache_folder says where CACHE is)
 #ifndef AMONTONS_IO_MESH_MESH_CACHE_H
 #define AMONTONS_IO_MESH_MESH_CACHE_H
 

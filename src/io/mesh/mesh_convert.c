@@ -157,13 +157,14 @@ static void mark_curves(const MeshRaw *raw, NodeTable *table)
     }
 }
 
-// Numbers the marked nodes and copies their positions.
+// Numbers the marked nodes and copies their positions, mesh->dim numbers each.
 static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table, MeshFile *mesh,
                          Error *err)
 {
     for (int32_t k = 0; k < table->count; k++)
         if (table->index[k] == 0) table->index[k] = mesh->node_count++;
-    if (!(mesh->position = NEW_ARRAY(double, 2 * (int64_t)mesh->node_count, err))) goto cleanup;
+    mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err);
+    if (!mesh->position) goto cleanup;
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) goto cleanup;
     // From the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
@@ -171,12 +172,11 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
     for (int32_t k = 0; k < table->count; k++) {
         if (table->index[k] < 0) continue;
         const double *from = raw->node_position + 3 * table->source[k];
-        double *to = mesh->position + 2 * table->index[k];
+        double *to = mesh->position + (int64_t)mesh->dim * table->index[k];
         if (!isfinite(from[0]) || !isfinite(from[1]) || !isfinite(from[2]))
             FAIL(err, ERROR_INPUT, "%s: node %lld has a coordinate that is not a number", path,
                  (long long)table->number[k]);
-        to[0] = from[0];
-        to[1] = from[1];
+        memcpy(to, from, (size_t)mesh->dim * sizeof(double));
         mesh->node_number[table->index[k]] = table->number[k];
         extent = fmax(extent,
                       fmax(fabs(from[0] - mesh->position[0]), fabs(from[1] - mesh->position[1])));
@@ -383,6 +383,7 @@ bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Erro
     NodeTable table = {0};
     *mesh = (MeshFile){0};
     TRY(raw_pick_surface(raw, path, &surface, err));
+    mesh->dim = element_dim(surface.items[0].kind);
     TRY(table_build(raw, path, &table, err));
     TRY(mark_elements(&surface, path, &table, err));
     TRY(mark_orphans(raw, &table, err));

@@ -10,32 +10,34 @@
 
 enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
 
-int32_t element_node_count(ElementKind kind)
+const ElementInfo *element_info(ElementKind kind)
 {
-    switch (kind) {
-#define X(symbol, nodes, edge_nodes, gmsh, name)                                                   \
-    case symbol:                                                                                   \
-        return nodes;
+    static const ElementInfo rows[] = {
+#define X(symbol, dim, nodes, corners, gmsh, vtk, name) {dim, nodes, corners, gmsh, vtk, name},
         ELEMENT_KINDS(X)
 #undef X
-    case ELEMENT_KIND_COUNT:
-        break;
-    }
-    return 0;
+    };
+    return &rows[kind];
+}
+
+int32_t element_dim(ElementKind kind)
+{
+    return element_info(kind)->dim;
+}
+
+int32_t element_node_count(ElementKind kind)
+{
+    return element_info(kind)->node_count;
+}
+
+int32_t element_corner_count(ElementKind kind)
+{
+    return element_info(kind)->corner_count;
 }
 
 const char *element_name(ElementKind kind)
 {
-    switch (kind) {
-#define X(symbol, nodes, edge_nodes, gmsh, name)                                                   \
-    case symbol:                                                                                   \
-        return name;
-        ELEMENT_KINDS(X)
-#undef X
-    case ELEMENT_KIND_COUNT:
-        break;
-    }
-    return "unknown";
+    return element_info(kind)->name;
 }
 
 void mesh_file_destroy(MeshFile *mesh)

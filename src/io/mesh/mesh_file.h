@@ -8,21 +8,25 @@
 
 #include <stdint.h>
 
-// name, nodes, nodes per edge, gmsh type. Node order is gmsh's: corners, mid-sides, centre.
+// kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's and
+// VTK's: corners, mid-sides, centre.
 #define ELEMENT_KINDS(X)                                                                           \
-    X(ELEMENT_T3, 3, 2, 2, "T3")                                                                   \
-    X(ELEMENT_T6, 6, 3, 9, "T6")                                                                   \
-    X(ELEMENT_Q4, 4, 2, 3, "Q4")                                                                   \
-    X(ELEMENT_Q8, 8, 3, 16, "Q8")                                                                  \
-    X(ELEMENT_Q9, 9, 3, 10, "Q9")
+    X(ELEMENT_T3, 2, 3, 3, 2, 5, "T3")                                                             \
+    X(ELEMENT_T6, 2, 6, 3, 9, 22, "T6")                                                            \
+    X(ELEMENT_Q4, 2, 4, 4, 3, 9, "Q4")                                                             \
+    X(ELEMENT_Q8, 2, 8, 4, 16, 23, "Q8")                                                           \
+    X(ELEMENT_Q9, 2, 9, 4, 10, 28, "Q9")
 
 typedef enum ElementKind {
-#define X(kind, nodes, edge_nodes, gmsh, name) kind,
+#define X(kind, ...) kind,
     ELEMENT_KINDS(X) ELEMENT_KIND_COUNT
 #undef X
 } ElementKind;
 
-enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3 };
+enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3, DIM_MAX = 2 };
+
+// x to z in as many numbers as the mesh has dimensions; in the plane (x, z).
+typedef double MeshPlace[DIM_MAX];
 
 // One physical group: of surfaces (dimension 2), of curves (1) or of points (0).
 typedef struct MeshGroup {
@@ -46,8 +50,9 @@ typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE } MeshOrigin;
 
 typedef struct MeshFile {
     MeshOrigin origin;
+    int32_t dim;   // numbers of a place
     int32_t node_count;
-    double *position;   // [node_count * 2] (x, z): gmsh's x and y; length; owned
+    double *position;   // [node_count * dim] (x, z): gmsh's x and y; length; owned
     int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
     int32_t element_count;
     int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
@@ -81,7 +86,18 @@ void mesh_file_destroy(MeshFile *mesh);
 const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const char *name,
                                  int32_t dimension, Error *err);
 
+// A row of ELEMENT_KINDS.
+typedef struct ElementInfo {
+    int32_t dim, node_count, corner_count;
+    int32_t gmsh_type;
+    uint8_t vtk_type;
+    const char *name;   // "Q4"; static storage
+} ElementInfo;
+
+const ElementInfo *element_info(ElementKind kind);
+int32_t element_dim(ElementKind kind);
 int32_t element_node_count(ElementKind kind);
-const char *element_name(ElementKind kind);   // "Q4"; static storage
+int32_t element_corner_count(ElementKind kind);
+const char *element_name(ElementKind kind);
 
 #endif

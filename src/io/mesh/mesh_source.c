@@ -69,7 +69,7 @@ cleanup:
 void mesh_file_hash(const MeshFile *mesh, Hash *hash)
 {
     size_t nodes = (size_t)mesh->node_count, elements = (size_t)mesh->element_count;
-    hash_bytes(hash, mesh->position, 2 * nodes * sizeof(double));
+    hash_bytes(hash, mesh->position, (size_t)mesh->dim * nodes * sizeof(double));
     hash_bytes(hash, mesh->kind, elements);
     hash_bytes(hash, mesh->element_nodes, (size_t)mesh->first_node[elements] * sizeof(int32_t));
     for (int32_t k = 0; k < mesh->group_count; k++) {

@@ -15,10 +15,8 @@ enum { GMSH_POINT = 15, GMSH_LINE_2 = 1, GMSH_LINE_3 = 8, KIND_LIST_SIZE = 64 };
 // The ElementKind of a gmsh type, -1: none of ours.
 static int32_t kind_of_type(int32_t gmsh_type)
 {
-#define X(kind, nodes, edge_nodes, type, name)                                                     \
-    if (gmsh_type == (type)) return kind;
-    ELEMENT_KINDS(X)
-#undef X
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+        if (element_info((ElementKind)kind)->gmsh_type == gmsh_type) return kind;
     return -1;
 }
 
@@ -119,11 +117,9 @@ static void sort_elements(RawElements *elements, bool may_repeat)
 static void list_kinds(char list[KIND_LIST_SIZE])
 {
     int length = 0;
-#define X(kind, nodes, edge_nodes, gmsh, name)                                                     \
-    length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s", length ? ", " : "", \
-                       name);
-    ELEMENT_KINDS(X)
-#undef X
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+        length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s",
+                           length ? ", " : "", element_name((ElementKind)kind));
 }
 
 // picked: empty before; its elements point into `raw`, which must outlive them. Where the file has

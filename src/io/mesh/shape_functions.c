@@ -8,37 +8,25 @@
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <string.h>
 
 // Reference coordinates of the nodes, in gmsh's order: corners, mid-sides, centre.
 static const double TRIANGLE_NODES[6][2] = {{0, 0}, {1, 0}, {0, 1}, {.5, 0}, {.5, .5}, {0, .5}};
 static const double SQUARE_NODES[9][2] = {{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
                                           {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
 
-// On 0 <= xi, eta and xi + eta <= 1; the others on the square from -1 to 1.
-static bool is_triangle(ElementKind kind)
-{
-    return kind == ELEMENT_T3 || kind == ELEMENT_T6;
-}
-
-void shape_node(ElementKind kind, int32_t a, double *xi, double *eta)
-{
-    const double *node = is_triangle(kind) ? TRIANGLE_NODES[a] : SQUARE_NODES[a];
-    *xi = node[0];
-    *eta = node[1];
-}
-
 // N = (1 - xi - eta, xi, eta), the area coordinates L themselves.
-static void shape_t3(double xi, double eta, ShapeValues *shape)
+static void shape_t3(const double *point, ShapeValues *shape)
 {
+    double xi = point[0], eta = point[1];
     *shape = (ShapeValues){.value = {1 - xi - eta, xi, eta}, .slope = {{-1, -1}, {1, 0}, {0, 1}}};
 }
 
 // Mid-side node 3 + a lies between corners a and a + 1.
-static void shape_t6(double xi, double eta, ShapeValues *shape)
+static void shape_t6(const double *point, ShapeValues *shape)
 {
     ShapeValues area;   // L_0, L_1, L_2 and their slopes
-    shape_t3(xi, eta, &area);
+    shape_t3(point, &area);
     for (int32_t a = 0; a < 3; a++) {
         int32_t b = (a + 1) % 3;
         double la = area.value[a], lb = area.value[b];
@@ -52,8 +40,9 @@ static void shape_t6(double xi, double eta, ShapeValues *shape)
 }
 
 // N_a = (1 + xi_a xi)(1 + eta_a eta) / 4.
-static void shape_q4(double xi, double eta, ShapeValues *shape)
+static void shape_q4(const double *point, ShapeValues *shape)
 {
+    double xi = point[0], eta = point[1];
     for (int32_t a = 0; a < 4; a++) {
         double xa = SQUARE_NODES[a][0], ea = SQUARE_NODES[a][1];
         shape->value[a] = (1 + xa * xi) * (1 + ea * eta) / 4;
@@ -63,8 +52,9 @@ static void shape_q4(double xi, double eta, ShapeValues *shape)
 }
 
 // With p = 1 + xi_a xi and q = 1 + eta_a eta; mid-sides 4 and 6 have xi_a = 0, 5 and 7 eta_a = 0.
-static void shape_q8(double xi, double eta, ShapeValues *shape)
+static void shape_q8(const double *point, ShapeValues *shape)
 {
+    double xi = point[0], eta = point[1];
     for (int32_t a = 0; a < 8; a++) {
         double xa = SQUARE_NODES[a][0], ea = SQUARE_NODES[a][1];
         double p = 1 + xa * xi, q = 1 + ea * eta;
@@ -92,8 +82,9 @@ static double quadratic(double c, double s, double *slope)
 }
 
 // N_a = l_a(xi) l_a(eta), l the quadratic through -1, 0, 1.
-static void shape_q9(double xi, double eta, ShapeValues *shape)
+static void shape_q9(const double *point, ShapeValues *shape)
 {
+    double xi = point[0], eta = point[1];
     for (int32_t a = 0; a < 9; a++) {
         double p_slope, q_slope;
         double p = quadratic(SQUARE_NODES[a][0], xi, &p_slope);
@@ -102,31 +93,6 @@ static void shape_q9(double xi, double eta, ShapeValues *shape)
         shape->slope[a][0] = p_slope * q;
         shape->slope[a][1] = p * q_slope;
     }
-}
-
-ShapeValues shape_at(ElementKind kind, double xi, double eta)
-{
-    ShapeValues shape = {0};
-    switch (kind) {
-    case ELEMENT_T3:
-        shape_t3(xi, eta, &shape);
-        break;
-    case ELEMENT_T6:
-        shape_t6(xi, eta, &shape);
-        break;
-    case ELEMENT_Q4:
-        shape_q4(xi, eta, &shape);
-        break;
-    case ELEMENT_Q8:
-        shape_q8(xi, eta, &shape);
-        break;
-    case ELEMENT_Q9:
-        shape_q9(xi, eta, &shape);
-        break;
-    case ELEMENT_KIND_COUNT:
-        break;
-    }
-    return shape;
 }
 
 // Products of the Gauss rule with `n` = 2 or 3 points: exact to degree 2 n - 1 in xi and in eta.
@@ -147,25 +113,27 @@ static Quadrature square_rule(int32_t n)
     return rule;
 }
 
-// Exact for B' D B where sides are straight and opposite ones parallel: degree 0 for T3, 2 for T6.
-Quadrature shape_quadrature(ElementKind kind)
+static Quadrature square_rule_2(void)
 {
-    switch (kind) {
-    case ELEMENT_T3:
-        return (Quadrature){.count = 1, .point = {{1. / 3, 1. / 3}}, .weight = {.5}};
-    case ELEMENT_T6:
-        return (Quadrature){.count = 3,
-                            .point = {{1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}},
-                            .weight = {1. / 6, 1. / 6, 1. / 6}};
-    case ELEMENT_Q4:
-        return square_rule(2);
-    case ELEMENT_Q8:
-    case ELEMENT_Q9:
-        return square_rule(3);
-    case ELEMENT_KIND_COUNT:
-        break;
-    }
-    return (Quadrature){0};
+    return square_rule(2);
+}
+
+static Quadrature square_rule_3(void)
+{
+    return square_rule(3);
+}
+
+// Exact to degree 1 and 2 on the triangle.
+static Quadrature triangle_rule_1(void)
+{
+    return (Quadrature){.count = 1, .point = {{1. / 3, 1. / 3}}, .weight = {.5}};
+}
+
+static Quadrature triangle_rule_2(void)
+{
+    return (Quadrature){.count = 3,
+                        .point = {{1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}},
+                        .weight = {1. / 6, 1. / 6, 1. / 6}};
 }
 
 // Degree 4 on the triangle (Dunavant, Int. J. Numer. Meth. Eng. 21, 1985, in closed form): points
@@ -187,22 +155,82 @@ static Quadrature triangle_rule_4(void)
     return rule;
 }
 
-Quadrature shape_mass_quadrature(ElementKind kind)
+// What makes a kind of element; how many nodes it has stands in io/mesh/mesh_file.
+typedef struct ShapeRow {
+    const double (*node)[DIM_MAX];   // reference coordinates of its nodes
+    void (*values)(const double *point, ShapeValues *shape);
+    Quadrature (*rule)(
+        void);   // exact for B' D B where sides are straight and opposite ones parallel
+    Quadrature (*mass_rule)(void);   // and for N_a^2
+} ShapeRow;
+
+static const ShapeRow ROWS[ELEMENT_KIND_COUNT] = {
+    [ELEMENT_T3] = {TRIANGLE_NODES, shape_t3, triangle_rule_1, triangle_rule_1},
+    [ELEMENT_T6] = {TRIANGLE_NODES, shape_t6, triangle_rule_2, triangle_rule_4},
+    [ELEMENT_Q4] = {SQUARE_NODES, shape_q4, square_rule_2, square_rule_2},
+    [ELEMENT_Q8] = {SQUARE_NODES, shape_q8, square_rule_3, square_rule_3},
+    [ELEMENT_Q9] = {SQUARE_NODES, shape_q9, square_rule_3, square_rule_3}};
+
+const double *shape_node(ElementKind kind, int32_t a)
 {
-    return kind == ELEMENT_T6 ? triangle_rule_4() : shape_quadrature(kind);
+    return ROWS[kind].node[a];
 }
 
-// jacobian[i][j] = d(x, z)_i / d(xi, eta)_j; NULL where only the determinant is wanted.
-double shape_jacobian(ElementKind kind, const ShapeValues *shape, const double (*position)[2],
-                      double jacobian[2][2])
+ShapeValues shape_at(ElementKind kind, const double *point)
 {
-    double j[2][2] = {{0}};
-    for (int32_t a = 0; a < element_node_count(kind); a++)
-        for (int32_t row = 0; row < 2; row++)
-            for (int32_t column = 0; column < 2; column++)
+    ShapeValues shape = {0};
+    ROWS[kind].values(point, &shape);
+    return shape;
+}
+
+Quadrature shape_quadrature(ElementKind kind)
+{
+    return ROWS[kind].rule();
+}
+
+Quadrature shape_mass_quadrature(ElementKind kind)
+{
+    return ROWS[kind].mass_rule();
+}
+
+// j[i][k] = d x_i / d xi_k.
+static void fill_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
+                          double j[DIM_MAX][DIM_MAX])
+{
+    int32_t dim = element_dim(kind), nodes = element_node_count(kind);
+    memset(j, 0, DIM_MAX * sizeof *j);
+    for (int32_t a = 0; a < nodes; a++)
+        for (int32_t row = 0; row < dim; row++)
+            for (int32_t column = 0; column < dim; column++)
                 j[row][column] += position[a][row] * shape->slope[a][column];
-    if (jacobian)
-        for (int32_t row = 0; row < 2; row++)
-            for (int32_t column = 0; column < 2; column++) jacobian[row][column] = j[row][column];
+}
+
+// Of dimension 2, the only one yet.
+static double determinant_of(const double j[DIM_MAX][DIM_MAX])
+{
     return j[0][0] * j[1][1] - j[0][1] * j[1][0];
+}
+
+double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlace *position)
+{
+    double j[DIM_MAX][DIM_MAX];
+    fill_jacobian(kind, shape, position, j);
+    return determinant_of(j);
+}
+
+double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
+                       MeshPlace *gradient)
+{
+    double j[DIM_MAX][DIM_MAX];
+    int32_t dim = element_dim(kind), nodes = element_node_count(kind);
+    fill_jacobian(kind, shape, position, j);
+    double determinant = determinant_of(j);
+    const double cofactor[DIM_MAX][DIM_MAX] = {{j[1][1], -j[1][0]}, {-j[0][1], j[0][0]}};
+    for (int32_t a = 0; a < nodes; a++)
+        for (int32_t d = 0; d < dim; d++) {
+            double sum = 0;
+            for (int32_t k = 0; k < dim; k++) sum += cofactor[d][k] * shape->slope[a][k];
+            gradient[a][d] = sum / determinant;
+        }
+    return determinant;
 }

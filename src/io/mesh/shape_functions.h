@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Shape functions of the five elements and the quadrature that goes with them, on the reference
 // element: triangles xi, eta >= 0, xi + eta <= 1; quadrilaterals -1 <= xi, eta <= 1. Node order is
-// gmsh's. Used by bulk (checks, matrices, recovered stresses) and render (fields in an element).
+// gmsh's. Used by fem (checks, matrices, recovered stresses) and render (fields in an element).
 //
 //     2           2            3---2      3-6-2      3-6-2
 //     |\          5 4          |   |      7   5      7 8 5
@@ -17,18 +17,18 @@ enum { QUADRATURE_POINTS_MAX = 9 };
 
 typedef struct ShapeValues {
     double value[ELEMENT_NODES_MAX];   // N_a
-    double slope[ELEMENT_NODES_MAX][2];   // (dN_a/dxi, dN_a/deta)
+    MeshPlace slope[ELEMENT_NODES_MAX];   // (dN_a/dxi, dN_a/deta)
 } ShapeValues;
 
-// At the point (xi, eta); entries beyond the element's nodes are 0.
-ShapeValues shape_at(ElementKind kind, double xi, double eta);
+// At a point [element_dim]; entries beyond the element's nodes are 0.
+ShapeValues shape_at(ElementKind kind, const double *point);
 
-// Reference coordinates of node `a`.
-void shape_node(ElementKind kind, int32_t a, double *xi, double *eta);
+// Reference coordinates of node `a`, [element_dim].
+const double *shape_node(ElementKind kind, int32_t a);
 
 typedef struct Quadrature {
     int32_t count;
-    double point[QUADRATURE_POINTS_MAX][2];   // (xi, eta)
+    MeshPlace point[QUADRATURE_POINTS_MAX];   // (xi, eta)
     double weight[QUADRATURE_POINTS_MAX];   // sum: 1/2 for triangles, 4 for quadrilaterals
 } Quadrature;
 
@@ -40,9 +40,11 @@ Quadrature shape_quadrature(ElementKind kind);
 // for T6.
 Quadrature shape_mass_quadrature(ElementKind kind);
 
-// J = [dx/dxi dx/deta; dz/dxi dz/deta] from the nodes' positions [nodes][2]; returns its
-// determinant. `jacobian` may be NULL.
-double shape_jacobian(ElementKind kind, const ShapeValues *shape, const double (*position)[2],
-                      double jacobian[2][2]);
+// The determinant of J = d(x, z)/d(xi, eta), from the nodes' positions.
+double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlace *position);
+
+// Slopes in place, gradient[a] = (dN_a/dx, dN_a/dz), [nodes]; returns the determinant.
+double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
+                       MeshPlace *gradient);
 
 #endif

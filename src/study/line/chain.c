@@ -20,8 +20,8 @@
 static bool build_interface(const Model1d *model, int32_t points, Interface *interface, Error *err)
 {
     double element = model->length / (points - 1);
-    *interface = (Interface){.contact_count = points, .pad_count = 1, .rod_count = 1};
-    interface->count = 2 * points + 1;
+    *interface = (Interface){.dim = 2, .contact_count = points, .pad_count = 1, .rod_count = 1};
+    interface->count = interface_rod(interface, 1);
     interface->node = NEW_ARRAY(int32_t, points, err);
     interface->x = NEW_ARRAY(double, points, err);
     interface->weight = NEW_ARRAY(double, points, err);
@@ -61,13 +61,13 @@ static void fill_matrix(const Model1d *model, const Interface *interface, double
     int32_t rod = interface_rod(interface, 0);
     double layer = model->alpha * model->height;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
+        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
         double held = shear / model->drive * interface->weight[i];
         add_spring(matrix, size, t, rod, held);
         matrix[n * size + n] = held;
         if (i == 0) continue;
         double element = interface->x[i] - interface->x[i - 1];
-        add_spring(matrix, size, interface_tangent(i - 1), t, axial * layer / element);
+        add_spring(matrix, size, interface_tangent(interface, i - 1), t, axial * layer / element);
     }
 }
 
@@ -100,9 +100,9 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
     fill_matrix(model, interface, model->viscous_x, model->viscous_shear, reduced->damping);
     for (int32_t i = 0; i < interface->contact_count; i++) {
         double mass = model->density * model->alpha * model->height * interface->weight[i];
-        reduced->mass[interface_tangent(i) * (count + 1)] = mass;
-        reduced->mass[interface_normal(i) * (count + 1)] = mass;
-        reduced->load[interface_normal(i)] = -node_load(model, interface, i);
+        reduced->mass[interface_tangent(interface, i) * (count + 1)] = mass;
+        reduced->mass[interface_normal(interface, i) * (count + 1)] = mass;
+        reduced->load[interface_normal(interface, i)] = -node_load(model, interface, i);
     }
     return true;
 }
@@ -145,7 +145,7 @@ void chain_rest(const Model1d *model, const Chain *chain, State *state)
 {
     const Interface *interface = &chain->interface;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        state->displacement[interface_tangent(i)] = model1d_rest(model, interface->x[i]);
+        state->displacement[interface_tangent(interface, i)] = model1d_rest(model, interface->x[i]);
         state->status[i] = CONTACT_STICK;
     }
     state->rod_touches[0] = 1;

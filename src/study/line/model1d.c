@@ -115,8 +115,8 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
                      err));
     model->length = mesh.x_max - mesh.x_min;
     model->height = mesh.z_max - mesh.z_min;
-    double begins = mesh.position[2 * contact.nodes[0]];
-    double ends = mesh.position[2 * contact.nodes[contact.node_count - 1]];
+    double begins = mesh_place(&mesh, contact.nodes[0])[0];
+    double ends = mesh_place(&mesh, contact.nodes[contact.node_count - 1])[0];
     bool whole = begins - mesh.x_min <= FLAT * model->length &&
                  mesh.x_max - ends <= FLAT * model->length;
     bool flat = true;

@@ -86,7 +86,7 @@ static bool softest_slip(PadWork *work, const InterfaceOperator *condensed, doub
         for (int32_t a = 0; a < work->count; a++) {
             int32_t i = work->nodes[a];
             work->matrix[(int64_t)work->count * b + a] =
-                schur[size * interface_tangent(j) + interface_tangent(i)] /
+                schur[size * interface_tangent(interface, j) + interface_tangent(interface, i)] /
                 sqrt(interface->weight[i] * interface->weight[j]);
         }
     }
@@ -114,7 +114,7 @@ static double ratio_of(PadWork *work, int32_t slipping)
     for (int32_t a = 0; a < slipping; a++) {
         int32_t i = work->nodes[a];
         trial->status[i] = CONTACT_SLIP_FORWARD;
-        trial->slip_rate[interface_tangent(i)] = 0;
+        trial->slip_rate[interface_tangent(work->interface, i)] = 0;
     }
     return growth_scan(work->path->growth, trial).ratio;
 }
@@ -155,9 +155,9 @@ static bool growth_of_contact(PadWork *work, int32_t touching, double *rate, Err
         int32_t i = work->nodes[a];
         bool inside = a >= first && a <= last, end = a == first || a == last;
         trial->status[i] = inside ? CONTACT_SLIP_FORWARD : CONTACT_OPEN;
-        trial->slip_rate[interface_tangent(i)] = 0;
-        trial->reaction[interface_normal(i)] = work->pressure * work->interface->weight[i] *
-                                               (end ? 0.5 : 1);
+        trial->slip_rate[interface_tangent(work->interface, i)] = 0;
+        trial->reaction[interface_normal(work->interface, i)] =
+            work->pressure * work->interface->weight[i] * (end ? 0.5 : 1);
     }
     TRY(growth_rates(work->path->growth, trial, &rates, err));
     *rate = rates.count > 0 ? rates.rate[0].re : -INFINITY;
@@ -200,20 +200,22 @@ static double fall_of_mu(PadWork *work)
         int32_t i = work->nodes[a];
         const FrictionLaw *own = friction_at(law, i);
         double kinetic = fmax(own->mu_static - friction_drop(own), 0);
-        work->values[a] = fabs(path->runaway.reaction[interface_tangent(i)]) -
-                          kinetic * path->runaway.reaction[interface_normal(i)];
+        work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
+                          kinetic * path->runaway.reaction[interface_normal(interface, i)];
         for (int32_t b = 0; b < work->count; b++)
             work->matrix[(int64_t)work->count * b + a] =
-                schur[size * interface_tangent(work->nodes[b]) + interface_tangent(i)];
+                schur[size * interface_tangent(interface, work->nodes[b]) +
+                      interface_tangent(interface, i)];
     }
     if (!dense_lu(work->matrix, work->count, work->pivots)) return NAN;   // it floats
     dense_lu_solve(work->matrix, work->count, work->pivots, work->values);
     for (int32_t a = 0; a < work->count; a++)
         for (int32_t j = 0; j < interface->rod_count; j++)
-            fall -= schur[size * interface_tangent(work->nodes[a]) + interface_rod(interface, j)] *
+            fall -= schur[size * interface_tangent(interface, work->nodes[a]) +
+                          interface_rod(interface, j)] *
                     work->values[a];
     for (int32_t i = 0; i < interface->contact_count; i++)
-        load += path->runaway.reaction[interface_normal(i)];
+        load += path->runaway.reaction[interface_normal(interface, i)];
     return fall / load;
 }
 
@@ -229,7 +231,7 @@ static void sum_pad(const PadWork *work, StabilityPad *pad)
         int32_t i = work->nodes[a];
         double weight = interface->weight[i];
         pad->length += weight;
-        pad->pressure += state->reaction[interface_normal(i)];
+        pad->pressure += state->reaction[interface_normal(interface, i)];
         if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
         pad->mode += weight * hypot(re[i], im[i]);
     }

@@ -141,7 +141,8 @@ cleanup:
 // [contact_count].
 static void keep_slip(const Interface *interface, const double *mode, double *slip)
 {
-    for (int32_t i = 0; i < interface->contact_count; i++) slip[i] = mode[interface_tangent(i)];
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        slip[i] = mode[interface_tangent(interface, i)];
 }
 
 static int32_t count_slipping(const State *state)
@@ -162,9 +163,9 @@ static double mu_at_V(const StabilityPath *path, const State *state, double mu)
     if (path->options->at_end || !(friction_drop(law) > 0)) return mu;
     double speed = path->model->scene->rod.velocity / path->rod.velocity;
     for (int32_t i = 0; i < state->contact_count; i++) {
-        double pressure = state->reaction[interface_normal(i)];
+        double pressure = state->reaction[interface_normal(&path->model->interface, i)];
         if (!status_slips(state->status[i])) continue;
-        double rate = speed * fabs(state->slip_rate[interface_tangent(i)]);
+        double rate = speed * fabs(state->slip_rate[interface_tangent(&path->model->interface, i)]);
         const FrictionLaw *own = friction_at(law, i);
         lost += pressure * (own->mu_static - friction_coefficient(own, rate));
         pressed += pressure * (friction_drop(own) / friction_drop(law));
@@ -243,8 +244,8 @@ static void note_snap(StabilityPath *path, double mu)
     const State *now = &path->control.now;
     path->mu_snap = mu_at_V(path, &path->last, mu);
     for (int32_t i = 0; i < now->contact_count; i++)
-        if (fabs(now->slip_rate[interface_tangent(i)]) >
-            fabs(now->slip_rate[interface_tangent(path->snap_node)]))
+        if (fabs(now->slip_rate[interface_tangent(&path->model->interface, i)]) >
+            fabs(now->slip_rate[interface_tangent(&path->model->interface, path->snap_node)]))
             path->snap_node = i;
 }
 

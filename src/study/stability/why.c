@@ -104,9 +104,8 @@ static void say_what_comes_before(const StabilityPath *path, StabilitySummary *s
     if (summary->mu_snap < summary->mu_rod * (1 + EARLIER)) {
         int32_t pad = interface->pad[path->snap_node];
         say(summary,
-            "At mu %.4f a node of %s, at x = %.4g, reaches mu_S and jumps, whatever grows: a run "
-            "may "
-            "slide there.",
+            "At mu %.4f a node of %s, at x = %.4g, reaches mu_S and has no slow state to go on to: "
+            "it slips fast at once, whatever grows, and a run may slide there.",
             summary->mu_snap, name_of(summary, pad), interface->x[path->snap_node]);
     }
 }

@@ -88,13 +88,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The error of what is ranked, in a point's run.json; NaN: it has none.
-static bool read_error(const Sweep *sweep, int32_t k, double *error, Error *err)
+// What is ranked, in a point's run.json, and its error; NaN: it has none.
+static bool read_ranked(const Sweep *sweep, int32_t k, double *value, double *error, Error *err)
 {
     char path[STUDY_NAME_SIZE + 8];
+    const char *ranked = sweep->study.records[sweep->study.rank.record].path;
     char *report = point_report(sweep, k, err);
-    *error = NAN;
-    snprintf(path, sizeof path, "%s_error", sweep->study.records[sweep->study.rank.record].path);
+    *value = *error = NAN;
+    snprintf(path, sizeof path, "%s_error", ranked);
+    if (report) json_find_number(report, ranked, value);
     if (report) json_find_number(report, path, error);
     memory_free(report);
     return error_is_clean(err);
@@ -105,13 +107,18 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         SweepPoint refined = *point;
-        double error = NAN, error_before = NAN;
+        double value = NAN, error = NAN, value_before = NAN, error_before = NAN;
         if (strcmp(refined.hash, before[k].hash) == 0) continue;
-        if (refined.status == POINT_DONE) TRY(read_error(sweep, k, &error, err));
+        if (refined.status == POINT_DONE) TRY(read_ranked(sweep, k, &value, &error, err));
         *point = before[k];
-        TRY(read_error(sweep, k, &error_before, err));
+        TRY(read_ranked(sweep, k, &value_before, &error_before, err));
         if (isnan(error_before)) error_before = INFINITY;
-        if (error < error_before) *point = refined;
+        if (error < error_before) {
+            double moved = fabs(value - value_before) / error_before;
+            *point = refined;
+            point->refined = true;
+            point->moved = fmax(before[k].moved, moved);   // fmax of NaN and a number is the number
+        }
         point->settled = !(error < SMALLER * error_before);
     }
     TRY(points_find_same(sweep, err));

@@ -191,17 +191,17 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
     if (sweep->study.rank.wanted) {
         TRY(ranking_make(sweep, &table, &ranking, err));
         TRY(ranking_write(sweep, &table, &ranking, err));
-        if (whole) TRY(ranking_print(sweep, &ranking, err));
+        if (whole) TRY(ranking_print(sweep, &table, &ranking, err));
         if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
     for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
         TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
-    if (sweep->options->out && table.mesh_left_out)
+    if (sweep->options->out && table.no_bar)
         fprintf(sweep->options->out,
-                "\nAt %d of %d points errors leave out the mesh's, which is not known; a study's "
-                "`set: {accuracy.mu: 1%%}` asks for it\n",
-                table.mesh_left_out, sweep->study.point_count);
+                "\nAt %d of %d points there is no error bar: mu is known to what a mesh usually "
+                "leaves; a study's `set: {accuracy.mu: 1%%}` asks for bars\n",
+                table.no_bar, sweep->study.point_count);
 cleanup:
     ranking_destroy(&ranking);
     table_destroy(&table);

@@ -156,10 +156,162 @@ static void test_contents_are_checked(void **state)
     free(bytes);
 }
 
+// --- arrays that reading makes ------------------------------------------------------------------
+
+typedef struct Made {
+    int32_t length;
+    double *numbers, *lent;   // [length]; lent: not owned where it is read
+    int64_t *counts;
+    int32_t *indices;
+    uint8_t *octets;
+    bool refused;   // by archive_require
+} Made;
+
+static void made_archive(Made *made, Archive *archive)
+{
+    archive_length(archive, &made->length);
+    archive_new_numbers(archive, &made->numbers, made->length);
+    archive_new_counts(archive, &made->counts, made->length);
+    archive_new_indices(archive, &made->indices, made->length, -1, 4);
+    archive_new_octets(archive, &made->octets, made->length, 200);
+    archive_lend_numbers(archive, &made->lent, made->length);
+    archive_require(archive, !made->refused);
+}
+
+static void made_destroy(Made *made)
+{
+    memory_free(made->numbers);
+    memory_free(made->counts);
+    memory_free(made->indices);
+    memory_free(made->octets);
+    *made = (Made){0};
+}
+
+static double made_lent[3] = {-0.0, NAN, 7};
+static int64_t made_counts[3] = {0, 5, INT64_C(1) << 53};
+static int32_t made_indices[3] = {-1, 3, 0};
+static uint8_t made_octets[3] = {199, 0, 1};
+
+static Made made_example(void)
+{
+    return (Made){3, values, made_lent, made_counts, made_indices, made_octets, false};
+}
+
+typedef struct Sent {
+    char bytes[1000];
+    int64_t size;
+    int64_t room;   // of a disk that is full beyond it
+} Sent;
+
+static bool take_bytes(void *context, const void *bytes, int64_t size)
+{
+    Sent *sent = context;
+    if (sent->size + size > sent->room) return false;
+    memcpy(sent->bytes + sent->size, bytes, (size_t)size);
+    sent->size += size;
+    return true;
+}
+
+static Sent send_made(Made made, int64_t room)
+{
+    Sent sent = {.room = room};
+    Archive archive = archive_send(take_bytes, &sent);
+    made_archive(&made, &archive);
+    assert_int_equal(archive.failed, room < 1000);
+    return sent;
+}
+
+// Reads what was sent into zeroed `made`; false: a fault, and nothing is left to free.
+static bool read_made(Sent *sent, Made *made, Error *err)
+{
+    Archive archive = archive_read(sent->bytes, sent->size);
+    archive.err = err;
+    made_archive(made, &archive);
+    assert_true(archive.failed || archive.at <= sent->size);
+    bool whole = !archive.failed && archive.at == sent->size;
+    if (!whole) made_destroy(made);
+    return whole;
+}
+
+static void test_made_arrays_come_back(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Made made = made_example(), found = {0};
+    int64_t live = memory_counters().live;
+    Archive archive = archive_measure();
+    made_archive(&made, &archive);
+    Sent sent = send_made(made, 1000);
+    assert_int_equal(sent.size, archive.at);
+    assert_true(read_made(&sent, &found, &err));
+    assert_int_equal(found.length, 3);
+    assert_memory_equal(found.numbers, values, 3 * sizeof(double));
+    assert_memory_equal(found.counts, made_counts, sizeof made_counts);
+    assert_memory_equal(found.indices, made_indices, sizeof made_indices);
+    assert_memory_equal(found.octets, made_octets, sizeof made_octets);
+    assert_memory_equal(found.lent, made_lent, sizeof made_lent);
+    int64_t place = (char *)found.lent - sent.bytes;   // in what was read, at a whole line of it
+    assert_true(place > 0 && place < sent.size && place % ARCHIVE_LINE == 0);
+    made_destroy(&found);
+    assert_int_equal(memory_counters().live, live);
+    for (int64_t room = 0; room < sent.size; room++) send_made(made, room);
+}
+
+// Cut off anywhere; lengths, indices and octets that cannot be; no memory for one of them.
+static void test_made_arrays_are_checked(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Made made = made_example(), found = {0};
+    int64_t live = memory_counters().live;
+    Sent sent = send_made(made, 1000);
+    for (int64_t size = sent.size; sent.size > 0; sent.size--) {
+        assert_int_equal(read_made(&sent, &found, &err), sent.size == size);
+        made_destroy(&found);
+    }
+    static const int32_t lengths[] = {-1, 2, 4, (1 << 28) - 1, INT32_MAX};
+    for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++) {
+        int64_t allocations = memory_counters().allocations;
+        sent = send_made(made, 1000);
+        memcpy(sent.bytes, &lengths[k], sizeof lengths[k]);
+        assert_false(read_made(&sent, &found, &err));
+        if (lengths[k] > sent.size) assert_int_equal(memory_counters().allocations, allocations);
+    }
+    int32_t index = 4;
+    uint8_t octet = 200;
+    int64_t count = -1;
+    Made wrong[4] = {made, made, made, made};
+    wrong[0].indices = &index;
+    wrong[1].octets = &octet;
+    wrong[2].counts = &count;
+    wrong[3].numbers = made_lent;
+    for (int32_t k = 0; k < 4; k++) {
+        wrong[k].length = 1;
+        sent = send_made(wrong[k], 1000);
+        assert_int_equal(read_made(&sent, &found, &err), k == 3);
+        made_destroy(&found);
+    }
+    assert_true(error_is_clean(&err));
+    sent = send_made(made, 1000);
+    found.refused = true;
+    assert_false(read_made(&sent, &found, &err));
+    for (int32_t k = 0; k < 5; k++) {
+        memory_fail_after(k);
+        bool whole = read_made(&sent, &found, &err);
+        memory_fail_after(-1);
+        assert_int_equal(whole, k == 4);
+        assert_int_equal(err.code, k == 4 ? ERROR_NONE : ERROR_MEMORY);
+        made_destroy(&found);
+        error_clear(&err);
+    }
+    assert_int_equal(memory_counters().live, live);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comes_back),
-                                       cmocka_unit_test(test_length_is_checked),
-                                       cmocka_unit_test(test_contents_are_checked)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_comes_back), cmocka_unit_test(test_length_is_checked),
+        cmocka_unit_test(test_contents_are_checked), cmocka_unit_test(test_made_arrays_come_back),
+        cmocka_unit_test(test_made_arrays_are_checked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,6 +29,34 @@ static void test_distances(void **state)
         assert_int_equal(text_distance(known[k].a, known[k].b), known[k].distance);
 }
 
+static void test_estimates(void **state)
+{
+    (void)state;
+    const struct {
+        double value, bar, known_to;
+        const char *text;
+    } known[] = {{0.32956, 0.00291, 0.00291, "0.3296 +- 0.0029"},
+                 {0.54853, 0.0113, 0.0113, "0.549 +- 0.011"},
+                 {0.65125, 0.2, 0.2, "0.65 +- 0.20"},
+                 {123.4, 12.3, 12.3, "123 +- 12"},
+                 {0.32737, NAN, 0.0027, "0.33"},   // the last digit is within 1
+                 {0.32737, NAN, 0.001, "0.327"},
+                 {0.32737, NAN, 0.0011, "0.33"},
+                 {0.64885, NAN, 0.0101, "0.6"},
+                 {0.02, NAN, 0.5, "0.02"},   // one digit at least
+                 {0.32737, NAN, NAN, "0.3"},
+                 {1.0261, NAN, NAN, "1"},
+                 {0.3273721, NAN, 0, "0.327372"},
+                 {0, NAN, NAN, "0"},
+                 {-0.32737, NAN, 0.005, "-0.33"},
+                 {NAN, 0.1, 0.1, "none"}};
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        char text[TEXT_ESTIMATE_SIZE];
+        text_estimate(known[k].value, known[k].bar, known[k].known_to, text);
+        assert_string_equal(text, known[k].text);
+    }
+}
+
 static int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -187,13 +215,10 @@ static void test_number(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distances),
-        cmocka_unit_test(test_random_distances),
-        cmocka_unit_test(test_long_names_are_cut),
-        cmocka_unit_test(test_nearest),
-        cmocka_unit_test(test_utf8),
-        cmocka_unit_test(test_number),
-        cmocka_unit_test(test_unshown),
+        cmocka_unit_test(test_distances),        cmocka_unit_test(test_estimates),
+        cmocka_unit_test(test_random_distances), cmocka_unit_test(test_long_names_are_cut),
+        cmocka_unit_test(test_nearest),          cmocka_unit_test(test_utf8),
+        cmocka_unit_test(test_number),           cmocka_unit_test(test_unshown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,9 @@ static RunSummary no_answers(void)
                         .mu_hold = NAN,
                         .mu_M_error = NAN,
                         .mu_hold_error = NAN,
+                        .mu_M_known_to = NAN,
+                        .mu_hold_known_to = NAN,
+                        .mu_max_known_to = NAN,
                         .mu_M_spread = NAN,
                         .mu_M_parts = {NAN, NAN, NAN},
                         .mu_hold_parts = {NAN, NAN, NAN},
@@ -56,29 +59,41 @@ static void test_static_friction(void **state)
     assert_says(closing("A", &summary), "not every run of the error bar came to slide as a whole");
     summary.bar_runs = 0;
     summary.leading = 1;
+    assert_says(closing("A", &summary), "not known: no sliding of the whole block counts");
+    summary.peaks = 0;
     assert_says(closing("A", &summary), "as a whole did not slide from rest");
+    assert_says(closing("A", &summary), "slidings        1 of the whole block\n");
+    summary.peaks = 3;
     summary.mu_M_is = "steady sliding";
     summary.mu_M = summary.mu_steady = 0.375;
-    assert_says(closing("A", &summary), "mu_M            0.3750: F_T/F_N of steady sliding");
+    summary.mu_M_known_to = 0.0004;
+    assert_says(closing("A", &summary), "mu_M            0.375: F_T/F_N of steady sliding");
     summary.mu_M_is = "peaks";
-    summary.mu_M = 0.25;
-    assert_says(closing("A", &summary), "mu_steady       0.3750: at the end the block slides");
+    summary.mu_M = 0.254;
+    summary.mu_M_known_to = 0.005;
+    assert_says(closing("A", &summary), "mu_steady       0.375: at the end the block slides");
     summary.mu_steady = NAN;
     summary.peaks_counted = 1;
     said = closing("A", &summary);
     assert_true(strncmp(said, "A: done\n", 8) == 0);
-    assert_says(said, "mu_M            0.2500: static friction, mean of the last 1 of 3 peaks");
-    assert_null(strstr(said, "they differ"));
+    assert_says(said, "mu_M            0.25: static friction, mean of the last 1 of 3 peaks");
+    assert_says(said, "to the digits that finer meshes keep as a rule, the last within 1; --to 1% "
+                      "gives an error bar\n                  on this mesh 0.2540\n");
     summary.mu_M_spread = 0.01;
-    assert_says(closing("", &summary), "they differ by at most 0.0100; not periodic yet\n");
+    assert_says(closing("", &summary), "peaks differ by at most 0.01; not periodic yet\n");
     summary.period = 1;
-    assert_says(closing("", &summary), "they differ by at most 0.0100\n");
+    assert_says(closing("", &summary), "peaks differ by at most 0.01\n");
     summary.period = 2;
-    summary.mu_M_error = 0.002;
+    summary.mu_M_error = 0.002;   // of its peaks: no error bar
     said = closing("", &summary);
-    assert_says(said, "0.2500 +- 0.002: static");
-    assert_says(said, "at most 0.0100 and repeat after 2 slidings\n");
-    assert_says(said, "+- is that of 1 peaks alone");
+    assert_says(said, "mu_M            0.25: static");
+    assert_null(strstr(said, "+-"));
+    assert_says(said, "on this mesh 0.2540 (drops 0.002); the peaks differ by at most 0.01 and "
+                      "repeat after 2 slidings\n");
+    summary.mu_M_known_to = NAN;
+    said = closing("", &summary);
+    assert_says(said, "mu_M            0.3: static");
+    assert_says(said, "cells are too long for slip: not even this digit is sure on others\n");
 }
 
 static void test_what_holds(void **state)
@@ -94,15 +109,17 @@ static void test_what_holds(void **state)
                 "mu_hold         none yet: run-in still going on (part of the contact has not "
                 "slipped, +0.25 % a drop, over after at most 57 more): give a later time.until\n");
     summary.mu_hold = 0.2;
+    summary.mu_hold_known_to = 0.01;
     summary.run_in = "trend";
     summary.run_in_drift = -0.01;
     summary.run_in_drops_left = NAN;
     assert_says(closing("", &summary),
-                "0.2000 so far: what the contact holds, the lowest tenth of 7 load ratios at which "
+                "0.20 so far: what the contact holds, the lowest tenth of 7 load ratios at which "
                 "the load dropped\n                  run-in still going on (trend, -1 % a drop)");
     summary.run_in = NULL;
     const char *said = closing("", &summary);
-    assert_says(said, "0.2000 so far: what the contact holds, the lowest tenth of 7 load ratios");
+    assert_says(said, "0.20 so far: what the contact holds, the lowest tenth of 7 load ratios");
+    assert_says(said, "finer meshes keep as a rule");   // there is no mu_M that says it
     assert_says(said, "too few to say");
     summary.drops_enough = true;
     assert_says(closing("", &summary), "which do not repeat");
@@ -138,19 +155,20 @@ static void test_error_bars(void **state)
     summary.mu_hold_error = 0.003;
     said = closing("", &summary);
     assert_says(said, "error bar       1.5 % of mu_hold");
-    assert_says(said, "+- 0.003 so far:");   // no part is known
+    assert_says(said, "0.2000 +- 0.0030 so far:");   // no part is known
     summary.mu_hold_parts[1] = 0.001;
-    assert_says(closing("", &summary), "+- 0.003 (branches 0.001) so far:");
+    assert_says(closing("", &summary), "0.2000 +- 0.0030 (branches 0.001) so far:");
     summary.mu_M = 0.25;
+    summary.mu_M_known_to = 0.03;
     summary.bar_meshes = 2;
     said = closing("", &summary);
-    assert_says(said, "0.2500 (its error is not known): static friction");
+    assert_says(said, "0.2 (its error is not known): static friction");
     assert_says(said, "on 2 meshes");
     summary.mu_M_error = 0.005;
     summary.mu_M_parts[0] = 0.004;
     summary.mu_M_parts[2] = 0.003;
     said = closing("", &summary);
-    assert_says(said, "+- 0.005 (mesh 0.004, drops 0.003): static friction");
+    assert_says(said, "0.2500 +- 0.0050 (mesh 0.004, drops 0.003): static friction");
     assert_says(said, "error bar       2.0 % of mu_M");
 }
 
@@ -168,7 +186,7 @@ static void test_files(void **state)
     place_write(place, "run.json", "{}");
     place_write(place, "fields.pvd", "");
     const char *said = closing("", &summary);
-    assert_says(said, "critical length 0.500 of the block's length");
+    assert_says(said, "critical length 0.50 of the block's length");
     assert_says(said, "run.json        scene, answers");
     assert_says(said, "fields.pvd      3 times of the whole block");
     assert_null(strstr(said, "history.h5"));

@@ -4,6 +4,7 @@
 #include "contact/contact_check.h"
 
 #include "contact_by_hand.h"
+#include "plane.h"
 
 static const double FORCE = 10, VELOCITY = 0.5;
 
@@ -13,7 +14,7 @@ static void good_state(HandContact *hand)
 {
     hand_contact_size(hand, 4, 2);
     hand->law = (FrictionLaw){.mu_static = 0.6, .mu_kinetic = 0.2, .critical_velocity = 0.1};
-    for (int32_t i = 0; i < 4; i++) hand->bound[interface_normal(i)] = -0.01 * i;
+    for (int32_t i = 0; i < 4; i++) hand->bound[plane_normal(i)] = -0.01 * i;
     const double v[] = {0, 0, 0.05, -0.01, -2, -0.02, 7, 0.3, 0.4, 0.9};
     const double r[] = {-5.9, 10, -4, 10, 2, 10, 0, 0, 3, 0};
     memcpy(hand->velocity, v, sizeof v);

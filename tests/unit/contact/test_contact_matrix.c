@@ -58,13 +58,14 @@ static void test_any_order(void **state)
     for (int trial = 0; trial < 4000; trial++) {
         int k = random_index(&random, trial % 2 ? 3 : OPERATORS);
         status[k][random_index(&random, NODES)] = (uint8_t)random_index(&random, 4);
-        expect_closed(contact_matrix_close(&operators[k], status[k], NODES), schur[k], status[k]);
+        expect_closed(contact_matrix_close(&operators[k], status[k], NODES, 2), schur[k],
+                      status[k]);
     }
     memset(hand.status, CONTACT_STICK, sizeof hand.status);
     for (int k = 0; k < OPERATORS; k++) {
         assert_true(operators[k].swept <= 9 * COUNT);   // renewed from time to time
         sweeps += operators[k].sweeps;
-        assert_ptr_equal(contact_matrix_close(&operators[k], hand.status, NODES), schur[k]);
+        assert_ptr_equal(contact_matrix_close(&operators[k], hand.status, NODES, 2), schur[k]);
     }
     assert_true(sweeps > 4 * 16 * NODES);
     assert_int_equal(memory_counters().allocations, allocations);
@@ -83,7 +84,7 @@ static void test_sweeps_little(void **state)
     memset(hand.status, CONTACT_SLIP_FORWARD, sizeof hand.status);
     for (int i = 0; i < 4; i++) {
         hand.status[2 * i] = CONTACT_OPEN;
-        expect_closed(contact_matrix_close(&matrix, hand.status, NODES), schur[0], hand.status);
+        expect_closed(contact_matrix_close(&matrix, hand.status, NODES, 2), schur[0], hand.status);
         assert_int_equal(matrix.sweeps, 2 * (i + 1));
     }
     contact_matrix_destroy(&matrix);
@@ -112,7 +113,7 @@ static void test_together(void **state)
     for (int turn = 0; turn < TURNS; turn++) {
         for (int i = 0; i < MANY; i++)
             if (random_index(&random, 1 + turn) == 0) status[i] = (uint8_t)random_index(&random, 3);
-        const double *closed = contact_matrix_close(&matrix, status, MANY);
+        const double *closed = contact_matrix_close(&matrix, status, MANY, 2);
         assert_non_null(closed);
         for (int k = 0; k < SIZE; k++) {
             bool swept = status[k / 2] == CONTACT_OPEN;   // there -S_OO^-1: S_OO times it is -1
@@ -157,9 +158,9 @@ static void test_floating(void **state)
         }
         assert_true(contact_matrix_create(s, COUNT, &matrix, &err));
         memset(hand.status, CONTACT_OPEN, sizeof hand.status);
-        assert_null(contact_matrix_close(&matrix, hand.status, NODES));
+        assert_null(contact_matrix_close(&matrix, hand.status, NODES, 2));
         for (int i = 0; i < NODES; i += 2) hand.status[i] = CONTACT_STICK;
-        expect_closed(contact_matrix_close(&matrix, hand.status, NODES), s, hand.status);
+        expect_closed(contact_matrix_close(&matrix, hand.status, NODES, 2), s, hand.status);
         contact_matrix_destroy(&matrix);
     }
 }

@@ -4,6 +4,7 @@
 #include "contact/contact_newton.h"
 
 #include "contact_by_hand.h"
+#include "plane.h"
 
 enum { NODES = 30, RODS = 2 };
 

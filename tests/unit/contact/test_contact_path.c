@@ -123,6 +123,27 @@ static void test_from_a_height(void **state)
     assert_in_range(missed, 0, TRIALS / 100);
 }
 
+// The second node is 1e6 above the plane, which the path takes for out of reach, but so soft that
+// it falls: it is pressed like the first, and carries what its own stiffness leaves.
+static void test_fallen(void **state)
+{
+    (void)state;
+    static HandContact hand;
+    hand_contact_size(&hand, 2, 0);
+    hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.5};
+    for (int k = 0; k < 4; k++) hand.schur[5 * k] = k < 3 ? 1 : 1e-7;
+    hand.g[1] = hand.g[3] = -1;
+    hand.bound[3] = -1e6;
+    assert_true(follow(&hand));
+    assert_int_equal(hand.status[1], CONTACT_STICK);
+    assert_near("v_n", hand.velocity[3], -1e6, 1e-4);
+    assert_near("r_n", hand.reaction[3], 1 - 0.1, 1e-9);
+    hand.bound[3] = -1e8;   // too far for that, too
+    assert_true(follow(&hand));
+    assert_int_equal(hand.status[1], CONTACT_OPEN);
+    assert_near("v_n", hand.velocity[3], -1e7, 1e-3);
+}
+
 // Without friction at rest nothing sticks, and the path has no beginning.
 static void test_no_beginning(void **state)
 {
@@ -138,7 +159,7 @@ static void test_no_beginning(void **state)
 static void test_memory(void **state)
 {
     (void)state;
-    Interface interface = {.contact_count = 2, .count = 4};
+    Interface interface = {.dim = 2, .contact_count = 2, .count = 4};
     int64_t live = memory_counters().live, k = 0;
     for (bool made = false; !made; k++) {
         Error err = {0};
@@ -157,8 +178,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_node), cmocka_unit_test(test_random_problems),
-        cmocka_unit_test(test_from_a_height), cmocka_unit_test(test_no_beginning),
-        cmocka_unit_test(test_memory)};
+        cmocka_unit_test(test_one_node),      cmocka_unit_test(test_random_problems),
+        cmocka_unit_test(test_from_a_height), cmocka_unit_test(test_fallen),
+        cmocka_unit_test(test_no_beginning),  cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

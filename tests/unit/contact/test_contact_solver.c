@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "contact_by_hand.h"
+#include "plane.h"
 
 // One node:  S = [s_t c; c s_n],  with g and bound as they come.
 typedef struct OneNode {
@@ -123,6 +124,24 @@ static void test_strong_weakening(void **state)
     }
 }
 
+// s_t = k p: as steep as the block resists, so that Newton has no step on the weakening branch. The
+// path goes round it to where friction falls no more.
+static void test_singular_slip(void **state)
+{
+    (void)state;
+    FrictionLaw law = {.mu_static = 1, .mu_kinetic = 0.5, .critical_velocity = 0.5};
+    HandContact hand;
+    HandCounts counts;
+    for (int way = 0; way < 2; way++) {
+        one_node((OneNode){.s_t = 1, .s_n = 1, .g_t = 1.5, .g_n = -1}, law, &hand);
+        hand.status[0] = CONTACT_SLIP_FORWARD;
+        assert_int_equal(hand_contact_solve_by(&hand, way, &counts), way);
+        assert_int_equal(counts.rescued, way);
+    }
+    assert_near("v_t", hand.velocity[0], 1, 1e-12);
+    assert_near("judged", hand_contact_error(&hand), 0, 1e-12);
+}
+
 // Three nodes that only the plane holds up, S n = 0 for their normals: started as if all were open,
 // where Newton has no matrix, the path puts them on the plane, and each carries what presses it.
 // Lifted, nothing holds them.
@@ -210,8 +229,8 @@ static void test_two_nodes(void **state)
             const double s[] = {2, 0, -1, 0, 0, 1, 0, 0, -1, 0, 2, 0, 0, 0, 0, 1};
             memcpy(hand.schur, s, sizeof s);
             for (int32_t i = 0; i < 2; i++) {
-                hand.g[interface_tangent(i)] = cases[k].g[i];
-                hand.g[interface_normal(i)] = -10;
+                hand.g[plane_tangent(i)] = cases[k].g[i];
+                hand.g[plane_normal(i)] = -10;
                 hand.status[i] = (uint8_t)(i ? guess / 4 : guess % 4);
             }
             assert_true(hand_contact_solve(&hand));
@@ -359,17 +378,12 @@ static void test_soft_rod(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stick_and_open),
-        cmocka_unit_test(test_soft_rod),
-        cmocka_unit_test(test_coulomb_slip),
-        cmocka_unit_test(test_weakening_slip),
-        cmocka_unit_test(test_strong_weakening),
-        cmocka_unit_test(test_floating_start),
-        cmocka_unit_test(test_rod),
-        cmocka_unit_test(test_two_nodes),
-        cmocka_unit_test(test_rough_friction),
-        cmocka_unit_test(test_allocates_nothing),
-        cmocka_unit_test(test_same_address),
+        cmocka_unit_test(test_stick_and_open),    cmocka_unit_test(test_soft_rod),
+        cmocka_unit_test(test_coulomb_slip),      cmocka_unit_test(test_weakening_slip),
+        cmocka_unit_test(test_strong_weakening),  cmocka_unit_test(test_singular_slip),
+        cmocka_unit_test(test_floating_start),    cmocka_unit_test(test_rod),
+        cmocka_unit_test(test_two_nodes),         cmocka_unit_test(test_rough_friction),
+        cmocka_unit_test(test_allocates_nothing), cmocka_unit_test(test_same_address),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include "contact/interface.h"
 
 #include "block_mesh.h"
+#include "plane.h"
 #include "contact/rod.h"
 
 #include <math.h>
@@ -42,8 +43,8 @@ static void test_nodes_and_weights(void **state)
             assert_near("x of the node", mesh.position[2 * node], interface.x[i], 0);
             assert_near("z of the node", mesh.position[2 * node + 1], 0, 0);
             assert_int_equal(interface.pad[i], 0);
-            assert_int_equal(interface.dofs[interface_tangent(i)], 2 * node);
-            assert_int_equal(interface.dofs[interface_normal(i)], 2 * node + 1);
+            assert_int_equal(interface.dofs[plane_tangent(i)], 2 * node);
+            assert_int_equal(interface.dofs[plane_normal(i)], 2 * node + 1);
             sum += interface.weight[i];
         }
         assert_near("weights", sum, 1, 1e-14);
@@ -195,6 +196,16 @@ static void test_shares(void **state)
     mesh_destroy(&mesh);
 }
 
+// As many as there are in the plane, to the bit; of 20 x 20 over a face 20.
+static void test_nodes_along(void **state)
+{
+    (void)state;
+    for (int32_t count = 1; count < 2000; count++)
+        assert_true(interface_nodes_along(&(Interface){.dim = 2, .contact_count = count}) == count);
+    assert_near("in space", interface_nodes_along(&(Interface){.dim = 3, .contact_count = 400}), 20,
+                1e-14);
+}
+
 // The bound at which a soft node feels no force, and the softness of half a share.
 static void test_soft_rod(void **state)
 {
@@ -248,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_pads),
         cmocka_unit_test(test_rod),
         cmocka_unit_test(test_shares),
+        cmocka_unit_test(test_nodes_along),
         cmocka_unit_test(test_soft_rod),
         cmocka_unit_test(test_memory_faults),
     };

@@ -14,7 +14,8 @@ static Interface interface_by_hand(void)
     shares[0] = 1;
     shares[1] = exp(-1);
     shares[2] = 0.5;
-    return (Interface){.contact_count = 2, .rod_count = 3, .count = 7, .rod_share = shares};
+    return (Interface){
+        .dim = 2, .contact_count = 2, .rod_count = 3, .count = 7, .rod_share = shares};
 }
 
 static void test_softness(void **state)

@@ -32,7 +32,7 @@ static inline MeshFile hand_mesh(int32_t nodes, const double (*positions)[2], El
 {
     Error err = {0};
     int32_t width = element_node_count(kind);
-    MeshFile mesh = {.node_count = nodes, .element_count = elements};
+    MeshFile mesh = {.dim = 2, .node_count = nodes, .element_count = elements};
     mesh.position = hand_copy(positions, 2 * nodes, sizeof(double));
     mesh.node_number = hand_numbers(nodes);
     mesh.element_number = hand_numbers(elements);

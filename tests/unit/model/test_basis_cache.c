@@ -4,7 +4,6 @@
 #include "model/basis_cache.h"
 
 #include "base/memory.h"
-#include "io/cache/cache_file.h"
 #include "random_numbers.h"
 #include "cache_fixture.h"
 #include "unit/reduction/reduced_block.h"
@@ -188,7 +187,7 @@ static void test_symmetry_parts(void **state)
     made.count++;
     assert_true(basis_cache_store(NAME, &made, note));
     assert_false(load(NAME, false, &read, note));
-    assert_string_equal(note, "a cached basis is not used: an array is missing");
+    assert_string_equal(note, "a cached basis is not used: an array is missing or wrong");
     reduced_bulk_destroy(&made);
     assert_int_equal(memory_counters().live, live);
 }
@@ -225,25 +224,37 @@ static void test_not_trusted(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-// A file that is whole, but holds other arrays than a basis does.
-static void test_missing_arrays(void **state)
+// A file that is whole, but whose sizes are none: more levels than there is room for, a count of
+// which fuzzing found the first.
+static void test_impossible_sizes(void **state)
 {
     (void)state;
-    Error err = {0};
-    ReducedBulk read;
-    char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s.basis", cache, NAME);
-    double counts[4] = {DOFS, M, ALL - M, LEVELS}, few[LEVELS] = {0};
-    CacheArray arrays[] = {{"counts", 4, counts}, {"inertia", LEVELS, few}, {"error", LEVELS, few}};
-    // More levels than there is room for; counts that are none, of which fuzzing found the first.
-    static const double bad[] = {LEVELS, 1e9, 1e103, -1, 0.5, NAN};
-    for (size_t trial = 0; trial < sizeof bad / sizeof *bad; trial++) {
-        counts[3] = bad[trial];
-        counts[1] = trial < 2 ? M : bad[trial];
-        assert_true(cache_file_write(path, NAME, arrays, 3, &err));
+    ReducedBulk made, read;
+    char note[CACHE_NOTE_SIZE] = "";
+    int64_t live = memory_counters().live;
+    make_basis(5, &made);
+    int32_t *const places[] = {&made.interface_count, &made.interior_count, &made.errors.count,
+                               &made.full_dofs};
+    static const int32_t wrong[] = {-1, -1, REDUCTION_LEVELS_MAX + 1, 1 << 28};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char name[64];
+        int32_t kept = *places[k];
+        size_t size;
+        basis_cache_store(NAME, &made, note);
+        snprintf(name, sizeof name, "%s.basis", NAME);
+        char *bytes = cache_bytes(name, &size);
+        for (size_t at = 64; at < size - 32; at++)   // the first of these that holds the number
+            if (memcmp(bytes + at, &kept, sizeof kept) == 0) {
+                memcpy(bytes + at, &wrong[k], sizeof kept);
+                break;
+            }
+        cache_put(name, bytes, size);
+        free(bytes);
         assert_false(load(NAME, false, &read, note));
-        assert_string_equal(note, "a cached basis is not used: an array is missing");
+        assert_string_equal(note, "a cached basis is not used: an array is missing or wrong");
     }
+    reduced_bulk_destroy(&made);
+    assert_int_equal(memory_counters().live, live);
 }
 
 static void test_memory_faults(void **state)
@@ -309,7 +320,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_symmetry_parts),
-        cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_missing_arrays),
+        cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_impossible_sizes),
         cmocka_unit_test(test_memory_faults), cmocka_unit_test(test_recorded_basis),
     };
     return cmocka_run_group_tests(tests, cache_begin, cache_end);

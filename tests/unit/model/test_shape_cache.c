@@ -218,7 +218,8 @@ static void make_shape(uint64_t seed, Shape *shape)
     Random random = {.state = seed};
     *shape = (Shape){
         .sizes = {1.5, 0.5, 0.75, 36, 98, 0.01, 1.4, 0.1, 0.75, {{{1, 0}, 0.25}}, 2, {0.5, 0.25}}};
-    shape->interface = (Interface){.contact_count = 3,
+    shape->interface = (Interface){.dim = 2,
+                                   .contact_count = 3,
                                    .node = index_array(&random, 3, 49),
                                    .x = random_array(&random, 3),
                                    .weight = random_array(&random, 3),

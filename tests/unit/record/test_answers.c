@@ -5,6 +5,7 @@
 
 #include "amontons.h"
 #include "drops_by_hand.h"
+#include "plane.h"
 
 static void test_nothing(void **state)
 {
@@ -147,8 +148,8 @@ static void test_shares_move(void **state)
         for (int32_t k = 0; k < 6; k++) {
             for (int32_t i = 0; i < SEEN_NODES; i++) {
                 double share = i < 3 ? 0.15 + 0.01 * k * moves : 0.15 - 0.015 * k * moves;
-                hand.run.hand.reaction[interface_tangent(i)] = -0.2 * share;
-                hand.run.hand.reaction[interface_normal(i)] = 0.2;
+                hand.run.hand.reaction[plane_tangent(i)] = -0.2 * share;
+                hand.run.hand.reaction[plane_normal(i)] = 0.2;
             }
             drop(&hand, 0.15, 0.05, ACROSS);
         }

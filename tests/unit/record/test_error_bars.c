@@ -11,8 +11,10 @@
 
 static void begin(Levels *levels, double refine, int32_t contact_nodes)
 {
-    levels->list[levels->count++] =
-        (Level){.refine = refine, .contact_nodes = contact_nodes, .slip_cells = NAN};
+    levels->list[levels->count++] = (Level){.refine = refine,
+                                            .contact_nodes = contact_nodes,
+                                            .nodes_along = contact_nodes,
+                                            .slip_cells = NAN};
 }
 
 static void add(Levels *levels, double mu_M, double mu_hold, double error)
@@ -36,6 +38,36 @@ static void test_one_level(void **state)
     assert_near("branches", mu_M->parts.branches, 2 * 0.02 / sqrt(2) / sqrt(2), 1e-15);
     assert_true(isnan(mu_M->bar));   // and so no bar
     assert_true(isnan(levels_order(&levels)));
+    double usual = 2 * hypot(0.2, 0.12) / 21 * 0.3;   // as where most of the contact slips
+    assert_near("known to", levels_known_to(&levels, ANSWER_MU_M),
+                hypot(usual, hypot(mu_M->parts.branches, mu_M->parts.drops)), 1e-15);
+}
+
+// Of a run that stands alone: twice what is usual of its mesh, and what its drops leave.
+static void test_without_a_bar(void **state)
+{
+    (void)state;
+    Level level = {.contact_nodes = 40, .nodes_along = 40, .pads = 1, .slip_cells = 10};
+    Answers answers = {.mu_M = {0.3, 0.004}, .mu_hold = {0.2, NAN}, .mu_max = 0.4};
+    double usual = 2 * hypot(0.12, 0.05) / 40;
+    level_answer_for(&level, &answers);
+    assert_near("mu_M", answers.mu_M_known_to, hypot(usual * 0.3, 0.004), 1e-15);
+    assert_near("mu_hold", answers.mu_hold_known_to, usual * 0.2, 1e-15);
+    assert_near("mu_max", answers.mu_max_known_to, usual * 0.4, 1e-15);
+    level.slip_cells = 4;   // half of what resolves slip
+    level_answer_for(&level, &answers);
+    assert_near("few", answers.mu_hold_known_to, 2 * hypot(2 * 0.03 / 0.1, 0.01 / 0.1) / 40 * 0.2,
+                1e-15);
+    level.pads = 4;
+    level.slip_cells = NAN;
+    level_answer_for(&level, &answers);   // 9 cells on each
+    assert_near("pads", answers.mu_hold_known_to, 2 * hypot(0.14, 0.1) / 9 * 0.2, 1e-15);
+    level = (Level){.contact_nodes = 4001, .nodes_along = 4001, .pads = 1, .slip_cells = 2000};
+    level_answer_for(&level, &answers);
+    assert_near("least", answers.mu_hold_known_to, 0.002 * 0.2, 1e-15);
+    level.undamped = true;
+    level_answer_for(&level, &answers);
+    assert_true(isnan(answers.mu_M_known_to) && isnan(answers.mu_max_known_to));
 }
 
 // The spread of runs is that of both levels: squares 2 * 0.01^2 and 2 * 0.02^2 over two freedoms.
@@ -70,15 +102,15 @@ static void test_two_levels(void **state)
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_HOLD)->bar));
     assert_near("value", levels_answer(&levels, ANSWER_MU_HOLD)->value, 0.2, 1e-15);
     // Ten times the nodes, as many that slip: as much is known.
-    levels.list[0].contact_nodes = 200;
-    levels.list[1].contact_nodes = 400;
+    levels.list[0].nodes_along = 200;
+    levels.list[1].nodes_along = 400;
     levels.list[0].slip_cells = 4;
     levels.list[1].slip_cells = 8;
     levels_estimate(&levels);
     assert_near("short", levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh, 0.0017791023929710523,
                 1e-15);
-    levels.list[0].contact_nodes = 20;
-    levels.list[1].contact_nodes = 40;
+    levels.list[0].nodes_along = 20;
+    levels.list[1].nodes_along = 40;
     levels.list[0].slip_cells = levels.list[1].slip_cells = NAN;
     assert_true(levels_resolved(&levels));
     levels.list[0].pads = levels.list[1].pads = 2;   // slip waits at their edges
@@ -88,15 +120,16 @@ static void test_two_levels(void **state)
     levels.list[1].pads = 5;   // 7 cells on each
     assert_false(levels_resolved(&levels));
     levels.list[0].pads = levels.list[1].pads = 1;
-    levels.list[0].contact_nodes = 1000;
-    levels.list[1].contact_nodes = 2000;   // steps leave more than cells
+    levels.list[0].nodes_along = 1000;
+    levels.list[1].nodes_along = 2000;   // steps leave more than cells
     levels_estimate(&levels);
     assert_near("least", levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh, 0.002 * 0.2, 1e-15);
     Answers answers = {.mu_max = 1};
     levels_answer_for(&levels, &answers);
     assert_true(answers.mu_M.value == mu_M->value && answers.mu_M.error == mu_M->bar);
     assert_true(answers.mu_hold_parts.mesh == hold->parts.mesh && answers.mu_max == 1);
-    levels.list[0].contact_nodes = 2000;   // no finer than the first: nothing is known
+    assert_true(answers.mu_M_known_to == mu_M->bar && answers.mu_hold_known_to == hold->bar);
+    levels.list[0].nodes_along = 2000;   // no finer than the first: nothing is known
     levels_estimate(&levels);
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh));
 }
@@ -205,11 +238,9 @@ static void test_last_mesh_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_level),
-        cmocka_unit_test(test_two_levels),
-        cmocka_unit_test(test_three_levels),
-        cmocka_unit_test(test_without_mu_M),
-        cmocka_unit_test(test_a_level_without_an_answer),
+        cmocka_unit_test(test_one_level),       cmocka_unit_test(test_without_a_bar),
+        cmocka_unit_test(test_two_levels),      cmocka_unit_test(test_three_levels),
+        cmocka_unit_test(test_without_mu_M),    cmocka_unit_test(test_a_level_without_an_answer),
         cmocka_unit_test(test_last_mesh_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 #include "record/history.h"
 
 #include "base/memory.h"
+#include "plane.h"
 #include "result_place.h"
 #include "seen_by_hand.h"
 
@@ -18,9 +19,9 @@ static void show(int32_t k)
     for (int32_t i = 0; i < SEEN_NODES; i++) rate[i] = 0.1 * k - 0.25 * i;
     hand_seen(&hand, 0.5 * k, rate);
     for (int32_t i = 0; i < SEEN_NODES; i++) {
-        hand.displacement[interface_tangent(i)] = 7 + 3 * k + 0.5 * i;
-        hand.reaction[interface_normal(i)] = 2 + k + i;
-        hand.reaction[interface_tangent(i)] = k - 10 * i;
+        hand.displacement[plane_tangent(i)] = 7 + 3 * k + 0.5 * i;
+        hand.reaction[plane_normal(i)] = 2 + k + i;
+        hand.reaction[plane_tangent(i)] = k - 10 * i;
     }
     if (k % 7 == 3) hand.status[4] = CONTACT_OPEN;
     hand.seen.mu = 0.01 * k;

@@ -3,6 +3,7 @@
 #include "record/observation.h"
 
 #include "block_rig.h"
+#include "plane.h"
 
 // Some steps of a pushed block; then the state and everything around it is known.
 static void test_sums_over_the_mesh(void **state)
@@ -34,7 +35,7 @@ static void test_sums_over_the_mesh(void **state)
         double normal = 0, rod = 0, fastest = 0, front = 0, forces = 0, inertia = 0;
         bool together = true;
         for (int32_t i = 0; i < rig.interface.contact_count; i++) {
-            double r_n = now->reaction[interface_normal(i)];
+            double r_n = now->reaction[plane_normal(i)];
             normal += r_n;
             forces += rig.interface.x[i] * r_n;
             fastest = fmax(fastest, fabs(now->velocity[2 * rig.interface.node[i]]));
@@ -72,7 +73,7 @@ static void test_sums_over_the_mesh(void **state)
     assert_true(moved > 1e-3);   // inertia had a part in it
 
     // A reaction that no condition allows shows in every measure it should.
-    control.now.reaction[interface_normal(2)] -= 0.003;
+    control.now.reaction[plane_normal(2)] -= 0.003;
     seen = observe(&control, &scales);
     assert_true(seen.contact_error > 0.1);
     assert_near("moment", seen.moment_error, rig.interface.x[2], 1e-10);

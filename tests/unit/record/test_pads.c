@@ -6,6 +6,7 @@
 #include "amontons.h"
 #include "base/memory.h"
 #include "io/hdf5/result_file.h"
+#include "plane.h"
 #include "result_place.h"
 #include "run/simulation_state.h"
 #include "seen_by_hand.h"
@@ -35,8 +36,8 @@ static void fixture_destroy(Fixture *fixture)
 static void see(Fixture *fixture, double mu, const double rate[SEEN_NODES])
 {
     for (int32_t i = 0; i < SEEN_NODES; i++) {
-        fixture->run.hand.reaction[interface_normal(i)] = 10 * mu + i;
-        fixture->run.hand.reaction[interface_tangent(i)] = -(mu + i);
+        fixture->run.hand.reaction[plane_normal(i)] = 10 * mu + i;
+        fixture->run.hand.reaction[plane_tangent(i)] = -(mu + i);
     }
     hand_run_see(&fixture->run, mu, rate);
 }

@@ -3,6 +3,7 @@
 #include "record/stretches.h"
 
 #include "base/memory.h"
+#include "plane.h"
 #include "seen_by_hand.h"
 
 static void test_state(void **state)
@@ -17,8 +18,8 @@ static void test_state(void **state)
     assert_true(stretches_create(&hand.interface, &stretches, &err));
     assert_int_equal(stretches.count, SEEN_NODES);   // fewer nodes than stretches: each is one
     for (int32_t i = 0; i < SEEN_NODES; i++) {
-        hand.reaction[interface_normal(i)] = 2;
-        hand.reaction[interface_tangent(i)] = -0.1 * i;
+        hand.reaction[plane_normal(i)] = 2;
+        hand.reaction[plane_tangent(i)] = -0.1 * i;
     }
     const Observation *seen = hand_seen(&hand, 10, (double[]){1, 1, 1, 0, 0});   // U = 1
     stretches_read(&stretches, seen, found);
@@ -44,7 +45,7 @@ static void test_shared_out(void **state)
     Stretches stretches;
     int32_t pad[NODES];
     for (int32_t i = 0; i < NODES; i++) pad[i] = i < 200 ? 0 : (i < 220 ? 1 : 2);
-    Interface interface = {.contact_count = NODES, .pad = pad, .pad_count = 3};
+    Interface interface = {.dim = 2, .contact_count = NODES, .pad = pad, .pad_count = 3};
     int64_t live = memory_counters().live;
     assert_true(stretches_create(&interface, &stretches, &err));
     assert_int_equal(stretches.count, 14 + 1 + 1);

@@ -23,7 +23,7 @@ static void test_images(void **state)
     places[0] += 0.5 * APART;   // the least x: the middle moves with it
     places[7] -= 0.75 * APART;
     places[12] += 0.25 * APART;
-    assert_true(mirror_nodes_find(places, NODES, image, &found, &err));
+    assert_true(mirror_nodes_find(2, places, NODES, image, &found, &err));
     assert_true(found);
     assert_memory_equal(image, IMAGES, sizeof image);
     double sum = places[0] + places[4];
@@ -47,7 +47,7 @@ static void test_one_has_none(void **state)
         memcpy(places, PLACES, sizeof places);
         places[moved] += 0.05;
         memcpy(before, places, sizeof places);
-        assert_true(mirror_nodes_find(places, NODES, image, &found, &err));
+        assert_true(mirror_nodes_find(2, places, NODES, image, &found, &err));
         assert_false(found);
         assert_memory_equal(places, before, sizeof places);
     }

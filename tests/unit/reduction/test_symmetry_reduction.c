@@ -29,7 +29,7 @@ static void find_mirror(const ReducedBlock *block, Mirror *mirror)
     int32_t *image = calloc((size_t)nodes, sizeof *image);
     memcpy(position, block->mesh.position, 2 * (size_t)nodes * sizeof *position);
     *mirror = (Mirror){0};
-    assert_true(mirror_nodes_find(position, nodes, image, &paired, &err));
+    assert_true(mirror_nodes_find(2, position, nodes, image, &paired, &err));
     if (paired)
         assert_true(
             mirror_find(&block->bulk, image, block->dofs, block->interface_count, mirror, &err));

@@ -33,11 +33,11 @@ static void watch_level(const LevelView *view, void *context)
 {
     Watch *watch = context;
     size_t used = strlen(watch->reached);
-    char bar[24] = "";
-    if (!isnan(view->mesh)) snprintf(bar, sizeof bar, " +- %.1g", view->bar);
+    char value[ESTIMATE_SIZE];
+    amontons_estimate(view->value, view->bar, view->known_to, value);
     if (view->level == watch->levels) return;   // more runs on the same mesh
-    snprintf(watch->reached + used, sizeof watch->reached - used, "%s%.4f%s on %d%s",
-             used ? ", " : "so far mu_M = ", view->value, bar, view->contact_nodes,
+    snprintf(watch->reached + used, sizeof watch->reached - used, "%s%s on %d%s",
+             used ? ", " : "so far mu_M = ", value, view->contact_nodes,
              used ? "" : " contact nodes");
     watch->levels = view->level;
 }
@@ -194,6 +194,7 @@ static RunWarnings said_of(Levels *levels)
     for (int32_t k = 0; k < levels->count; k++) {
         Level *level = &levels->list[k];
         level->contact_nodes = 1 + (20 << k);
+        level->nodes_along = level->contact_nodes;
         level->pads = level->run_count = 1;
         for (int32_t kind = 0; kind < ANSWER_KINDS; kind++) {
             level->answer[kind].value = 0.3;

@@ -88,7 +88,7 @@ static void test_result(void **state)
     static const char *const unfinished[] = {"no run.json", "By hand", NULL};
     static const char *const whole[] = {
         "status             done",
-        "mu_M               0.25 +- 0.0003\n",
+        "mu_M               0.25 (on this mesh 0.251234)\n",
         "mu_M spread        none",
         "mu_hold            0.234568\n",
         "mu_max             0.375\n",
@@ -113,8 +113,9 @@ static void test_result(void **state)
     write_text("run.json", "{\"status\": \"failed\", \"failure\": \"computation failed\", "
                            "\"message\": \"the ledger does not close\"}");
     assert_info_holds(folder, failed);
-    write_text("run.json", "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
-                           "\"mu_M_error\": 3.1e-4, \"mu_M_spread\": null, "
+    write_text("run.json", "{\"status\": \"done\", \"results\": {\"mu_M\": 0.251234, "
+                           "\"mu_M_error\": 3.1e-4, \"mu_M_known_to\": 4e-3, "
+                           "\"mu_M_spread\": null, "
                            "\"mu_hold\": 0.2345678, \"mu_hold_error\": null, "
                            "\"mu_max\": 0.375}, \"steps\": {\"accepted\": 12345678}}");
     assert_info_holds(folder, whole);

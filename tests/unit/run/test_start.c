@@ -4,6 +4,7 @@
 #include "run/simulation_state.h"
 
 #include "base/memory.h"
+#include "plane.h"
 #include "small_scene.h"
 
 static const double PRESSURE = 0.003;
@@ -24,7 +25,7 @@ static double normal_force(const Simulation *simulation)
 {
     double sum = 0;
     for (int32_t i = 0; i < simulation->model.interface.contact_count; i++)
-        sum += simulation->control.now.reaction[interface_normal(i)];
+        sum += simulation->control.now.reaction[plane_normal(i)];
     return sum;
 }
 
@@ -32,7 +33,7 @@ static double shear_force(const Simulation *simulation)
 {
     double sum = 0;
     for (int32_t i = 0; i < simulation->model.interface.contact_count; i++)
-        sum += simulation->control.now.reaction[interface_tangent(i)];
+        sum += simulation->control.now.reaction[plane_tangent(i)];
     return sum;
 }
 
@@ -47,8 +48,8 @@ static void test_friction_while_relaxing(void **state)
         double largest = 0, uneven = 0;
         for (int32_t i = 0; i < simulation->model.interface.contact_count; i++) {
             double weight = simulation->model.interface.weight[i];
-            double p = now->reaction[interface_normal(i)] / weight;
-            largest = fmax(largest, fabs(now->reaction[interface_tangent(i)] / weight));
+            double p = now->reaction[plane_normal(i)] / weight;
+            largest = fmax(largest, fabs(now->reaction[plane_tangent(i)] / weight));
             uneven = fmax(uneven, fabs(p - PRESSURE));
         }
         assert_near("normal", normal_force(simulation), PRESSURE, 1e-7 * PRESSURE);

@@ -120,7 +120,7 @@ static void test_too_few_cells(void **state)
     assert_non_null(strstr(found.text[0], "double mesh.set.nx"));
     slip_warning(0, 1, "mesh.set={size_contact: 0.1}", &found);
     assert_int_equal(found.count, 1);
-    assert_non_null(strstr(found.text[0], "a node of the contact jumped"));
+    assert_non_null(strstr(found.text[0], "a node went from rest to fast slip at once"));
     assert_non_null(strstr(found.text[0], "halve mesh.set.size_contact"));
 }
 

@@ -11,6 +11,7 @@
 #include "contact/rod.h"
 #include "stepping/state.h"
 #include "paper_material.h"
+#include "plane.h"
 
 typedef struct SteppedDef {
     int32_t cells;   // along each side
@@ -45,7 +46,7 @@ static inline void stepped_block_start(const SteppedDef *def, SteppedBlock *bloc
     }
     bulk_operator_apply(&block->system, BULK_STIFFNESS, state->displacement, state->elastic_force);
     for (int32_t i = 0; i < block->interface.contact_count; i++)
-        state->reaction[interface_normal(i)] = def->pressure * block->interface.weight[i];
+        state->reaction[plane_normal(i)] = def->pressure * block->interface.weight[i];
     for (int32_t j = 0; j < block->rod.count; j++)
         block->rod.origin[j] = 0;   // the trailing face stands at x = 0
 }

@@ -5,6 +5,7 @@
 
 #include "certificate_rig.h"
 #include "own_laws.h"
+#include "plane.h"
 
 typedef struct Fixture {
     CertificateRig built;
@@ -68,11 +69,11 @@ static void random_state(Random *random, double pressure, Fixture *fixture)
     double v_c = fixture->built.rig.law.critical_velocity;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen->status[i] = (uint8_t)random_index(random, 4);
-        seen->reaction[interface_normal(i)] =
+        seen->reaction[plane_normal(i)] =
             seen->status[i] == CONTACT_OPEN ? 0 : pressure * random_between(random, 0.2, 1);
         double speed = v_c * random_between(random, 0.01, 1.5);
-        seen->slip_rate[interface_tangent(i)] = speed *
-                                                (seen->status[i] == CONTACT_SLIP_BACKWARD ? -1 : 1);
+        seen->slip_rate[plane_tangent(i)] = speed *
+                                            (seen->status[i] == CONTACT_SLIP_BACKWARD ? -1 : 1);
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
         seen->rod_touches[j] = (uint8_t)random_index(random, 2);
@@ -151,7 +152,7 @@ static void test_one_node(void **state)
     State *seen = &fixture.built.seen;
     int32_t size = fixture.built.rig.interface.count;
     for (int32_t i = 0; i < 5; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = plane_tangent(i);
         double limit = fixture.schur[t * size + t] * def.law.critical_velocity / 0.28;
         seen->status[i] = CONTACT_SLIP_BACKWARD;
         seen->slip_rate[t] = -0.5 * def.law.critical_velocity;
@@ -178,8 +179,8 @@ static void test_no_viscosity(void **state)
     certificate_rig_build(&def, 0.1, 0.05, &on);
     assert_true(certificate_holds(&on.certificate, &on.seen));   // all stick
     on.seen.status[2] = CONTACT_SLIP_FORWARD;
-    on.seen.slip_rate[interface_tangent(2)] = 1e-6;
-    on.seen.reaction[interface_normal(2)] = 1e-9;
+    on.seen.slip_rate[plane_tangent(2)] = 1e-6;
+    on.seen.reaction[plane_normal(2)] = 1e-9;
     assert_false(certificate_holds(&on.certificate, &on.seen));
     assert_true(certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_rung(&on, 0)));
     certificate_rig_destroy(&on);

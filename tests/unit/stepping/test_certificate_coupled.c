@@ -5,6 +5,7 @@
 #include "stepping/certificate.h"
 
 #include "certificate_rig.h"
+#include "plane.h"
 
 enum { UNKNOWNS_MAX = 32 };
 
@@ -26,8 +27,8 @@ static void list_moving(Slip *slip)
     slip->count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (slip->seen->status[i] == CONTACT_STICK) continue;
-        slip->moving[slip->count++] = interface_tangent(i);
-        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = interface_normal(i);
+        slip->moving[slip->count++] = plane_tangent(i);
+        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = plane_normal(i);
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
         if (!slip->seen->rod_touches[j]) slip->moving[slip->count++] = interface_rod(interface, j);
@@ -110,10 +111,10 @@ static void random_state(Random *random, const BlockRig *rig, double pressure, S
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen->status[i] = (uint8_t)random_index(random, 4);
         bool open = seen->status[i] == CONTACT_OPEN;
-        seen->reaction[interface_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
+        seen->reaction[plane_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
         double speed = random_between(random, 0, 1) < 0.8 ? random_between(random, 0.01, 0.99)
                                                           : random_between(random, 1.01, 2);
-        seen->slip_rate[interface_tangent(i)] =
+        seen->slip_rate[plane_tangent(i)] =
             (seen->status[i] == CONTACT_SLIP_BACKWARD ? -speed : speed) *
             rig->law.critical_velocity;
     }
@@ -239,6 +240,81 @@ static void test_load(void **state)
     certificate_rig_destroy(&on);
 }
 
+// The largest load of a state on the rungs of `ladder` that are built.
+static double largest_ratio(CertificateRig *on, Ladder *ladder)
+{
+    double largest = 0;
+    for (int32_t k = 0; k < ladder->rung_count; k++) {
+        ContactMatrix *rung = ladder_contact(ladder, k);
+        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung));
+    }
+    return largest;
+}
+
+static void build_rungs(Ladder *ladder, int32_t apart)
+{
+    Error err = {0};
+    for (int32_t k = 0; k < ladder->rung_count; k += apart)
+        assert_non_null(ladder_rung(ladder, k, &err));
+}
+
+// The reactions of `seen` times `factor`; loads go with them.
+static void press(const Interface *interface, double factor, State *seen)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        seen->reaction[plane_normal(i)] *= factor;
+}
+
+// Steps fell by `apart` rungs each time. What runs away at a rate between those that are built is
+// not excluded, by loads at all rungs and half way between them. A block 100 long: waves are hardly
+// damped, and loads differ from rung to rung.
+static void check_holes(int32_t apart)
+{
+    const double longest = 1e4, shortest = 1e4 / (1 << 20);   // 21 rungs
+    Random random = {.state = 6};
+    RigDef def = rig_def();
+    CertificateRig on;
+    Ladder all, between;
+    def.block.length = 100;
+    def.block.height = 50;
+    def.rod_height = 25;
+    def.rod_width = 10;
+    certificate_rig_build(&def, longest, shortest, &on);
+    ladder_init(&on.rig.system, longest, shortest, &all);
+    ladder_init(&on.rig.system, longest * M_SQRT1_2, shortest, &between);
+    build_rungs(&all, 1);
+    build_rungs(&between, 1);
+    int32_t excluded = 0, hidden = 0;
+    for (int32_t trial = 0; trial < 100; trial++) {
+        ladder_destroy(&on.ladder);   // what the certificate built
+        ladder_init(&on.rig.system, longest, shortest, &on.ladder);
+        build_rungs(&on.ladder, apart);
+        random_state(&random, &on.rig, 1, &on.seen);
+        double largest = fmax(largest_ratio(&on, &all), largest_ratio(&on, &between));
+        double wanted = random_between(&random, 0.9, 1.2);
+        if (largest == 0) continue;
+        press(&on.rig.interface, wanted / largest, &on.seen);
+        bool seen = largest_ratio(&on, &on.ladder) >= 1;
+        bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder);
+        if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
+        excluded += excludes;
+        hidden += !excludes && !seen;
+    }
+    print_message("%d apart: %d excluded; %d run away and show on no rung that was built\n", apart,
+                  excluded, hidden);
+    assert_true(excluded > 15 && hidden > 15);
+    ladder_destroy(&between);
+    ladder_destroy(&all);
+    certificate_rig_destroy(&on);
+}
+
+static void test_holes(void **state)
+{
+    (void)state;
+    check_holes(20);
+    check_holes(4);
+}
+
 // All nodes slip, just below v_c, where mu_kinetic = 0 leaves no friction and S - W is symmetric.
 // Node i weakens by `part` of S's diagonal there, less `spread` of that times i: all nodes bear
 // nearly the same, as on a short step. Returns the largest ratio, from eigenvalues.
@@ -250,15 +326,15 @@ static double alike_state(const BlockRig *rig, const double *schur, double part,
     int32_t n = interface->contact_count;
     double weak[UNKNOWNS_MAX], a[UNKNOWNS_MAX * UNKNOWNS_MAX], values[UNKNOWNS_MAX];
     for (int32_t i = 0; i < n; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = plane_tangent(i);
         weak[i] = part * (1 - spread * i) * schur[t * interface->count + t];
         seen->status[i] = CONTACT_SLIP_FORWARD;
         seen->slip_rate[t] = (1 - 1e-9) * law->critical_velocity;
-        seen->reaction[interface_normal(i)] = weak[i] * law->critical_velocity / law->mu_static;
+        seen->reaction[plane_normal(i)] = weak[i] * law->critical_velocity / law->mu_static;
     }
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = 0; j < n; j++)
-            a[i * n + j] = schur[interface_tangent(i) * interface->count + interface_tangent(j)] /
+            a[i * n + j] = schur[plane_tangent(i) * interface->count + plane_tangent(j)] /
                            sqrt(weak[i] * weak[j]);
     hand_eigenvalues(a, n, values);
     return 1 / values[0];
@@ -292,8 +368,9 @@ static void test_load_of_nodes_alike(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_states), cmocka_unit_test(test_all_rungs),
-        cmocka_unit_test(test_load), cmocka_unit_test(test_load_of_nodes_alike)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states),
+                                       cmocka_unit_test(test_all_rungs),
+                                       cmocka_unit_test(test_load), cmocka_unit_test(test_holes),
+                                       cmocka_unit_test(test_load_of_nodes_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

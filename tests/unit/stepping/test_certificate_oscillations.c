@@ -4,6 +4,7 @@
 #include "stepping/certificate.h"
 
 #include "certificate_rig.h"
+#include "plane.h"
 
 enum { DOFS_MAX = 64 };
 
@@ -43,12 +44,12 @@ static void slip_up_to(Fixture *fixture, int32_t lifted, int32_t last, double we
     double slope = (law->mu_static - law->mu_kinetic) / law->critical_velocity;
     for (int32_t i = 0; i < fixture->built.seen.contact_count; i++) {
         fixture->built.seen.status[i] = i <= last ? CONTACT_SLIP_FORWARD : CONTACT_STICK;
-        fixture->built.seen.slip_rate[interface_tangent(i)] =
-            i <= last ? 0.1 * law->critical_velocity : 0;
-        fixture->built.seen.reaction[interface_normal(i)] = weak / slope;
+        fixture->built.seen.slip_rate[plane_tangent(i)] = i <= last ? 0.1 * law->critical_velocity
+                                                                    : 0;
+        fixture->built.seen.reaction[plane_normal(i)] = weak / slope;
         if (i >= lifted) continue;
         fixture->built.seen.status[i] = CONTACT_OPEN;
-        fixture->built.seen.reaction[interface_normal(i)] = 0;
+        fixture->built.seen.reaction[plane_normal(i)] = 0;
     }
 }
 

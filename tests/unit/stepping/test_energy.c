@@ -46,7 +46,7 @@ static void test_stored(void **state)
 static void test_stage_powers(void **state)
 {
     (void)state;
-    Interface interface = {.contact_count = 2, .rod_count = 2, .count = 6};
+    Interface interface = {.dim = 2, .contact_count = 2, .rod_count = 2, .count = 6};
     double v[] = {1, 10, -2, 20, 3, 4}, r[] = {-0.5, 7, 0.25, 9, 6, 1};
     double bulk_velocity[] = {1, 2, 3}, viscous_force[] = {5, 6, -1};
     ContactSolution contact = {.velocity = v, .reaction = r};

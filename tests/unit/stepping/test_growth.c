@@ -261,8 +261,7 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
     case_build_block(&test, &def, &SOFT);
     if (reduced) {
         double *rotation = hand_matrix(test.interface.count, 1);
-        ReductionDef how = {
-            1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false, {NULL, NULL}};
+        ReductionDef how = {1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false};
         assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
                                     &test.reduced, &err));
         assert_true(bulk_operator_reduce(&test.reduced, rotation, 1, &test.system, &err));
@@ -383,7 +382,7 @@ static void column_build(Case *test, double shear, double eta, double density, d
     int32_t nodes = LAYERS + 1, n = 2 * nodes;
     double h = height / LAYERS;
     Bulk *bulk = &test->bulk;
-    *bulk = (Bulk){.dof_count = n};
+    *bulk = (Bulk){.dim = 2, .dof_count = n};
     bulk->pattern.size = n;
     bulk->pattern.start = NEW_ARRAY(int32_t, n + 1, &err);
     bulk->pattern.index = NEW_ARRAY(int32_t, 3 * n, &err);
@@ -406,7 +405,8 @@ static void column_build(Case *test, double shear, double eta, double density, d
         bulk->pattern.start[dof + 1] = entry;
     }
     Interface *interface = &test->interface;
-    *interface = (Interface){.contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
+    *interface =
+        (Interface){.dim = 2, .contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
     interface->dofs = NEW_ARRAY(int32_t, 3, &err);
     interface->x = NEW_ARRAY(double, 1, &err);
     interface->weight = NEW_ARRAY(double, 1, &err);

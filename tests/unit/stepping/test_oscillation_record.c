@@ -3,6 +3,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "block_rig.h"
+#include "plane.h"
 
 static const double LONG = 20, PRESSURE = 1e-3;
 
@@ -33,8 +34,8 @@ static void fixture_destroy(Fixture *fixture)
 static void slip(Fixture *fixture, int32_t i, double part, double pressing)
 {
     fixture->seen.status[i] = CONTACT_SLIP_FORWARD;
-    fixture->seen.slip_rate[interface_tangent(i)] = part * fixture->rig.law.critical_velocity;
-    fixture->seen.reaction[interface_normal(i)] = pressing;
+    fixture->seen.slip_rate[plane_tangent(i)] = part * fixture->rig.law.critical_velocity;
+    fixture->seen.reaction[plane_normal(i)] = pressing;
 }
 
 static void see(Fixture *fixture, double time)

@@ -4,6 +4,7 @@
 #include "stepping/relaxation.h"
 
 #include "block_rig.h"
+#include "plane.h"
 #include "contact/contact_check.h"
 
 static const double PRESSURE = 0.003;
@@ -46,11 +47,11 @@ static void test_frictionless_is_exact(void **state)
         relax_rig(&def, 1e-14, &rig, &control);
         double normal = 0, moment = 0, middle = 0, area = 0;
         for (int32_t i = 0; i < rig.interface.contact_count; i++) {
-            double r = control.now.reaction[interface_normal(i)];
+            double r = control.now.reaction[plane_normal(i)];
             normal += r;
             moment += r * rig.interface.x[i];
             assert_near("pressure", r / rig.interface.weight[i], PRESSURE, 1e-9 * PRESSURE);
-            assert_near("shear", control.now.reaction[interface_tangent(i)], 0, 1e-11 * PRESSURE);
+            assert_near("shear", control.now.reaction[plane_tangent(i)], 0, 1e-11 * PRESSURE);
         }
         assert_near("resultant", normal, PRESSURE, 1e-10 * PRESSURE);
         assert_near("moment", moment, PRESSURE / 2, 1e-9 * PRESSURE);
@@ -91,7 +92,7 @@ static void test_friction_holds(void **state)
     assert_all_near("K u - r", force, rig.bulk.load, n, 1e-8);
     double normal = 0, shear = 0;
     for (int32_t i = 0; i < rig.interface.contact_count; i++) {
-        double t = now->reaction[interface_tangent(i)], p = now->reaction[interface_normal(i)];
+        double t = now->reaction[plane_tangent(i)], p = now->reaction[plane_normal(i)];
         assert_true(fabs(t) <= 0.38 * p * (1 + 1e-9));
         normal += p;
         shear += t;

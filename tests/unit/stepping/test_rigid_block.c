@@ -4,6 +4,7 @@
 // which the certificate must see coming.
 #include "block_rig.h"
 #include "own_laws.h"
+#include "plane.h"
 
 static const double PRESSURE = 0.003, HEIGHT = 0.1;
 
@@ -33,7 +34,7 @@ static void set_velocity(StepControl *control, double velocity)
     bulk_operator_apply(control->scheme.system, BULK_MASS, now->velocity, now->momentum);
     for (int32_t i = 0; i < now->contact_count; i++) {
         now->status[i] = CONTACT_SLIP_FORWARD;
-        now->slip_rate[interface_tangent(i)] = velocity;
+        now->slip_rate[plane_tangent(i)] = velocity;
     }
     step_control_restart(control);
 }

@@ -4,6 +4,7 @@
 #include "stepping/sdirk.h"
 
 #include "block_rig.h"
+#include "plane.h"
 
 typedef struct Stepper {
     BlockRig rig;
@@ -79,7 +80,7 @@ static void reference_rate(const Reference *ref, const double *u, const double *
     for (int32_t i = 0; i < ref->n; i++)
         a[i] = (ref->bulk->load[i] - a[i] - damped[i]) / ref->bulk->mass[i];
     for (int32_t i = 0; i < ref->interface->contact_count; i++)
-        a[ref->interface->dofs[interface_normal(i)]] = 0;
+        a[ref->interface->dofs[plane_normal(i)]] = 0;
     free(damped);
 }
 
@@ -352,8 +353,8 @@ static void test_sliding_block(void **state)
     double shear = 0, normal = 0;
     for (int32_t i = 0; i < 5; i++) {
         assert_int_equal(stepper.now.status[i], CONTACT_SLIP_FORWARD);
-        shear += stepper.now.reaction[interface_tangent(i)];
-        normal += stepper.now.reaction[interface_normal(i)];
+        shear += stepper.now.reaction[plane_tangent(i)];
+        normal += stepper.now.reaction[plane_normal(i)];
     }
     assert_near("weight carried", normal, 0.003, 1e-7);
     assert_near("friction", shear, -0.2 * normal, 1e-15);

@@ -12,7 +12,7 @@ enum { CHAIN = 50 };
 static Bulk chain_build(double mass, double spring, double dashpot)
 {
     Error err = {0};
-    Bulk bulk = {.dof_count = 2 * CHAIN};
+    Bulk bulk = {.dim = 2, .dof_count = 2 * CHAIN};
     bulk.pattern.size = bulk.dof_count;
     bulk.pattern.start = NEW_ARRAY(int32_t, bulk.dof_count + 1, &err);
     bulk.pattern.index = NEW_ARRAY(int32_t, 3 * bulk.dof_count, &err);

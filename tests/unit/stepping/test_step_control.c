@@ -273,6 +273,26 @@ static void test_allocations(void **state)
     pushed_destroy(&run);
 }
 
+// Before the first step, when no rung is built, any way left is one to go; where no rung resolves
+// waves the shortest is the first.
+static void test_before_the_first_step(void **state)
+{
+    (void)state;
+    Error err = {0};
+    BlockRig rig;
+    StepControl control;
+    RigDef def = pushed_def(4);
+    StepControlDef steps = pushed_steps();
+    steps.step_min = 2 * steps.wave_step;
+    rig_build(&def, &rig);
+    assert_true(step_control_create(&rig.block, &steps, &control, &err));
+    assert_true(step_control_fits(&control, 1e-30));
+    assert_false(step_control_fits(&control, 0));
+    assert_int_equal(control.rung, control.ladder.rung_count - 1);
+    step_control_destroy(&control);
+    rig_destroy(&rig);
+}
+
 static void test_memory_faults(void **state)
 {
     (void)state;
@@ -310,6 +330,7 @@ int main(void)
         cmocka_unit_test(test_standstill),
         cmocka_unit_test(test_long_runs),
         cmocka_unit_test(test_allocations),
+        cmocka_unit_test(test_before_the_first_step),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,6 +31,8 @@ typedef struct SweepPoint {
     int32_t runs;   // points that step on the same basis, this one too (block_counts)
     double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
     bool settled;   // a smaller accuracy is of no use
+    bool refined;   // its result has that accuracy,
+    double moved;   // and its value moved by so many of the error bars before, the most of a round
     double seconds;   // in this sweep
 } SweepPoint;
 

@@ -9,6 +9,24 @@
 
 #include <math.h>
 
+// What the study ranks by, or mu_M, in the report of a point that is done.
+static void read_quantity(const Study *study, const char *report, SweepView *view)
+{
+    const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
+    const char *path = ranked ? ranked->path : "results.mu_M";
+    char beside[STUDY_NAME_SIZE + 16];
+    double error = NAN;
+    view->quantity = ranked ? ranked->name : "mu_M";
+    if (!report) return;
+    json_find_number(report, path, &view->value);
+    snprintf(beside, sizeof beside, "%s_error", path);
+    json_find_number(report, beside, &error);
+    snprintf(beside, sizeof beside, "%s_known_to", path);
+    if (!json_find_number(report, beside, &view->known_to))
+        view->known_to = isnan(error) ? 0 : error;
+    if (error == view->known_to) view->bar = error;
+}
+
 // Reports to the caller that point `k` has ended and left `report` (NULL: none).
 static void report_point(Sweep *sweep, int32_t k, const char *report)
 {
@@ -25,12 +43,16 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     SweepView view = {.words = words,
                       .mu_M = NAN,
                       .mu_M_error = NAN,
+                      .value = NAN,
+                      .bar = NAN,
+                      .known_to = NAN,
                       .seconds = point->seconds,
                       .seconds_left = NAN,
                       .finished = sweep->finished,
                       .failed = sweep->failed,
                       .points = sweep->planned,
                       .reused = point->reused};
+    read_quantity(&sweep->study, report, &view);
     if (report) {
         json_find_number(report, "results.mu_M", &view.mu_M);
         json_find_number(report, "results.mu_M_error", &view.mu_M_error);

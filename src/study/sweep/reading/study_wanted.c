@@ -114,6 +114,15 @@ static bool read_record(Study *study, YamlNode node, const char *what, int32_t *
     return find_record(study, &wanted, column, err);
 }
 
+// A column that every table has, asked for or not.
+static bool is_always_there(const char *name)
+{
+    static const char *const names[] = {"status", "message", "warnings", "run"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (name && strcmp(name, names[k]) == 0) return true;
+    return false;
+}
+
 // Without `record`, the standard columns of STUDY_RECORDS.
 static bool read_records(Study *study, Error *err)
 {
@@ -130,7 +139,8 @@ static bool read_records(Study *study, Error *err)
         return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
     for (YamlNode item = yaml_first(study->file, list); item != YAML_NO_NODE;
          item = yaml_next(study->file, item))
-        TRY(read_record(study, item, "record", &ignored, err));
+        if (!is_always_there(yaml_text(study->file, item)))
+            TRY(read_record(study, item, "record", &ignored, err));
 cleanup:
     return error_is_clean(err);
 }

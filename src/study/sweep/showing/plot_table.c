@@ -139,6 +139,9 @@ static bool read_column(PlotTable *table, const char *name, Quantity *column, Er
         return false;
     }
     column->label = label_of_record(name);
+    snprintf(place, sizeof place, "result/%.80s_known_to", name);
+    TRY(read_values(table, place, &column->errors, err));
+    if (column->errors) return true;
     snprintf(place, sizeof place, "result/%.80s_error", name);
     TRY(read_values(table, place, &column->errors, err));
 cleanup:

@@ -2,22 +2,24 @@
 // A study's points in the order of one result. The order of two points is decided where their
 // values differ by more than both errors, taken as independent: |a - b| > sqrt(e_a^2 + e_b^2). A
 // point's rank lies between one more than the points that are decidedly better and the number of
-// those that are not decidedly worse. An error that is not known decides nothing.
+// those that are not decidedly worse. An error that is not known decides nothing; where there is no
+// error bar it is what a mesh usually leaves (record/error_bars).
 //
 // A gain is g = a / b - 1 over the baseline b; to first order its error is that of a / b,
 // sqrt((e_a / b)^2 + (a e_b / b^2)^2), and 0 for the baseline itself.
 #include "study/sweep/showing/rank.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/text/csv_writer.h"
-#include "io/text/json_reader.h"
 #include "study/sweep/reading/study_point.h"
+#include "study/sweep/showing/rank_notes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6, BLOCK = 256 };
+enum { CELL_SIZE = 80, CELLS_MAX = STUDY_COLUMNS_MAX + 6, BLOCK = 256 };
 
 // --- order --------------------------------------------------------------------------------------
 
@@ -109,6 +111,30 @@ cleanup:
     return error_is_clean(err);
 }
 
+static void look_at_refined(const Sweep *sweep, Ranking *ranking)
+{
+    for (int32_t k = 0; k < ranking->count; k++) {
+        const SweepPoint *point = &sweep->points[k];
+        if (!point->refined || point->same_as != k) continue;
+        ranking->refined++;
+        ranking->moved = fmax(ranking->moved, point->moved);
+    }
+}
+
+// How far each is known, beside those that were refined.
+static RankRow row_of(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                      int32_t point)
+{
+    int32_t record = sweep->study.rank.record;
+    double error = table_errors(sweep, table, record)[point];
+    double known_to = table_known_to(sweep, table, record)[point];
+    double times = sweep->points[point].refined ? 1 : fmax(ranking->moved, 1);
+    return (RankRow){.point = point,
+                     .value = table_values(sweep, table, record)[point],
+                     .error = times * known_to,
+                     .bar = error == known_to ? error : (double)NAN};
+}
+
 static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
                       RankRow *row)
 {
@@ -116,7 +142,7 @@ static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking
     row->gain = row->gain_error = NAN;
     if (base < 0) return;
     double value = table_values(sweep, table, record)[base];
-    double error = table_errors(sweep, table, record)[base];
+    double error = row_of(sweep, table, ranking, base).error;
     bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
     row->gain = row->value / value - 1;
     row->gain_error = itself ? 0 * row->error
@@ -128,19 +154,19 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
 {
     const Study *study = &sweep->study;
     double sign = study->rank.lowest ? -1 : 1;
-    const double *values = table_values(sweep, table, study->rank.record);
-    const double *errors = table_errors(sweep, table, study->rank.record);
     *ranking =
         (Ranking){.count = study->point_count, .has_error = table->has_error[study->rank.record]};
     TRY((ranking->rows = NEW_ARRAY(RankRow, study->point_count, err)));
+    look_at_refined(sweep, ranking);
     for (int32_t k = 0; k < ranking->count; k++) {
-        ranking->rows[k] = (RankRow){.point = k, .value = sign * values[k], .error = errors[k]};
-        ranking->ranked += !isnan(values[k]);
+        ranking->rows[k] = row_of(sweep, table, ranking, k);
+        ranking->rows[k].value *= sign;
+        ranking->ranked += !isnan(ranking->rows[k].value);
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
     if (ranking->has_error) TRY(find_places(ranking, err));
     int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
-    ranking->base = base < 0 ? (double)NAN : values[base];
+    ranking->base = base < 0 ? (double)NAN : table_values(sweep, table, study->rank.record)[base];
     for (int32_t k = 0; k < ranking->count; k++) {
         ranking->rows[k].value *= sign;
         find_gain(sweep, table, ranking, &ranking->rows[k]);
@@ -156,59 +182,13 @@ void ranking_destroy(Ranking *ranking)
     *ranking = (Ranking){0};
 }
 
-// --- notes --------------------------------------------------------------------------------------
-
-static void add_note(char note[NOTE_SIZE], const char *words)
-{
-    size_t used = strlen(note);
-    snprintf(note + used, NOTE_SIZE - used, "%s%s", used ? ", " : "", words);
-}
-
-// Of the values behind the result that is ranked; NaN: not known.
-static double period_of(const Study *study, const char *report)
-{
-    bool holds = strcmp(ranked_by(study)->path, "results.mu_hold") == 0;
-    double period = NAN;
-    json_find_number(report, holds ? "results.drops.period" : "results.period", &period);
-    return period;
-}
-
-// What makes a value or its rank doubtful.
-static bool row_notes(const Sweep *sweep, const Ranking *ranking, const RankRow *row,
-                      char note[NOTE_SIZE], Error *err)
-{
-    PointStatus status = sweep->points[row->point].status;
-    char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
-    char text[60], warning[8];
-    double enough = 1, over = 1, period = report ? period_of(&sweep->study, report) : (double)NAN;
-    *note = 0;
-    TRY(error_is_clean(err));
-    if (status != POINT_DONE) add_note(note, point_status_name(status));
-    if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
-    snprintf(text, sizeof text, "not decided between %d and %d", row->from, row->to);
-    if (row->from < row->to) add_note(note, text);
-    if (ranking->has_error && !isnan(row->value) && isnan(row->error))
-        add_note(note, "error not known");
-    if (period == 0) add_note(note, "not periodic");
-    if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_hold") == 0 &&
-        json_find_number(report, "results.drops.enough", &enough) && enough == 0)
-        add_note(note, "too few drops");
-    if (report && json_find_number(report, "results.run_in.over", &over) && over == 0)
-        add_note(note, "run-in not over");
-    if (period > 1) add_note(note, "by turns");
-    if (report && json_find_text(report, "warnings.0", warning, sizeof warning))
-        add_note(note, "warned");
-cleanup:
-    memory_free(report);
-    return error_is_clean(err);
-}
-
 // --- ranking.csv --------------------------------------------------------------------------------
 
 static void write_head(CsvWriter *csv, const Study *study)
 {
-    char error[STUDY_NAME_SIZE + 8];
+    char error[STUDY_NAME_SIZE + 16], known_to[STUDY_NAME_SIZE + 16];
     snprintf(error, sizeof error, "%s_error", ranked_by(study)->name);
+    snprintf(known_to, sizeof known_to, "%s_known_to", ranked_by(study)->name);
     csv_text(csv, "rank");
     csv_text(csv, "rank_from");
     csv_text(csv, "rank_to");
@@ -216,6 +196,7 @@ static void write_head(CsvWriter *csv, const Study *study)
     for (int32_t k = 0; k < study->column_count; k++) csv_text(csv, study->columns[k]);
     csv_text(csv, ranked_by(study)->name);
     csv_text(csv, error);
+    csv_text(csv, known_to);
     csv_text(csv, "gain_percent");
     csv_text(csv, "gain_percent_error");
     csv_text(csv, "note");
@@ -228,12 +209,12 @@ static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *tabl
                       const Ranking *ranking, const RankRow *row, Error *err)
 {
     const Study *study = &sweep->study;
-    char cell[SCENE_TEXT_SIZE], note[NOTE_SIZE];
+    char cell[SCENE_TEXT_SIZE], note[RANK_NOTE_SIZE];
     double ignored = 0;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY(point_scene(sweep, row->point, scene, err));
-    TRY(row_notes(sweep, ranking, row, note, err));
+    TRY(rank_notes(sweep, ranking, row, note, err));
     csv_number(csv, isnan(row->value) ? (double)NAN : (double)(row - ranking->rows) + 1);
     csv_number(csv, row->from > 0 ? row->from : (double)NAN);
     csv_number(csv, row->to > 0 ? row->to : (double)NAN);
@@ -243,6 +224,7 @@ static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *tabl
         csv_text(csv, cell);
     }
     csv_number(csv, row->value);
+    csv_number(csv, table_errors(sweep, table, study->rank.record)[row->point]);
     csv_number(csv, row->error);
     csv_number(csv, 100 * row->gain);
     csv_number(csv, 100 * row->gain_error);
@@ -272,10 +254,10 @@ cleanup:
 
 // --- on the terminal ----------------------------------------------------------------------------
 
-// A line of the printed table: rank, the keys chosen, value, its error, gain, its error, note.
+// A line of the printed table: rank, the keys chosen, value, gain, note.
 typedef struct PrintedRow {
     char cells[CELLS_MAX][CELL_SIZE];
-    char note[NOTE_SIZE];
+    char note[RANK_NOTE_SIZE];
 } PrintedRow;
 
 static char *add_cell(PrintedRow *row, int32_t *count)
@@ -283,15 +265,22 @@ static char *add_cell(PrintedRow *row, int32_t *count)
     return row->cells[(*count)++];
 }
 
-// NaN: `?`.
-static void add_number(PrintedRow *row, int32_t *count, const char *format, double value)
+// "+8.1 +- 0.4 %"; without an error bar to the digits that are known, "+8 %". NaN: `?`.
+static void add_gain(PrintedRow *row, int32_t *count, const RankRow *from)
 {
     char *cell = add_cell(row, count);
-    snprintf(cell, CELL_SIZE, isfinite(value) ? format : "?", value);
+    bool has_bar = !isnan(from->bar) && !isnan(from->gain_error);
+    double gain = 100 * from->gain, error = 100 * from->gain_error;
+    if (isnan(gain))
+        snprintf(cell, CELL_SIZE, "?");
+    else if (has_bar)
+        snprintf(cell, CELL_SIZE, "%+.1f +- %.1f %%", gain, error);
+    else
+        snprintf(cell, CELL_SIZE, "%+.*f %%", error > 0.1 ? 0 : 1, gain);
 }
 
 // Row 0 is the head. *count: cells in a row.
-static void print_head(const Study *study, bool has_error, PrintedRow *row, int32_t *count)
+static void print_head(const Study *study, PrintedRow *row, int32_t *count)
 {
     *count = 0;
     snprintf(add_cell(row, count), CELL_SIZE, "rank");
@@ -299,9 +288,7 @@ static void print_head(const Study *study, bool has_error, PrintedRow *row, int3
         if (study_is_chosen(study, study->columns[k]))
             snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
     snprintf(add_cell(row, count), CELL_SIZE, "%.79s", ranked_by(study)->name);
-    if (has_error) snprintf(add_cell(row, count), CELL_SIZE, "+-");
     snprintf(add_cell(row, count), CELL_SIZE, "gain");
-    if (has_error) snprintf(add_cell(row, count), CELL_SIZE, "+-");
 }
 
 // Key columns that follow from formulas are left out: they tell no point from another.
@@ -315,15 +302,14 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY(point_scene(sweep, from->point, scene, err));
-    add_number(row, &count, "%.0f", k + 1);
+    snprintf(add_cell(row, &count), CELL_SIZE, "%d", k + 1);
     for (int32_t c = 0; c < study->column_count; c++)
         if (study_is_chosen(study, study->columns[c]))
             study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
-    add_number(row, &count, "%.4g", from->value);
-    if (ranking->has_error) add_number(row, &count, "%.2g", from->error);
-    add_number(row, &count, "%+.1f %%", 100 * from->gain);
-    if (ranking->has_error) add_number(row, &count, "%.1f %%", 100 * from->gain_error);
-    TRY(row_notes(sweep, ranking, from, row->note, err));
+    text_estimate(from->value, from->bar, ranking->has_error ? from->error : 0,
+                  add_cell(row, &count));
+    add_gain(row, &count, from);
+    TRY(rank_notes(sweep, ranking, from, row->note, err));
 cleanup:
     memory_free(scene);
     return error_is_clean(err);
@@ -356,6 +342,54 @@ cleanup:
     return error_is_clean(err);
 }
 
+static void print_refined(const Ranking *ranking, FILE *out)
+{
+    if (ranking->refined == 0) return;
+    fprintf(
+        out,
+        "  %d of %d points were computed again with smaller error bars, and moved by up to %.1f "
+        "of those before",
+        ranking->refined, ranking->ranked, ranking->moved);
+    if (ranking->moved > 1 && ranking->refined < ranking->ranked)
+        fprintf(out, ": bars of the others count as %.1f times as long in ranks", ranking->moved);
+    fprintf(out, "\n");
+}
+
+// Ends of a key's values; *distinct: how many there are, at most three.
+static void ends_of(const double *values, int32_t count, double ends[2], int32_t *distinct)
+{
+    double third = NAN;
+    ends[0] = ends[1] = values[0];
+    for (int32_t k = 1; k < count; k++) {
+        ends[0] = fmin(ends[0], values[k]);
+        ends[1] = fmax(ends[1], values[k]);
+    }
+    for (int32_t k = 0; k < count; k++)
+        if (values[k] > ends[0] && values[k] < ends[1]) third = values[k];
+    *distinct = isnan(third) ? 1 + (ends[1] > ends[0]) : 3;
+}
+
+// Keys of which the best point has the least or the largest of three values or more.
+static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                        FILE *out)
+{
+    const Study *study = &sweep->study;
+    bool found = false;
+    for (int32_t c = 0; c < study->column_count; c++) {
+        const double *values = &table->keys[(int64_t)c * study->point_count];
+        double ends[2], best = values[ranking->rows[0].point];
+        int32_t distinct;
+        if (!study_is_chosen(study, study->columns[c]) || table->words[c].count > 0) continue;
+        ends_of(values, study->point_count, ends, &distinct);
+        if (distinct < 3 || (best > ends[0] && best < ends[1])) continue;
+        fprintf(out, "%s%s = %.6g",
+                found ? ", " : "  The best is at the edge of what was varied: ", study->columns[c],
+                best);
+        found = true;
+    }
+    if (found) fprintf(out, "; look beyond\n");
+}
+
 // rows: [shown + 1] with the head; every cell but the note to the right of its column.
 static void print_rows(const PrintedRow *rows, int32_t shown, int32_t cells, FILE *out)
 {
@@ -373,7 +407,7 @@ static void print_rows(const PrintedRow *rows, int32_t shown, int32_t cells, FIL
 }
 
 // Nothing is printed where the caller wants nothing (options->out NULL).
-bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err)
+bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
 {
     FILE *out = sweep->options->out;
     int32_t cells = 0, shown = ranking->ranked;
@@ -381,12 +415,14 @@ bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err)
     if (!out) return true;
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
     TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
-    print_head(&sweep->study, ranking->has_error, &rows[0], &cells);
+    print_head(&sweep->study, &rows[0], &cells);
     for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
     TRY(print_title(sweep, ranking->has_error, out, err));
     print_rows(rows, shown, cells, out);
     if (ranking->count > shown)
         fprintf(out, "  ... %d more in ranking.csv\n", ranking->count - shown);
+    print_refined(ranking, out);
+    if (ranking->ranked > 0) print_edges(sweep, table, ranking, out);
 cleanup:
     memory_free(rows);
     return error_is_clean(err);

@@ -3,27 +3,13 @@
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_RANK_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_RANK_H
 
+#include "study/sweep/showing/ranking.h"
 #include "study/sweep/showing/table.h"
-
-typedef struct RankRow {
-    int32_t point;
-    double value;   // what it is ranked by
-    double error;   // of it; NaN: not known
-    double gain, gain_error;   // over the baseline, 1; NaN: there is none, or not known
-    int32_t from, to;   // ranks that it may have, given the errors; alike: it is decided
-} RankRow;
-
-typedef struct Ranking {
-    RankRow *rows;   // [count] the best first; points without a value last; owned
-    int32_t count, ranked;   // all points; those with a value
-    bool has_error;   // the result has an error in run.json
-    double base;   // the value that gains are measured from; NaN: each row has its own
-} Ranking;
 
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err);
 bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
 // The first rows, as many as `rank` says, to options->out.
-bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err);
+bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
 void ranking_destroy(Ranking *ranking);   // zeroed is fine
 
 #endif

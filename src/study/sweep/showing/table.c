@@ -4,7 +4,7 @@
 // warnings, run.
 //
 // What run.json holds as NAME_error beside a result NAME is that result's error, whatever the
-// result: it becomes the next column, asked for or not.
+// result: it becomes the next column, asked for or not. So does NAME_known_to.
 //
 // Both files hold the same rows: the CSV for spreadsheets and readers, the arrays for programs. An
 // array has no words: a word is its index in a list that is an attribute beside its column.
@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, PATH_SIZE = STUDY_NAME_SIZE + 8 };
+enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, PATH_SIZE = STUDY_NAME_SIZE + 16 };
 
 typedef struct TableWriter {
     const Sweep *sweep;
@@ -30,20 +30,38 @@ typedef struct TableWriter {
 
 // --- errors -------------------------------------------------------------------------------------
 
-static void error_name_of(const char *name, char error[PATH_SIZE])
+// What stands beside a record: NAME_error, NAME_known_to.
+typedef struct Beside {
+    const char *ending;
+    const bool *has;   // [record_count] run.json has it
+    double *values;   // as in the table
+    const char *description;
+} Beside;
+
+enum { BESIDES = 2 };
+
+static void find_besides(const SweepTable *table, Beside besides[BESIDES])
 {
-    snprintf(error, PATH_SIZE, "%s_error", name);
+    besides[0] =
+        (Beside){"error", table->has_error, table->errors, "error of the column without `_error`"};
+    besides[1] = (Beside){"known_to", table->has_known_to, table->known_to,
+                          "how far the column without `_known_to` is known"};
 }
 
-// Whether the table gets a column for the error of record `k`: there is one, and the study does not
-// record it by itself.
-static bool adds_error(const Study *study, const SweepTable *table, int32_t k)
+static void name_beside(const char *name, const Beside *beside, char text[PATH_SIZE])
+{
+    snprintf(text, PATH_SIZE, "%s_%s", name, beside->ending);
+}
+
+// Whether the table gets a column for it: run.json has it, and the study does not record it by
+// itself.
+static bool is_added(const Study *study, const Beside *beside, int32_t k)
 {
     char path[PATH_SIZE];
-    error_name_of(study->records[k].path, path);
+    name_beside(study->records[k].path, beside, path);
     for (int32_t i = 0; i < study->record_count; i++)
         if (strcmp(study->records[i].path, path) == 0) return false;
-    return table->has_error[k];
+    return beside->has[k];
 }
 
 // Every run.json of one version has the same keys, so the first that is done tells for all.
@@ -57,8 +75,10 @@ static bool find_errors(const Sweep *sweep, SweepTable *table, Error *err)
         TRY(error_is_clean(err));
     }
     for (int32_t k = 0; report && k < study->record_count; k++) {
-        error_name_of(study->records[k].path, path);
+        snprintf(path, sizeof path, "%s_error", study->records[k].path);
         table->has_error[k] = json_may_hold(report, path);
+        snprintf(path, sizeof path, "%s_known_to", study->records[k].path);
+        table->has_known_to[k] = json_may_hold(report, path);
     }
 cleanup:
     memory_free(report);
@@ -75,6 +95,12 @@ const double *table_errors(const Sweep *sweep, const SweepTable *table, int32_t 
     return table->errors + (int64_t)record * sweep->study.point_count;
 }
 
+const double *table_known_to(const Sweep *sweep, const SweepTable *table, int32_t record)
+{
+    const double *known = table->has_known_to[record] ? table->known_to : table->errors;
+    return known + (int64_t)record * sweep->study.point_count;
+}
+
 // --- sweep.csv ----------------------------------------------------------------------------------
 
 // Names as the study has them: `record` may rename a path.
@@ -84,10 +110,14 @@ static void write_head(TableWriter *writer)
     csv_text(writer->csv, "point");
     for (int32_t k = 0; k < study->column_count; k++) csv_text(writer->csv, study->columns[k]);
     for (int32_t k = 0; k < study->record_count; k++) {
-        char error[PATH_SIZE];
+        Beside besides[BESIDES];
+        char name[PATH_SIZE];
         csv_text(writer->csv, study->records[k].name);
-        error_name_of(study->records[k].name, error);
-        if (adds_error(study, writer->table, k)) csv_text(writer->csv, error);
+        find_besides(writer->table, besides);
+        for (int32_t b = 0; b < BESIDES; b++) {
+            name_beside(study->records[k].name, &besides[b], name);
+            if (is_added(study, &besides[b], k)) csv_text(writer->csv, name);
+        }
     }
     csv_text(writer->csv, "status");
     csv_text(writer->csv, "message");
@@ -114,15 +144,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Whether the error of record `k` is known but for its part of the mesh.
-static bool leaves_out_mesh(const Study *study, const char *report, int32_t k, double error)
-{
-    char path[STUDY_NAME_SIZE + 24];
-    double mesh = 0;
-    snprintf(path, sizeof path, "%s_error_parts.mesh", study->records[k].path);
-    return isfinite(error) && json_find_number(report, path, &mesh) && isnan(mesh);
-}
-
 // "no mu_M: the block as a whole did not slide in this run": as run.json says it of mu_M; what else
 // a run has not it has not for the same reason.
 static void why_missing(const StudyRecord *record, const char *report, char text[RUN_WARNING_SIZE])
@@ -140,32 +161,52 @@ static void why_missing(const StudyRecord *record, const char *report, char text
 }
 
 // report: of a finished point, or NULL.
+static void write_besides(TableWriter *writer, int32_t point, int32_t k, const char *report)
+{
+    const Study *study = &writer->sweep->study;
+    Beside besides[BESIDES];
+    char path[PATH_SIZE];
+    find_besides(writer->table, besides);
+    for (int32_t b = 0; b < BESIDES; b++) {
+        double *value = &besides[b].values[k * study->point_count + point];
+        name_beside(study->records[k].path, &besides[b], path);
+        *value = NAN;
+        if (report) json_find_number(report, path, value);
+        if (is_added(study, &besides[b], k)) csv_number(writer->csv, *value);
+    }
+}
+
+// Of a point with a value of which more is usually open than its error says.
+static bool lacks_bar(const SweepTable *table, int64_t at)
+{
+    return isfinite(table->records[at]) && isfinite(table->known_to[at]) &&
+           table->known_to[at] != table->errors[at];
+}
+
 static void write_records(TableWriter *writer, int32_t point, const char *report)
 {
     const Study *study = &writer->sweep->study;
     SweepTable *table = writer->table;
     char text[RUN_WARNING_SIZE];
-    bool mesh_left_out = false;
+    bool no_bar = false;
     for (int32_t k = 0; k < study->record_count; k++) {
         const char *path = study->records[k].path;
-        double number = NAN, error = NAN;
+        double number = NAN;
+        int64_t at = (int64_t)k * study->point_count + point;
         bool is_number = !report || json_find_number(report, path, &number);
-        error_name_of(path, text);
-        if (report && isfinite(number)) json_find_number(report, text, &error);
         if (!is_number && json_find_text(report, path, writer->cell, CELL_SIZE))
             csv_text(writer->csv, writer->cell);
         else
             csv_number(writer->csv, number);
-        if (adds_error(study, table, k)) csv_number(writer->csv, error);
-        if (report) mesh_left_out |= leaves_out_mesh(study, report, k, error);
+        table->records[at] = number;
+        write_besides(writer, point, k, isfinite(number) ? report : NULL);
+        no_bar |= lacks_bar(table, at);
         if (report && study->records[k].is_shown && !isfinite(number)) {
             why_missing(&study->records[k], report, text);
             warned_add(&table->warned, point, text);
         }
-        table->records[k * study->point_count + point] = number;
-        table->errors[k * study->point_count + point] = error;
     }
-    table->mesh_left_out += mesh_left_out;
+    table->no_bar += no_bar;
 }
 
 // All warnings of a point in one cell, with // between them. report: as above.
@@ -294,10 +335,14 @@ static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile 
         ArraySeries series = {.name = name, .description = study->records[k].path};
         snprintf(name, sizeof name, "result/%s", study->records[k].name);
         TRY(write_column(file, series, &table->records[k * count], count, err));
-        if (!adds_error(study, table, k)) continue;
-        snprintf(name, sizeof name, "result/%s_error", study->records[k].name);
-        series.description = "error of the column without `_error`";
-        TRY(write_column(file, series, &table->errors[k * count], count, err));
+        Beside besides[BESIDES];
+        find_besides(table, besides);
+        for (int32_t b = 0; b < BESIDES; b++) {
+            if (!is_added(study, &besides[b], k)) continue;
+            snprintf(name, sizeof name, "result/%s_%s", study->records[k].name, besides[b].ending);
+            series.description = besides[b].description;
+            TRY(write_column(file, series, &besides[b].values[k * count], count, err));
+        }
     }
     ArraySeries status = {.name = "result/status", .description = "0 pending, 1 done, 2 failed"};
     TRY(write_column(file, status, table->status, count, err));
@@ -334,6 +379,7 @@ static bool make_room(const Study *study, SweepTable *table, Error *err)
     TRY((table->records = NEW_ARRAY(double, count * study->record_count, err)));
     TRY((table->status = NEW_ARRAY(double, count, err)));
     TRY((table->errors = NEW_ARRAY(double, count * study->record_count, err)));
+    TRY((table->known_to = NEW_ARRAY(double, count * study->record_count, err)));
     TRY((table->warnings = NEW_ARRAY(double, count, err)));
     table->column_count = study->column_count;
     TRY((table->words = NEW_ARRAY(WordList, study->column_count, err)));
@@ -371,6 +417,7 @@ void table_destroy(SweepTable *table)
     memory_free(table->keys);
     memory_free(table->records);
     memory_free(table->errors);
+    memory_free(table->known_to);
     memory_free(table->status);
     memory_free(table->warnings);
     for (int32_t k = 0; table->words && k < table->column_count; k++)

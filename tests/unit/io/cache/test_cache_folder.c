@@ -4,7 +4,7 @@
 #include "io/cache/cache_folder.h"
 
 #include "base/memory.h"
-#include "io/cache/cache_file.h"
+#include "io/cache/store.h"
 #include "cache_fixture.h"
 
 #include <fcntl.h>
@@ -65,27 +65,28 @@ static void test_longest_unused_goes_first(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-static void write_cache(char letter, const double *values)
+static void archive_values(void *values, Archive *archive)
 {
-    Error err = {0};
-    char path[CACHE_PATH_SIZE], key[33] = "";
-    CacheArray array = {.name = "values", .count = 100, .values = values};
+    archive_numbers(archive, values, 100);
+}
+
+static void write_cache(char letter, double *values)
+{
+    char note[CACHE_NOTE_SIZE], key[33] = "";
     memset(key, letter, 32);
-    assert_true(cache_file_path(key, "shape", path));
-    assert_true(cache_file_write(path, key, &array, 1, &err));
+    assert_true(cache_store(&(CacheItem){CACHE_SHAPE, key, archive_values, values}, note));
 }
 
 static void read_cache(char letter)
 {
     Error err = {0};
-    char path[CACHE_PATH_SIZE], key[33] = "", reason[CACHE_REASON_SIZE];
-    CacheFile file;
+    char key[33] = "";
+    double values[100];
     bool found = false;
     memset(key, letter, 32);
-    assert_true(cache_file_path(key, "shape", path));
-    assert_true(cache_file_read(path, key, &file, &found, reason, &err));
+    const CacheItem item = {CACHE_SHAPE, key, archive_values, values};
+    assert_true(cache_load(&item, NULL, &found, NULL, &err));
     assert_true(found);
-    cache_file_destroy(&file);
 }
 
 // Three files of some 1000 bytes where there is room for two: the one that was read stays.

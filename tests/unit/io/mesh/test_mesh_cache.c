@@ -4,7 +4,6 @@
 #include "io/mesh/mesh_cache.h"
 
 #include "base/memory.h"
-#include "io/cache/cache_file.h"
 #include "cache_fixture.h"
 
 enum { PATH_SIZE = 2 * PLACE_SIZE };
@@ -27,7 +26,7 @@ static int64_t node_number[] = {1, 2, 3, 4, 7, 8, 9, 10, 11, 9007199254740991};
 static int64_t element_number[] = {5, 6, 123456789012};
 static uint8_t kind[] = {ELEMENT_T3, ELEMENT_T3, ELEMENT_Q8};
 static int32_t first_node[] = {0, 3, 6, 14};
-static int32_t element_nodes[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2, 6, 7, 8, 9};
+static int32_t element_nodes[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2, 6, 7, 8, 9, 0};   // one more
 static int32_t bottom[] = {0, 1, 1, 4}, bottom_nodes[] = {0, 1, 4}, corner[] = {3};
 static int32_t part[] = {0, 2};
 
@@ -48,7 +47,8 @@ static MeshFile known_mesh(MeshGroup groups[3])
                             .element_count = 2,
                             .elements = part,
                             .blurred = true};
-    return (MeshFile){.node_count = 10,
+    return (MeshFile){.dim = 2,
+                      .node_count = 10,
                       .position = position,
                       .node_number = node_number,
                       .element_count = 3,
@@ -84,7 +84,7 @@ static void test_back_to_the_bit(void **state)
     assert_memory_equal(mesh.element_number, element_number, sizeof element_number);
     assert_memory_equal(mesh.kind, kind, sizeof kind);
     assert_memory_equal(mesh.first_node, first_node, sizeof first_node);
-    assert_memory_equal(mesh.element_nodes, element_nodes, sizeof element_nodes);
+    assert_memory_equal(mesh.element_nodes, element_nodes, 14 * sizeof *element_nodes);
     for (int32_t k = 0; k < 3; k++) {
         const MeshGroup *seen = &mesh.groups[k];
         assert_string_equal(seen->name, groups[k].name);
@@ -103,30 +103,14 @@ static void test_back_to_the_bit(void **state)
     mesh_file_destroy(&mesh);
 }
 
-// The stored file with number `at` of array `name` changed to `value` (at < 0: the array is left
-// out), sealed by a right checksum; true where it is still taken for a mesh.
-static bool believed_with(const char *name, int32_t at, double value)
+// Whether a mesh with `*place` changed to `value` is taken for one.
+static bool believed_with(MeshFile *known, int32_t *place, int32_t value)
 {
-    char path[CACHE_PATH_SIZE], reason[CACHE_REASON_SIZE];
-    MeshGroup groups[3];
-    MeshFile known = known_mesh(groups), mesh;
-    CacheFile file;
-    Error err = {0};
-    bool found = false;
-    mesh_cache_store(KEY, &known);
-    assert_true(cache_file_path(KEY, "mesh", path));
-    assert_true(cache_file_read(path, KEY, &file, &found, reason, &err) && found);
-    for (int32_t k = 0; k < file.array_count; k++) {
-        if (strcmp(file.arrays[k].name, name) != 0) continue;
-        if (at < 0)
-            file.arrays[k] = file.arrays[--file.array_count];
-        else
-            ((double *)(uintptr_t)file.arrays[k].values)[at] = value;
-        at = 1000;   // done
-    }
-    assert_int_equal(at, 1000);
-    assert_true(cache_file_write(path, KEY, file.arrays, file.array_count, &err));
-    cache_file_destroy(&file);
+    MeshFile mesh;
+    int32_t kept = *place;
+    *place = value;
+    mesh_cache_store(KEY, known);
+    *place = kept;
     bool taken = load(&mesh);
     mesh_file_destroy(&mesh);
     return taken;
@@ -135,35 +119,87 @@ static bool believed_with(const char *name, int32_t at, double value)
 static void test_what_cannot_be_is_not_believed(void **state)
 {
     (void)state;
-    static const char *const names[] = {"counts",         "position",      "node_number",
-                                        "element_number", "kind",          "element_nodes",
-                                        "group_names",    "group_heads",   "group_edges",
-                                        "group_nodes",    "group_elements"};
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-        assert_false(believed_with(names[k], -1, 0));
-    assert_true(believed_with("position", 3, 0.25));   // a change that a mesh may have
-    for (int32_t k = 0; k < 6; k++) {   // every count, by one, to nothing, to much
-        assert_false(believed_with("counts", k, k == 3 ? 4 : 15));
-        assert_false(believed_with("counts", k, 0));
-        assert_false(believed_with("counts", k, 1e9));
-        assert_false(believed_with("counts", k, -1));
-        assert_false(believed_with("counts", k, NAN));
+    MeshGroup groups[3];
+    MeshFile known = known_mesh(groups), mesh;
+    assert_true(believed_with(&known, &element_nodes[0], 2));   // a change that a mesh may have
+    assert_false(believed_with(&known, &element_nodes[13], 10));
+    assert_false(believed_with(&known, &element_nodes[0], -1));
+    assert_false(believed_with(&known, &bottom[3], 10));
+    assert_false(believed_with(&known, &corner[0], 10));
+    assert_false(believed_with(&known, &part[0], 3));
+    assert_false(believed_with(&known, &first_node[0], 1));
+    for (int32_t k = 0; k < 4; k++) first_node[k]++;
+    mesh_cache_store(KEY, &known);
+    assert_false(load(&mesh));
+    for (int32_t k = 0; k < 4; k++) first_node[k]--;
+    assert_false(believed_with(&known, &first_node[1], 4));
+    assert_false(believed_with(&known, &known.node_count, 9));   // which elements have
+    assert_false(believed_with(&known, &known.node_count, -1));
+    assert_false(believed_with(&known, &known.element_count, 2));
+    assert_false(believed_with(&known, &known.group_count, -1));
+    assert_false(believed_with(&known, &groups[0].dimension, 3));
+    assert_false(believed_with(&known, &groups[0].number, -1));
+    assert_false(believed_with(&known, &groups[1].nodes_per_edge, -1));
+    assert_false(believed_with(&known, &groups[2].element_count, -1));
+    node_number[9]++;
+    mesh_cache_store(KEY, &known);
+    assert_true(load(&mesh));   // 2^53
+    mesh_file_destroy(&mesh);
+    node_number[9]++;
+    mesh_cache_store(KEY, &known);
+    assert_false(load(&mesh));
+    node_number[9] -= 2;
+    static const uint8_t kinds[] = {ELEMENT_KIND_COUNT, ELEMENT_T6};
+    for (size_t k = 0; k < sizeof kinds; k++) {
+        kind[0] = kinds[k];
+        mesh_cache_store(KEY, &known);
+        assert_false(load(&mesh));
     }
-    assert_false(believed_with("kind", 0, ELEMENT_KIND_COUNT));
-    assert_false(believed_with("kind", 0, ELEMENT_T6));   // more nodes than there are
-    assert_false(believed_with("kind", 2, ELEMENT_T3));   // fewer
-    assert_false(believed_with("kind", 0, NAN));
-    assert_false(believed_with("element_nodes", 13, 10));
-    assert_false(believed_with("element_nodes", 0, -1));
-    assert_false(believed_with("group_edges", 3, 10));
-    assert_false(believed_with("group_nodes", 0, 10));
-    assert_false(believed_with("group_heads", 0, 3));   // dimension
-    assert_false(believed_with("group_elements", 0, 3));
-    assert_false(believed_with("group_heads", 7 + 2, 1e8));   // edges
-    assert_false(believed_with("group_heads", 7 + 3, 4));   // nodes of an edge
-    assert_false(believed_with("group_heads", 14 + 5, 3));   // elements, more than there are
-    assert_false(believed_with("group_heads", 4, 2));   // nodes of a group, more than are left
-    assert_false(believed_with("node_number", 9, 1e300));
+    kind[0] = ELEMENT_T3;
+}
+
+static void assert_within(const int32_t *indices, int64_t count, int32_t limit)
+{
+    for (int64_t k = 0; k < count; k++) assert_true(indices[k] >= 0 && indices[k] < limit);
+}
+
+// Each byte changed under a checksum that holds: no mesh, or one whose indices are its own.
+static void test_every_byte(void **state)
+{
+    (void)state;
+    static const unsigned char values[] = {0x00, 0x7f, 0xff};
+    MeshGroup groups[3];
+    MeshFile known = known_mesh(groups), mesh;
+    char name[64];
+    size_t size, taken = 0;
+    snprintf(name, sizeof name, "%s.mesh", KEY);
+    mesh_cache_store(KEY, &known);
+    char *bytes = cache_bytes(name, &size);
+    int64_t live = memory_counters().live;
+    for (size_t at = 64; at < size - 32; at++)
+        for (size_t v = 0; v < sizeof values; v++) {
+            char kept = bytes[at];
+            bytes[at] = (char)values[v];
+            cache_put(name, bytes, size);
+            bytes[at] = kept;
+            if (load(&mesh)) {
+                taken++;
+                assert_within(mesh.first_node, mesh.element_count, INT32_MAX);
+                assert_within(mesh.element_nodes, mesh.first_node[mesh.element_count],
+                              mesh.node_count);
+                for (int32_t k = 0; k < mesh.group_count; k++) {
+                    const MeshGroup *group = &mesh.groups[k];
+                    assert_within(group->edge_nodes, group->edge_count * group->nodes_per_edge,
+                                  mesh.node_count);
+                    assert_within(group->nodes, group->node_count, mesh.node_count);
+                    assert_within(group->elements, group->element_count, mesh.element_count);
+                }
+            }
+            mesh_file_destroy(&mesh);
+            assert_int_equal(memory_counters().live, live);
+        }
+    assert_true(taken > 100);   // places, names
+    free(bytes);
 }
 
 static void key_of(const char *name, const char *text, double value, char key[HASH_TEXT_SIZE])
@@ -207,9 +243,9 @@ static void test_switched_off(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_back_to_the_bit),
-                                       cmocka_unit_test(test_what_cannot_be_is_not_believed),
-                                       cmocka_unit_test(test_key),
-                                       cmocka_unit_test(test_switched_off)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_back_to_the_bit),
+        cmocka_unit_test(test_what_cannot_be_is_not_believed), cmocka_unit_test(test_every_byte),
+        cmocka_unit_test(test_key), cmocka_unit_test(test_switched_off)};
     return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }

@@ -26,9 +26,9 @@ static void test_nodes(void **state)
     (void)state;
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
         for (int32_t b = 0; b < element_node_count((ElementKind)kind); b++) {
-            double xi, eta;
-            shape_node((ElementKind)kind, b, &xi, &eta);
-            ShapeValues shape = shape_at((ElementKind)kind, xi, eta);
+            const double *at = shape_node((ElementKind)kind, b);
+            double xi = at[0], eta = at[1];
+            ShapeValues shape = shape_at((ElementKind)kind, (double[]){xi, eta});
             for (int32_t a = 0; a < ELEMENT_NODES_MAX; a++)
                 assert_near(shape.value[a], a == b ? 1 : 0, 1e-15);
         }
@@ -41,17 +41,17 @@ static void test_sum_and_slopes(void **state)
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
         for (int32_t p = 0; p < PROBE_COUNT; p++) {
             double xi = PROBES[p][0], eta = PROBES[p][1], sum = 0, slopes[2] = {0};
-            ShapeValues at = shape_at((ElementKind)kind, xi, eta);
-            ShapeValues right = shape_at((ElementKind)kind, xi + h, eta);
-            ShapeValues left = shape_at((ElementKind)kind, xi - h, eta);
-            ShapeValues above = shape_at((ElementKind)kind, xi, eta + h);
-            ShapeValues below = shape_at((ElementKind)kind, xi, eta - h);
+            ShapeValues here = shape_at((ElementKind)kind, (double[]){xi, eta});
+            ShapeValues right = shape_at((ElementKind)kind, (double[]){xi + h, eta});
+            ShapeValues left = shape_at((ElementKind)kind, (double[]){xi - h, eta});
+            ShapeValues above = shape_at((ElementKind)kind, (double[]){xi, eta + h});
+            ShapeValues below = shape_at((ElementKind)kind, (double[]){xi, eta - h});
             for (int32_t a = 0; a < ELEMENT_NODES_MAX; a++) {
-                sum += at.value[a];
-                slopes[0] += at.slope[a][0];
-                slopes[1] += at.slope[a][1];
-                assert_near(at.slope[a][0], (right.value[a] - left.value[a]) / (2 * h), 1e-9);
-                assert_near(at.slope[a][1], (above.value[a] - below.value[a]) / (2 * h), 1e-9);
+                sum += here.value[a];
+                slopes[0] += here.slope[a][0];
+                slopes[1] += here.slope[a][1];
+                assert_near(here.slope[a][0], (right.value[a] - left.value[a]) / (2 * h), 1e-9);
+                assert_near(here.slope[a][1], (above.value[a] - below.value[a]) / (2 * h), 1e-9);
             }
             assert_near(sum, 1, 1e-14);
             assert_near(slopes[0], 0, 1e-14);
@@ -80,11 +80,11 @@ static void test_polynomials(void **state)
         for (int32_t m = 0; m < 8; m++) {
             double error = 0;
             for (int32_t p = 0; p < PROBE_COUNT; p++) {
-                ShapeValues shape = shape_at((ElementKind)kind, PROBES[p][0], PROBES[p][1]);
+                ShapeValues shape = shape_at((ElementKind)kind, PROBES[p]);
                 double value = 0;
                 for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
-                    double xi, eta;
-                    shape_node((ElementKind)kind, a, &xi, &eta);
+                    const double *at = shape_node((ElementKind)kind, a);
+                    double xi = at[0], eta = at[1];
                     value += shape.value[a] * monomial(m, xi, eta);
                 }
                 error = fmax(error, fabs(value - monomial(m, PROBES[p][0], PROBES[p][1])));
@@ -131,26 +131,28 @@ static void test_quadrature(void **state)
     }
 }
 
-// x = 1 + 2 xi + 3 eta, z = -1 + eta has J = [2 3; 0 1] everywhere, whatever the element.
+// x = 1 + 2 xi + 3 eta, z = -1 + eta has J = [2 3; 0 1] everywhere, whatever the element, and
+// xi = (x - 1 - 3 (z + 1)) / 2, eta = z + 1.
 static void test_jacobian(void **state)
 {
     (void)state;
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
-        double position[ELEMENT_NODES_MAX][2], jacobian[2][2];
+        MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
-            double xi, eta;
-            shape_node((ElementKind)kind, a, &xi, &eta);
+            const double *at = shape_node((ElementKind)kind, a);
+            double xi = at[0], eta = at[1];
             position[a][0] = 1 + 2 * xi + 3 * eta;
             position[a][1] = -1 + eta;
         }
-        ShapeValues shape = shape_at((ElementKind)kind, 0.3, 0.1);
-        double determinant =
-            shape_jacobian((ElementKind)kind, &shape, (const double(*)[2])position, jacobian);
-        assert_near(determinant, 2, 1e-14);
-        assert_near(jacobian[0][0], 2, 1e-14);
-        assert_near(jacobian[0][1], 3, 1e-14);
-        assert_near(jacobian[1][0], 0, 1e-14);
-        assert_near(jacobian[1][1], 1, 1e-14);
+        ShapeValues shape = shape_at((ElementKind)kind, (double[]){0.3, 0.1});
+        const MeshPlace *places = (const MeshPlace *)position;
+        assert_near(shape_jacobian((ElementKind)kind, &shape, places), 2, 1e-14);
+        assert_near(shape_gradients((ElementKind)kind, &shape, places, gradient), 2, 1e-14);
+        for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
+            const double *slope = shape.slope[a];
+            assert_near(gradient[a][0], slope[0] / 2, 1e-14);
+            assert_near(gradient[a][1], slope[1] - 1.5 * slope[0], 1e-14);
+        }
     }
 }
 

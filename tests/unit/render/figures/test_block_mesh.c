@@ -23,9 +23,9 @@ typedef struct Patch {
 
 static void patch_place(ElementKind kind, int32_t e, int32_t a, double place[2])
 {
-    double xi = 0, eta = 0;
     bool triangle = kind == ELEMENT_T3 || kind == ELEMENT_T6;
-    shape_node(kind, a, &xi, &eta);
+    const double *at = shape_node(kind, a);
+    double xi = at[0], eta = at[1];
     if (!triangle) {
         xi = (xi + 1) / 2;
         eta = (eta + 1) / 2;

@@ -4,6 +4,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "model1d_sets.h"
+#include "plane.h"
 
 static void test_sums(void **state)
 {
@@ -18,7 +19,7 @@ static void test_sums(void **state)
     assert_int_equal(count, 2 * NODES + 1);
     double load = 0, moment = 0, weight = 0;
     for (int32_t i = 0; i < NODES; i++) {
-        double pressed = -chain.system.load[interface_normal(i)];
+        double pressed = -chain.system.load[plane_normal(i)];
         assert_true(pressed > 0);
         load += pressed;
         moment += pressed * interface->x[i];
@@ -31,7 +32,7 @@ static void test_sums(void **state)
     // A stretch u = x with the rod at U: ends carry alpha H E_1, springs E_2 (U - x)/h.
     double *u = NEW_ARRAY(double, count, &err), *force = NEW_ARRAY(double, count, &err);
     double U = 3, layer = 0.2 * model.height;
-    for (int32_t i = 0; i < NODES; i++) u[interface_tangent(i)] = interface->x[i];
+    for (int32_t i = 0; i < NODES; i++) u[plane_tangent(i)] = interface->x[i];
     u[interface_rod(interface, 0)] = U;
     BulkTerm terms[] = {BULK_STIFFNESS, BULK_DAMPING};
     double axial[] = {model.elastic_x, model.viscous_x};
@@ -42,14 +43,14 @@ static void test_sums(void **state)
             double end = i == 0 ? -1 : i == NODES - 1 ? 1 : 0;
             double wanted = end * layer * axial[k] -
                             interface->weight[i] * shear[k] / model.drive * (U - interface->x[i]);
-            assert_near("a node", force[interface_tangent(i)], wanted, 1e-12);
+            assert_near("a node", force[plane_tangent(i)], wanted, 1e-12);
         }
         // The integral of (U - x) over 0..2
         assert_near("F_T", force[interface_rod(interface, 0)], shear[k] / model.drive * 4, 1e-12);
     }
     bulk_operator_apply(&chain.system, BULK_MASS, u, force);
     double mass = 0;
-    for (int32_t i = 0; i < NODES; i++) mass += force[interface_tangent(i)];
+    for (int32_t i = 0; i < NODES; i++) mass += force[plane_tangent(i)];
     assert_near("mass times mean of x", mass, layer * 2 * 1, 1e-12);
     memory_free(u);
     memory_free(force);
@@ -67,8 +68,8 @@ static double rest_error(const Model1d *model, int32_t nodes)
     assert_true(state_create(&chain.system, &chain.interface, &line, &err));
     chain_rest(model, &chain, &line);
     for (int32_t i = 0; i < nodes; i++) {
-        double pressed = line.reaction[interface_normal(i)];
-        double rubbed = -line.reaction[interface_tangent(i)];
+        double pressed = line.reaction[plane_normal(i)];
+        double rubbed = -line.reaction[plane_tangent(i)];
         worst = fmax(worst, fabs(rubbed - model->law.mu_kinetic * pressed) / mean);
     }
     double force = rod_force(&chain.interface, line.reaction) / (model->pressure * model->length);

@@ -35,8 +35,8 @@ static inline void start(Rig *rig)
     *rig = (Rig){.scene = {.rod.velocity = 1e-4}};
     for (int32_t i = 0; i < NODES; i++) rig->x[i] = 0.2 * i;
     rig->model = (Model){.scene = &rig->scene, .length = 2, .law.critical_velocity = 1e-3};
-    rig->model.interface =
-        (Interface){.contact_count = NODES, .x = rig->x, .pad = rig->pads, .pad_count = 1};
+    rig->model.interface = (Interface){
+        .dim = 2, .contact_count = NODES, .x = rig->x, .pad = rig->pads, .pad_count = 1};
     for (int32_t k = 0; k < POINTS; k++)
         rig->points[k] = (StabilityPoint){.front = 0.2 + 0.2 * k,
                                           .slipping = 2 + k,

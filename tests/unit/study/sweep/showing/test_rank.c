@@ -32,7 +32,7 @@ static Ranked *make(double error)
     made->sweep.study.rank.against = AGAINST_FIRST;
     made->sweep.points = made->points;
     made->table.records = made->values;
-    made->table.errors = made->errors;
+    made->table.errors = made->table.known_to = made->errors;
     made->table.has_error[0] = true;
     srand(7);
     for (int32_t k = 0; k < POINTS; k++) {
@@ -78,8 +78,39 @@ static void test_ranks(void **state)
     }
 }
 
+// Three points, one computed again: it moved by 2.5 of its bars before, so those of the others
+// count 2.5 times, and what they decided alone is open.
+static void test_refined(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Ranking ranking = {0};
+    double values[] = {0.30, 0.29, 0.25}, errors[] = {0.002, 0.004, 0.004};
+    SweepPoint points[3] = {{.same_as = 0}, {.same_as = 1}, {.same_as = 2}};
+    Sweep sweep = {.points = points, .study = {.point_count = 3, .rank.against = AGAINST_FIRST}};
+    SweepTable table = {
+        .records = values, .errors = errors, .known_to = errors, .has_error = {true}};
+    assert_true(ranking_make(&sweep, &table, &ranking, &err));
+    assert_int_equal(ranking.rows[0].to, 1);
+    ranking_destroy(&ranking);
+    points[0].refined = true;
+    points[0].moved = 2.5;
+    assert_true(ranking_make(&sweep, &table, &ranking, &err));
+    assert_int_equal(ranking.refined, 1);
+    assert_true(ranking.rows[0].error == 0.002 && ranking.rows[1].error == 0.01);
+    assert_true(ranking.rows[1].bar == 0.004);   // as it is told
+    assert_int_equal(ranking.rows[0].to, 2);
+    assert_int_equal(ranking.rows[2].from, 3);
+    ranking_destroy(&ranking);
+    points[0].moved = 0.5;   // within its bar: bars count as they are
+    assert_true(ranking_make(&sweep, &table, &ranking, &err));
+    assert_int_equal(ranking.rows[0].to, 1);
+    ranking_destroy(&ranking);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ranks)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ranks),
+                                       cmocka_unit_test(test_refined)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Numbers and names as commands say them. Part of amontons.h.
+#ifndef AMONTONS_WORDS_H
+#define AMONTONS_WORDS_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { ESTIMATE_SIZE = 64 };
+// A value in the digits that are known of it: "0.3296 +- 0.0029" with an error bar (NaN: none),
+// else those that `known_to` leaves, the last off by 1 at most, "0.33"; one where that is NaN, too,
+// six where it is 0.
+void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
+// The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
+int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bytes go into the file, and into its checksum, by blocks. They begin at a multiple of
+// ARCHIVE_LINE, as arrays of base/memory do, and so do those that are lent: some kernels of
+// OpenBLAS (Prescott's) round by where a vector lies in a line, and an answer must not depend on
+// whether a basis was read or made.
+#include "io/cache/store.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "io/cache/cache_folder.h"
+#include "io/files/folder.h"
+#include "io/files/open_file.h"
+#include "io/files/part_file.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { BLOCK_SIZE = 1 << 16, KEY_SIZE = HASH_TEXT_SIZE - 1, PATH_SIZE = PATH_MAX + 64 };
+
+// s: the largest basis that model/obtain asks for takes a minute of a core to itself; twice the
+// work, done by both, is better than waiting for a process that was stopped.
+static const double WAIT_MAX = 300;
+
+#define ENDING(kind, ending, name) [kind] = ending,
+static const char *const endings[] = {CACHE_KINDS(ENDING)};
+#define NAME(kind, ending, name) [kind] = name,
+static const char *const names[] = {CACHE_KINDS(NAME)};
+
+typedef struct Head {
+    char magic[16], key[KEY_SIZE], ending[8];
+    int64_t size;   // bytes between head and checksum
+} Head;
+_Static_assert(sizeof(Head) == ARCHIVE_LINE, "what follows would not begin with a line");
+
+static Head make_head(const CacheItem *item, int64_t size)
+{
+    Head head = {.magic = "amontons-cache 4", .size = size};
+    memcpy(head.key, item->key, strnlen(item->key, KEY_SIZE));
+    memcpy(head.ending, endings[item->kind], strlen(endings[item->kind]));
+    return head;
+}
+
+// In the cache's folder, which is made. false: there is no cache, or nothing to look for.
+static bool find_path(const char *key, const char *ending, char path[PATH_SIZE])
+{
+    char folder[PATH_MAX];
+    Error unseen = {0};   // a failure shows when the file is opened
+    if (!key[0] || !cache_folder_path(folder)) return false;
+    folder_make(folder, &unseen);
+    snprintf(path, PATH_SIZE, "%s/%s.%s", folder, key, ending);
+    return true;
+}
+
+// --- reading ------------------------------------------------------------------------------------
+
+// All of a file, as it may be replaced meanwhile; *bytes NULL when it cannot be opened.
+static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err)
+{
+    struct stat what;
+    Error unseen = {0};
+    int descriptor = open_to_read(path, &unseen);
+    if (descriptor < 0) return true;
+    if (fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
+        // Read now: io/cache/cache_folder removes what was not for the longest time.
+        const struct timespec times[2] = {{.tv_nsec = UTIME_NOW}, {.tv_nsec = UTIME_OMIT}};
+        futimens(descriptor, times);
+        *bytes = memory_bytes(what.st_size, err);
+        while (*bytes && *size < what.st_size) {
+            ssize_t got = read(descriptor, (char *)*bytes + *size, (size_t)(what.st_size - *size));
+            if (got <= 0) break;
+            *size += got;
+        }
+    }
+    close(descriptor);
+    return error_is_clean(err);
+}
+
+// What is wrong with the bytes of a file, or NULL. *length: of what lies between head
+// and checksum.
+static const char *find_fault(const CacheItem *item, const char *bytes, int64_t size,
+                              int64_t *length)
+{
+    Head head, wanted = make_head(item, 0);
+    Hash hash = hash_start();
+    char digest[HASH_TEXT_SIZE];
+    if (size < (int64_t)sizeof head || memcmp(bytes, wanted.magic, sizeof wanted.magic) != 0)
+        return "it is not a cache file of this version";
+    memcpy(&head, bytes, sizeof head);
+    *length = wanted.size = head.size;
+    if (memcmp(&head, &wanted, sizeof head) != 0) return "it belongs to another shape";
+    int64_t left = size - (int64_t)sizeof head - KEY_SIZE;
+    if (left < *length) return "it is cut off";
+    for (int64_t at = 0, end = size - KEY_SIZE; at < end; at += BLOCK_SIZE)
+        hash_bytes(&hash, bytes + at, (size_t)(end - at < BLOCK_SIZE ? end - at : BLOCK_SIZE));
+    hash_write(&hash, digest);
+    if (left > *length || memcmp(bytes + size - KEY_SIZE, digest, KEY_SIZE) != 0)
+        return "its checksum does not hold";
+    return NULL;
+}
+
+// As `list` wants it.
+static bool take(const CacheItem *item, const char *bytes, int64_t length, Error *err)
+{
+    Archive archive = archive_read(bytes + sizeof(Head), length);
+    archive.err = err;
+    item->list(item->self, &archive);
+    return !archive.failed && archive.at == length;
+}
+
+bool cache_load(const CacheItem *item, double **lent, bool *found, char *note, Error *err)
+{
+    char path[PATH_SIZE];
+    void *bytes = NULL;
+    int64_t size = 0, length = 0;
+    *found = false;
+    if (!find_path(item->key, endings[item->kind], path)) return true;
+    TRY(read_bytes(path, &bytes, &size, err));
+    if (!bytes) goto cleanup;
+    const char *fault = find_fault(item, bytes, size, &length);
+    if (!fault && !take(item, bytes, length, err)) fault = "an array is missing or wrong";
+    *found = !fault;
+    if (fault && note)
+        snprintf(note, CACHE_NOTE_SIZE, "a cached %s is not used: %s", names[item->kind], fault);
+cleanup:
+    if (lent)
+        *lent = bytes;
+    else
+        memory_free(bytes);
+    return error_is_clean(err);
+}
+
+// --- writing ------------------------------------------------------------------------------------
+
+typedef struct Writing {
+    PartFile part;
+    Hash hash;   // of the blocks so far
+    char *block;   // [BLOCK_SIZE] what is to be written next; owned
+    int64_t filled;   // bytes of it
+    Error *err;
+} Writing;
+
+static bool flush(Writing *file)
+{
+    hash_bytes(&file->hash, file->block, (size_t)file->filled);
+    bool written = part_file_write(&file->part, file->block, file->filled, file->err);
+    file->filled = 0;
+    return written;
+}
+
+static bool append(void *self, const void *bytes, int64_t size)
+{
+    Writing *file = self;
+    for (const char *from = bytes; size > 0;) {
+        int64_t room = BLOCK_SIZE - file->filled, count = size < room ? size : room;
+        memcpy(file->block + file->filled, from, (size_t)count);
+        file->filled += count;
+        from += count;
+        size -= count;
+        if (file->filled == BLOCK_SIZE && !flush(file)) return false;
+    }
+    return true;
+}
+
+// A cache that cannot be looked through stays as it is: what was written is there.
+static void stay_below_limit(const char *path)
+{
+    Error unseen = {0};
+    CacheFolder folder = {0};
+    int64_t bytes = 0, limit = 0;
+    if (cache_folder_limit(&limit, &unseen) && cache_folder_read(&folder, &unseen))
+        cache_folder_trim(&folder, limit, path, &bytes);
+    cache_folder_destroy(&folder);
+}
+
+static bool write_item(const CacheItem *item, const char *path, Error *err)
+{
+    char digest[HASH_TEXT_SIZE];
+    Writing file = {.hash = hash_start(), .err = err};
+    Archive measured = archive_measure(), archive = archive_send(append, &file);
+    item->list(item->self, &measured);
+    Head head = make_head(item, measured.at);
+    TRY(file.block = memory_bytes(BLOCK_SIZE, err));
+    if (!part_file_try(&file.part, path, err)) {
+        if (file.part.taken) error_clear(err);   // it writes the same: the key says so
+        goto cleanup;
+    }
+    TRY(append(&file, &head, sizeof head));
+    item->list(item->self, &archive);
+    TRY(!archive.failed && (file.filled == 0 || flush(&file)));
+    hash_write(&file.hash, digest);
+    TRY(part_file_write(&file.part, digest, KEY_SIZE, err));
+    TRY(part_file_commit(&file.part, err));
+    stay_below_limit(path);
+cleanup:
+    part_file_discard(&file.part);
+    memory_free(file.block);
+    return error_is_clean(err);
+}
+
+bool cache_store(const CacheItem *item, char *note)
+{
+    char path[PATH_SIZE];
+    Error err = {0};
+    if (!find_path(item->key, endings[item->kind], path)) return true;
+    bool stored = write_item(item, path, &err);
+    if (!stored && note)
+        snprintf(note, CACHE_NOTE_SIZE, "the %s is not kept for the next run: %.180s",
+                 names[item->kind], err.message);
+    return stored;
+}
+
+void cache_remove(CacheKind kind, const char *key)
+{
+    char path[PATH_SIZE];
+    if (find_path(key, endings[kind], path)) unlink(path);
+}
+
+bool cache_lock(const char *key, FileLock *lock)
+{
+    char path[PATH_SIZE];
+    *lock = (FileLock){0};
+    return find_path(key, "lock", path) && file_lock_take(lock, path, WAIT_MAX);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Error bars as `accuracy` of run.json.
+#include "record/error_bars.h"
+
+#include <math.h>
+
+static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
+
+// The runs of a level by the branch that their answer lies on, into `sorted` [LEVEL_RUNS_MAX].
+static int32_t sort_runs(const Level *level, AnswerKind kind, SeriesItem *sorted)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < level->run_count; k++) {
+        double value = level->runs[k].answer[kind].value;
+        if (!isnan(value)) sorted[count++] = (SeriesItem){.value = value};
+    }
+    series_sort(sorted, count);
+    return count;
+}
+
+static void write_bars(const ErrorBar answer[ANSWER_KINDS], JsonWriter *json)
+{
+    for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++) {
+        const ErrorBar *bar = &answer[kind];
+        json_begin_object(json, ANSWER_NAMES[kind]);
+        json_number(json, "value", bar->value);
+        json_number(json, "bar", bar->bar);
+        error_parts_write(&bar->parts, json);
+        json_end(json);
+    }
+}
+
+static void write_runs(const Level *level, JsonWriter *json)
+{
+    json_begin_list(json, "runs");
+    for (int32_t k = 0; k < level->run_count; k++) {
+        const LevelRun *run = &level->runs[k];
+        json_begin_object(json, NULL);
+        json_number(json, "pressure", run->pressure);
+        json_number(json, "mu_M", run->answer[ANSWER_MU_M].value);
+        json_number(json, "mu_hold", run->answer[ANSWER_MU_HOLD].value);
+        json_integer(json, "peaks", run->peaks);
+        json_integer(json, "period", run->period);
+        json_text(json, "run_in", run_in_name(run->run_in));
+        json_integer(json, "steps", run->steps);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// Values to which the runs of the last level come, and which part of them.
+static void write_branches(const Levels *levels, JsonWriter *json)
+{
+    SeriesItem sorted[LEVEL_RUNS_MAX];
+    SeriesBranch branch;
+    const Level *last = &levels->list[levels->count - 1];
+    int32_t count = levels->count > 0 ? sort_runs(last, levels->asked, sorted) : 0;
+    json_begin_list(json, "branches");
+    for (int32_t k = 0; k < count;) {
+        k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
+        json_begin_object(json, NULL);
+        json_number(json, "mu", branch.mean);
+        json_number(json, "share", (double)branch.count / count);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// Numbers of none are null.
+static void write_cut(const LevelCut *cut, JsonWriter *json)
+{
+    bool none = cut->mesh == 0;
+    json_begin_object(json, "cut");
+    json_number(json, "mesh", none ? (double)NAN : cut->mesh);
+    json_number(json, "run", none ? (double)NAN : cut->run);
+    json_number(json, "contact_nodes", none ? (double)NAN : cut->contact_nodes);
+    json_number(json, "U", none ? (double)NAN : cut->U);
+    json_number(json, "part", none ? (double)NAN : cut->part);
+    json_number(json, "mu_M", none ? (double)NAN : cut->mu_M);
+    json_number(json, "mu_hold", none ? (double)NAN : cut->mu_hold);
+    json_end(json);
+}
+
+void levels_write_json(const Levels *levels, JsonWriter *json)
+{
+    json_begin_object(json, "accuracy");
+    json_number(json, "wanted", levels->wanted);
+    json_boolean(json, "met", levels->met);
+    json_text(json, "of", ANSWER_NAMES[levels->asked]);
+    json_text(json, "ended", levels->ended);
+    write_cut(&levels->cut, json);
+    json_number(json, "observed_order", levels_order(levels));
+    write_branches(levels, json);
+    json_begin_list(json, "levels");
+    for (int32_t l = 0; l < levels->count; l++) {
+        const Level *level = &levels->list[l];
+        json_begin_object(json, NULL);
+        json_number(json, "refine", level->refine);
+        json_integer(json, "contact_nodes", level->contact_nodes);
+        json_number(json, "seconds", level->seconds);
+        json_boolean(json, "undamped", level->undamped);
+        json_number(json, "slip_cells", level->slip_cells);
+        json_number(json, "cells", level_cells(level));
+        json_number(json, "end_wait", level->end_wait);
+        write_bars(level->answer, json);
+        write_runs(level, json);
+        json_end(json);
+    }
+    json_end(json);
+    json_end(json);
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What makes a value or its rank doubtful, in a few words. Called by study/sweep/showing/rank.
+#ifndef AMONTONS_STUDY_SWEEP_SHOWING_RANK_NOTES_H
+#define AMONTONS_STUDY_SWEEP_SHOWING_RANK_NOTES_H
+
+#include "study/sweep/showing/ranking.h"
+#include "study/sweep/showing/table.h"
+
+enum { RANK_NOTE_SIZE = 120 };
+
+bool rank_notes(const Sweep *sweep, const Ranking *ranking, const RankRow *row,
+                char note[RANK_NOTE_SIZE], Error *err);
+
+#endif
