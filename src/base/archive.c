@@ -130,6 +130,7 @@ void archive_index(Archive *archive, int32_t *index, int32_t low, int32_t high)
 {
     archive_integer(archive, index);
     if (!archive->failed) check_range(archive, index, 1, low, high);
+    if (archive_reads(archive) && archive->failed) *index = low;
 }
 
 void archive_octets(Archive *archive, uint8_t *octets, int64_t count)

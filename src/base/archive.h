@@ -58,10 +58,11 @@ void archive_flag(Archive *archive, bool *flag);
 void archive_numbers(Archive *archive, double *numbers, int64_t count);
 // Integers from `low` to below `high`: others are a fault, as what they count might not be there.
 void archive_indices(Archive *archive, int32_t *indices, int64_t count, int32_t low, int32_t high);
-void archive_index(Archive *archive, int32_t *index, int32_t low, int32_t high);
+void archive_index(Archive *archive, int32_t *index, int32_t low, int32_t high);   // a fault: low
 void archive_octets(Archive *archive, uint8_t *octets, int64_t count);
 void archive_text(Archive *archive, char *text, int64_t size);   // all of its array
-void archive_length(Archive *archive, int32_t *length);   // from 0 to below 2^28: a few add up
+void archive_length(Archive *archive, int32_t *length);   // from 0 to below 2^28: a few add up;
+    // 0 after a fault
 void archive_require(Archive *archive, bool condition);   // of what is read: else it is a fault
 
 // The same of arrays that reading makes, `count` long, the caller's to free; NULL after a fault.

@@ -100,19 +100,19 @@ static int decimals_to(double place, double value)
     return (int)fmin(fmax(-last, 0), DECIMALS_MAX);
 }
 
-void text_estimate(double value, double bar, double known_to, char text[TEXT_ESTIMATE_SIZE])
+void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
     bool has_bar = isfinite(bar);
     double place = has_bar ? floor(log10(bar)) - 1 : ceil(log10(known_to));
     int decimals = decimals_to(place, value);
     if (isnan(value))
-        snprintf(text, TEXT_ESTIMATE_SIZE, "none");
+        snprintf(text, ESTIMATE_SIZE, "none");
     else if (!has_bar && known_to == 0)
-        snprintf(text, TEXT_ESTIMATE_SIZE, "%.6g", value);
+        snprintf(text, ESTIMATE_SIZE, "%.6g", value);
     else if (has_bar)
-        snprintf(text, TEXT_ESTIMATE_SIZE, "%.*f +- %.*f", decimals, value, decimals, bar);
+        snprintf(text, ESTIMATE_SIZE, "%.*f +- %.*f", decimals, value, decimals, bar);
     else
-        snprintf(text, TEXT_ESTIMATE_SIZE, "%.*f", decimals, value);
+        snprintf(text, ESTIMATE_SIZE, "%.*f", decimals, value);
 }
 
 bool text_ends_with(const char *text, const char *ending)

@@ -4,6 +4,8 @@
 #ifndef AMONTONS_BASE_TEXT_H
 #define AMONTONS_BASE_TEXT_H
 
+#include "amontons_words.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -18,8 +20,7 @@ int32_t text_nearest(const char *given, const char *const *names, int32_t count)
 // A value in the digits that are known of it. With an error bar (NaN: none) two digits of that,
 // "0.3296 +- 0.0029"; else those that `known_to` leaves, the last off by 1 at most, "0.33"; six
 // where that is 0, one where it is NaN. "none": the value is NaN.
-enum { TEXT_ESTIMATE_SIZE = 64 };
-void text_estimate(double value, double bar, double known_to, char text[TEXT_ESTIMATE_SIZE]);
+void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
 
 bool text_ends_with(const char *text, const char *ending);
 

@@ -64,7 +64,7 @@ static const NumberRow CHECKS[] = {
 
 void estimate_write(HtmlWriter *html, double value, double bar, double known_to)
 {
-    char text[TEXT_ESTIMATE_SIZE], *between;
+    char text[ESTIMATE_SIZE], *between;
     if (!isfinite(value) || fabs(value) >= BIG) {
         html_markup(html, isfinite(value) ? "" : "none");
         if (isfinite(value)) html_number(html, value, DIGITS);

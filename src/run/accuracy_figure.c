@@ -100,7 +100,7 @@ static void name_estimates(const Levels *levels, char words[ESTIMATES_SIZE])
 {
     for (int32_t l = 0, used = 0; l < levels->count && used < ESTIMATES_SIZE; l++) {
         Levels until = *levels;
-        char value[TEXT_ESTIMATE_SIZE];
+        char value[ESTIMATE_SIZE];
         until.count = l + 1;
         text_estimate(answer_of(levels, l)->value, answer_of(levels, l)->bar,
                       levels_known_to(&until, levels->asked), value);

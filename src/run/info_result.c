@@ -56,7 +56,7 @@ static void write_value(const char *text, const char *path, FILE *out)
 // A result of which run.json tells how far it is known; false: another.
 static bool write_estimate(const char *text, const char *path, FILE *out)
 {
-    char beside[PATH_SIZE], words[TEXT_ESTIMATE_SIZE];
+    char beside[PATH_SIZE], words[ESTIMATE_SIZE];
     double value = NAN, known_to = NAN, error = NAN;
     snprintf(beside, sizeof beside, "%s_known_to", path);
     if (!json_find_number(text, beside, &known_to)) return false;

@@ -49,8 +49,8 @@ def rooms_allow(folder, target):
 def allowed(folder, include):
     """Whether a file in `folder` ("fem", "render/plot", "" for amontons.h) may include `include`."""
     layer = folder.split("/")[0]
-    if include == "amontons_error.h":
-        return folder in ("base", "")   # what base/error.h shows to everybody
+    if include in ("amontons_error.h", "amontons_words.h"):
+        return folder in ("base", "")   # what base/error.h and base/text.h show to everybody
     if include == "amontons_pictures.h":
         return layer in ("render", "")   # what render/render.h is asked
     if include == "amontons_friction.h":

@@ -198,11 +198,12 @@ class Run(InFolder):
         large = {**SMALL, "mesh.set.nx": 200, "mesh.set.nz": 200, "reduction.use": "always", "reduction.cache": False}
         script = textwrap.dedent(f"""
             import sys; sys.path.insert(0, {str(MODULE)!r})
-            import amontons, threading, time
+            import amontons, signal, threading, time
             try:
                 threading.Timer(0.3, print, ("begun",), {{"flush": True}}).start()
                 amontons.run({str(FIG1)!r}, {large!r}, "large")
             except KeyboardInterrupt:
+                signal.signal(signal.SIGINT, signal.SIG_IGN)      # one that comes while Python itself ends is not about the library
                 print("stopped", [thread.name for thread in threading.enumerate()], flush=True)
         """)
         process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=self.folder)

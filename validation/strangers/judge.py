@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy
 
 ANSWERS = ("mu_M", "mu_hold")
+LADDER = (1.2, 1.45, 1.75, 2.1, 2.5, 3, 3.6, 4.3, 5.2, 6.2, 7.5)     # mesh.set.refine of references, as far as it takes
 LATE_LEAST = 3          # peaks, or drops, that a reading needs, some in each of the last two quarters
 MESHES = 5              # the finest of a reference, that count
 OWN_MAX = 1 / 3         # of a bar: a reference's own error may be so large
@@ -110,11 +111,11 @@ class Verdict:
     said: str = ""
 
 
-def reaches(truth, asked, most=math.inf):
-    """Whether the reference goes to meshes as fine as the finest of the answer (`most`: than which none is asked for). A
-    branch that only fine meshes come to, as where slip gets past the last nodes, is no fault of the finer ones."""
+def reaches(truth, asked):
+    """Whether the reference goes to meshes as fine as the finest of the answer, or to the end of its ladder. A branch that
+    only fine meshes come to, as where slip gets past the last nodes, is no fault of the finer ones."""
     finest = max((level["refine"] for level in asked["levels"]), default=1)
-    return truth.finest >= min(finest, most) * (1 - 1e-9)
+    return truth.finest >= min(finest, LADDER[-1]) * (1 - 1e-9)
 
 
 def decides(truth, value, bar):

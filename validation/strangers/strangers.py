@@ -34,7 +34,6 @@ from measured_run import PROGRAM, commit, markdown_table, run   # noqa: E402
 WITHIN = 60                 # s, of each request
 USUAL = 70                  # s of processor time of a problem, its reference included
 ASK_LIMIT = 600             # s of processor time after which a request is ended
-LADDER = (1.2, 1.45, 1.75, 2.1, 2.5, 3, 3.6, 4.3, 5.2, 6.2, 7.5)     # mesh.set.refine of references, as far as it takes
 WINDOW = (0.995, 1, 1.005)  # of pressure: ends and middle of the program's own window
 LONGER = 3                  # a run with too few drops in its second half is made so many times as long,
 STEADY = 1e-3               # drift, relative, that such a one may have
@@ -130,7 +129,7 @@ def enough(asked, runs):
     """Whether the reference is known well enough for each bar that was given."""
     for name in judge.ANSWERS:
         truth, value, bar = judge.reference(runs, name), asked[name], asked[f"{name}_error"]
-        if truth is None or not judge.reaches(truth, asked, LADDER[-1]):
+        if truth is None or not judge.reaches(truth, asked):
             return False
         if truth.value is not None and value is not None and bar and not judge.decides(truth, value, bar):
             return False
@@ -155,7 +154,7 @@ def settled(row):
 
 def extend(one, scene, kept, limit):
     """Runs of the reference until it is known well enough, or the limit of processor time is met."""
-    for refine in LADDER:
+    for refine in judge.LADDER:
         if kept.data["asked"] and enough(kept.data["asked"], good(kept)):
             return
         done = {row["pressure"] for row in kept.data["runs"] if row["refine"] == refine}

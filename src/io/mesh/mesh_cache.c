@@ -28,7 +28,7 @@ static void archive_elements(MeshFile *mesh, Archive *archive)
     if (archive->failed) return;
     const int32_t *first = mesh->first_node;
     archive_require(archive, first[0] == 0);
-    for (int32_t k = 0; k < count; k++)
+    for (int32_t k = 0; archive_fills(archive) && k < count; k++)
         archive_require(archive,
                         first[k + 1] - first[k] == element_node_count((ElementKind)mesh->kind[k]));
     archive_new_indices(archive, &mesh->element_nodes, first[count], 0, mesh->node_count);

@@ -276,6 +276,10 @@ static void test_made_arrays_are_checked(void **state)
         memcpy(sent.bytes, &lengths[k], sizeof lengths[k]);
         assert_false(read_made(&sent, &found, &err));
         if (lengths[k] > sent.size) assert_int_equal(memory_counters().allocations, allocations);
+        Archive archive = archive_read(sent.bytes, sent.size);
+        archive_length(&archive, &found.length);   // nothing that would overflow in a sum
+        assert_int_equal(found.length, archive.failed ? 0 : lengths[k]);
+        made_destroy(&found);
     }
     int32_t index = 4;
     uint8_t octet = 200;

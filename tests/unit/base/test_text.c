@@ -51,7 +51,7 @@ static void test_estimates(void **state)
                  {-0.32737, NAN, 0.005, "-0.33"},
                  {NAN, 0.1, 0.1, "none"}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
-        char text[TEXT_ESTIMATE_SIZE];
+        char text[ESTIMATE_SIZE];
         text_estimate(known[k].value, known[k].bar, known[k].known_to, text);
         assert_string_equal(text, known[k].text);
     }
