@@ -178,6 +178,30 @@ static void test_archive(void **state)
     end_rig(&rig);
 }
 
+// What is free in J0 has a row there: to build on one without would read before S.
+static void test_archive_without_row(void **state)
+{
+    (void)state;
+    static Rig rig;
+    static char bytes[4 * 8 * COUNT * COUNT];
+    Error err = {0};
+    Random random = {.state = 6};
+    ContactFactors copy;
+    make_rig(&random, 0.5, &rig);
+    assert_true(contact_factors_create(&rig.hand.interface, &copy, &err));
+    list_free(&rig);
+    assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
+    rig.factors.row[rig.factors.free[3]].normal = -1;
+    Archive archive = archive_write(bytes, sizeof bytes);
+    contact_factors_archive(&rig.factors, &archive);
+    archive = archive_read(bytes, archive.at);
+    contact_factors_archive(&copy, &archive);
+    assert_false(archive_check(&archive, true, &err));
+    error_clear(&err);
+    contact_factors_destroy(&copy);
+    end_rig(&rig);
+}
+
 // Two rod nodes that S can hardly tell from each other are nearly singular while both are free.
 // Once one has its spring J is not, but what was factored has lost nine digits: it says so.
 static void test_cancels(void **state)
@@ -234,9 +258,9 @@ static void test_solver(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_follows), cmocka_unit_test(test_opens),
-                                       cmocka_unit_test(test_archive),
-                                       cmocka_unit_test(test_cancels),
-                                       cmocka_unit_test(test_solver)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_follows), cmocka_unit_test(test_opens),
+        cmocka_unit_test(test_archive), cmocka_unit_test(test_archive_without_row),
+        cmocka_unit_test(test_cancels), cmocka_unit_test(test_solver)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
