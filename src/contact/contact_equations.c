@@ -33,6 +33,23 @@ bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy
            memcmp(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count) == 0;
 }
 
+void contact_list_free(ContactEquations *equations, bool of_open)
+{
+    const Interface *interface = equations->problem->interface;
+    const ContactSolution *at = equations->at;
+    int32_t *free = equations->free, count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        bool open = of_open && at->status[i] == CONTACT_OPEN;
+        if (open || status_slips(at->status[i])) free[count++] = interface_tangent(interface, i);
+        if (open) free[count++] = interface_normal(interface, i);
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)
+            free[count++] = interface_rod(interface, j);
+    }
+    equations->free_count = count;
+}
+
 void contact_hold(const ContactEquations *equations)
 {
     const ContactProblem *problem = equations->problem;

@@ -58,6 +58,9 @@ static inline int32_t contact_slipping_node(const ContactEquations *equations, i
 void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
 bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
 
+// What is not held, ascending; unknowns of open nodes, too, or not.
+void contact_list_free(ContactEquations *equations, bool of_open);
+
 // Puts what is held in its place; what is free keeps its velocity.
 void contact_hold(const ContactEquations *equations);
 

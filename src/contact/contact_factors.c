@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Sizes: J0 of up to all interface unknowns, the border of up to a part of them. The derivation is
-// in the header.
+// Vectors of all interface unknowns: what is held in J0 and in J, and what is open, has zeros.
 #include "contact/contact_factors.h"
 
 #include "base/dense.h"
@@ -8,35 +7,33 @@
 
 #include <string.h>
 
-// The border has at most this part of J0's rows.
-static const double BORDER_PART = 0.2;
-// Fewer rows are factored anew as fast.
-enum { ROWS_LEAST = 64 };
 // x may be this much smaller than J0^-1 b, of which it is what is left: ten digits of it stay.
-static const double CANCELLED = 1e6;
+static const double CANCELLED_LIMIT = 1e6;
+
+// More rows than a fifth of J0's are factored anew as fast; a tenth or 0.4 of them takes as long.
+static int32_t room_of(int32_t rows)
+{
+    return rows / 5;
+}
 
 bool contact_factors_create(const Interface *interface, ContactFactors *factors, Error *err)
 {
-    int64_t count = interface->count, room = 1 + (int64_t)(BORDER_PART * (double)count);
-    *factors = (ContactFactors){.count = interface->count, .room = (int32_t)room};
+    int64_t count = interface->count, room = room_of(interface->count);
+    *factors = (ContactFactors){.count = interface->count};
     factors->lu = memory_bytes(8 * count * count, err);
     factors->pivots = NEW_ARRAY(int32_t, count, err);
-    factors->unknown = NEW_ARRAY(int32_t, count, err);
-    factors->normal = NEW_ARRAY(int32_t, count, err);
-    factors->mu = NEW_ARRAY(double, count, err);
-    factors->beside = NEW_ARRAY(double, count, err);
+    factors->free = NEW_ARRAY(int32_t, count, err);
+    factors->row = NEW_ARRAY(FactoredRow, count, err);
     factors->status = NEW_ARRAY(uint8_t, count, err);
-    factors->border = NEW_ARRAY(int32_t, room, err);
+    factors->replaced = NEW_ARRAY(int32_t, room, err);
     factors->z = memory_bytes(8 * count * room, err);
     factors->v = memory_bytes(8 * count * room, err);
     factors->p = memory_bytes(8 * room * room, err);
     factors->p_pivots = NEW_ARRAY(int32_t, room, err);
-    factors->place = NEW_ARRAY(int32_t, count, err);
-    factors->rank = NEW_ARRAY(int32_t, count, err);
-    factors->now = NEW_ARRAY(int32_t, count, err);
-    factors->diagonal = NEW_ARRAY(double, count, err);
-    factors->inner = NEW_ARRAY(double, count, err);
-    factors->outer = NEW_ARRAY(double, count, err);
+    factors->now = NEW_ARRAY(FactoredRow, count, err);
+    factors->x = NEW_ARRAY(double, count, err);
+    factors->y = NEW_ARRAY(double, count, err);
+    factors->t = NEW_ARRAY(double, count, err);
     return error_is_clean(err);
 }
 
@@ -44,30 +41,29 @@ void contact_factors_destroy(ContactFactors *factors)
 {
     memory_free(factors->lu);
     memory_free(factors->pivots);
-    memory_free(factors->unknown);
-    memory_free(factors->normal);
-    memory_free(factors->mu);
-    memory_free(factors->beside);
+    memory_free(factors->free);
+    memory_free(factors->row);
     memory_free(factors->status);
-    memory_free(factors->border);
+    memory_free(factors->replaced);
     memory_free(factors->z);
     memory_free(factors->v);
     memory_free(factors->p);
     memory_free(factors->p_pivots);
-    memory_free(factors->place);
-    memory_free(factors->rank);
     memory_free(factors->now);
-    memory_free(factors->diagonal);
-    memory_free(factors->inner);
-    memory_free(factors->outer);
+    memory_free(factors->x);
+    memory_free(factors->y);
+    memory_free(factors->t);
     *factors = (ContactFactors){0};
 }
 
-// place[list[k]] = k, -1 elsewhere.
-static void find_places(const int32_t *list, int32_t length, int32_t count, int32_t *place)
+static void find_rows(ContactFactors *factors, const ContactEquations *equations, FactoredRow *row)
 {
-    for (int32_t k = 0; k < count; k++) place[k] = -1;
-    for (int32_t k = 0; k < length; k++) place[list[k]] = k;
+    contact_diagonal(equations, factors->x);
+    for (int32_t k = 0; k < factors->count; k++) row[k] = (FactoredRow){.normal = -1};
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        ContactRow now = equations->row[a];
+        row[equations->free[a]] = (FactoredRow){now.normal, now.mu, factors->x[a]};
+    }
 }
 
 bool contact_factors_make(ContactFactors *factors, const ContactEquations *equations,
@@ -75,87 +71,73 @@ bool contact_factors_make(ContactFactors *factors, const ContactEquations *equat
 {
     int32_t rows = equations->free_count;
     contact_jacobian(equations, matrix, rows, factors->lu);
-    contact_diagonal(equations, factors->beside);
-    for (int32_t a = 0; a < rows; a++) {
-        factors->unknown[a] = equations->free[a];
-        factors->normal[a] = equations->row[a].normal;
-        factors->mu[a] = equations->row[a].mu;
-    }
+    find_rows(factors, equations, factors->row);
     contact_copy_statuses(equations, factors->status);
-    find_places(equations->free, rows, factors->count, factors->place);
-    find_places(NULL, 0, factors->count, factors->rank);
-    factors->border_count = 0;
+    memcpy(factors->free, equations->free, (size_t)rows * sizeof(int32_t));
+    factors->replaced_count = 0;
     factors->rows = dense_lu(factors->lu, rows, factors->pivots) ? rows : 0;
     return factors->rows == rows;
 }
 
-// --- border -------------------------------------------------------------------------------------
+// --- other rows ---------------------------------------------------------------------------------
 
-// Z's column of an unknown that is not yet in the border. false: there is no more room.
-static bool add_border(ContactFactors *factors, const ContactProblem *problem, const double *matrix,
-                       int32_t unknown)
+// z := J0^-1 z, where what is held is right already.
+static void solve_kept(ContactFactors *factors, double *z)
 {
-    int32_t rows = factors->rows, place = factors->place[unknown], b = factors->border_count;
-    if (b >= factors->room || b >= (int32_t)(BORDER_PART * rows)) return false;
-    double *column = factors->z + (int64_t)b * rows;
+    for (int32_t a = 0; a < factors->rows; a++) factors->x[a] = z[factors->free[a]];
+    dense_lu_solve(factors->lu, factors->rows, factors->pivots, factors->x);
+    for (int32_t a = 0; a < factors->rows; a++) z[factors->free[a]] = factors->x[a];
+}
+
+// Column b of Z, that leaves all of J0's rows but one as they are; its scale is any.
+static void leave_row(ContactFactors *factors, const ContactProblem *problem, const double *matrix,
+                      int32_t b)
+{
+    int32_t unknown = factors->replaced[b];
+    double *z = factors->z + (int64_t)b * factors->count;
     const double *own = matrix + (int64_t)unknown * factors->count;   // symmetric
-    memset(column, 0, (size_t)rows * sizeof(double));
-    if (place >= 0) column[place] = problem->matrix->diagonal;
-    for (int32_t a = 0; place < 0 && a < rows; a++) {
-        int32_t k = factors->unknown[a];
-        column[a] = own[k] + factors->mu[a] * own[factors->normal[a]];
+    bool held = factors->row[unknown].normal < 0;
+    memset(z, 0, (size_t)factors->count * sizeof(double));
+    for (int32_t a = 0; held && a < factors->rows; a++) {
+        int32_t k = factors->free[a];
+        z[k] = -own[k] - factors->row[k].mu * own[factors->row[k].normal];
     }
-    dense_lu_solve(factors->lu, rows, factors->pivots, column);
-    factors->border[b] = unknown;
-    factors->rank[unknown] = b;
-    factors->border_count++;
-    return true;
+    z[unknown] = held ? 1 : problem->matrix->diagonal;
+    solve_kept(factors, z);
 }
 
-// Puts into the border what is new since J0, what is held since and every row that is another.
-static bool find_border(ContactFactors *factors, const ContactEquations *equations,
-                        const double *matrix)
+static void fill_row(ContactFactors *factors, const ContactProblem *problem, const double *matrix,
+                     int32_t b)
 {
-    for (int32_t a = 0; a < equations->free_count; a++) {
-        int32_t unknown = equations->free[a], place = factors->place[unknown];
-        bool same = place >= 0 && factors->mu[place] == equations->row[a].mu &&
-                    factors->beside[place] == factors->diagonal[a];
-        if (same || factors->rank[unknown] >= 0) continue;
-        if (!add_border(factors, equations->problem, matrix, unknown)) return false;
-    }
-    for (int32_t k = 0; k < factors->rows; k++) {
-        int32_t unknown = factors->unknown[k];
-        if (factors->now[unknown] >= 0 || factors->rank[unknown] >= 0) continue;
-        if (!add_border(factors, equations->problem, matrix, unknown)) return false;
-    }
-    return true;
+    int64_t count = factors->count, unknown = factors->replaced[b];
+    FactoredRow row = factors->now[unknown];
+    double *v = factors->v + b * count;
+    memset(v, 0, (size_t)count * sizeof(double));
+    v[unknown] = problem->matrix->diagonal;
+    if (row.normal < 0) return;
+    memcpy(v, matrix + unknown * count, (size_t)count * sizeof(double));
+    dense_add_scaled(row.mu, matrix + row.normal * count, factors->count, v);
+    v[unknown] += row.beside;
 }
 
-// Row b of V and T: of its unknown as it is now, or that it is held.
-static void fill_row(ContactFactors *factors, const ContactEquations *equations,
-                     const double *matrix, int32_t b)
+static bool is_replaced(const ContactFactors *factors, int32_t unknown)
 {
-    int32_t unknown = factors->border[b], a = factors->now[unknown], rows = factors->rows;
-    int32_t place = factors->place[unknown], borders = factors->border_count;
-    double *v = factors->v + (int64_t)b * rows, *t = factors->p + b;
-    double itself = equations->problem->matrix->diagonal;
-    if (a < 0) {
-        memset(v, 0, (size_t)rows * sizeof(double));
-        for (int32_t c = 0; c < borders; c++) t[(int64_t)c * borders] = 0;
-    } else {
-        ContactRow row = equations->row[a];
-        const double *own = matrix + (int64_t)unknown * factors->count;
-        const double *normal = matrix + (int64_t)row.normal * factors->count;
-        for (int32_t k = 0; k < rows; k++)
-            v[k] = own[factors->unknown[k]] + row.mu * normal[factors->unknown[k]];
-        for (int32_t c = 0; c < borders; c++) {
-            int32_t k = factors->border[c];
-            bool came_in = factors->place[k] < 0;
-            t[(int64_t)c * borders] = came_in ? own[k] + row.mu * normal[k] : 0;
-        }
-        itself = factors->diagonal[a];
+    for (int32_t b = 0; b < factors->replaced_count; b++)
+        if (factors->replaced[b] == unknown) return true;
+    return false;
+}
+
+// R, with what is another since. false: there is no room.
+static bool list_replaced(ContactFactors *factors)
+{
+    for (int32_t k = 0; k < factors->count; k++) {
+        FactoredRow now = factors->now[k], kept = factors->row[k];
+        bool same = now.normal == kept.normal && now.mu == kept.mu && now.beside == kept.beside;
+        if (same || is_replaced(factors, k)) continue;
+        if (factors->replaced_count == room_of(factors->rows)) return false;
+        factors->replaced[factors->replaced_count++] = k;
     }
-    *(place >= 0 ? &v[place] : &t[(int64_t)b * borders]) += itself;
+    return true;
 }
 
 static bool same_are_open(const ContactFactors *factors, const ContactEquations *equations)
@@ -169,45 +151,40 @@ static bool same_are_open(const ContactFactors *factors, const ContactEquations 
 bool contact_factors_update(ContactFactors *factors, const ContactEquations *equations,
                             const double *matrix)
 {
-    int32_t rows = factors->rows;
-    if (rows < ROWS_LEAST || !same_are_open(factors, equations)) return false;
-    contact_diagonal(equations, factors->diagonal);
-    find_places(equations->free, equations->free_count, factors->count, factors->now);
-    if (!find_border(factors, equations, matrix)) return false;
-    int32_t borders = factors->border_count;
-    for (int32_t b = 0; b < borders; b++) fill_row(factors, equations, matrix, b);
-    dense_multiply_transposed(dense_view(factors->v, rows, borders),
-                              dense_view(factors->z, rows, borders), -1, 1, factors->p);
+    if (factors->rows == 0 || !same_are_open(factors, equations)) return false;
+    find_rows(factors, equations, factors->now);
+    int32_t count = factors->count, before = factors->replaced_count;
+    if (!list_replaced(factors)) return false;
+    int32_t length = factors->replaced_count;
+    for (int32_t b = before; b < length; b++) leave_row(factors, equations->problem, matrix, b);
+    for (int32_t b = 0; b < length; b++) fill_row(factors, equations->problem, matrix, b);
+    dense_multiply_transposed(dense_view(factors->v, count, length),
+                              dense_view(factors->z, count, length), 1, 0, factors->p);
     contact_copy_statuses(equations, factors->status);
-    return dense_lu(factors->p, borders, factors->p_pivots);
+    return dense_lu(factors->p, length, factors->p_pivots);
 }
 
 bool contact_factors_solve(ContactFactors *factors, const ContactEquations *equations, double *x)
 {
-    int32_t rows = factors->rows, borders = factors->border_count;
-    int32_t free_count = equations->free_count;
-    if (borders == 0) {
-        dense_lu_solve(factors->lu, rows, factors->pivots, x);
+    int32_t count = factors->count, length = factors->replaced_count;
+    double *y = factors->y, *t = factors->t;
+    if (length == 0) {
+        dense_lu_solve(factors->lu, factors->rows, factors->pivots, x);
         return true;
     }
-    double *inner = factors->inner, *outer = factors->outer;
-    memset(inner, 0, (size_t)rows * sizeof(double));
-    memset(outer, 0, (size_t)borders * sizeof(double));
-    for (int32_t a = 0; a < free_count; a++) {
-        int32_t unknown = equations->free[a], rank = factors->rank[unknown];
-        *(rank >= 0 ? &outer[rank] : &inner[factors->place[unknown]]) = x[a];
+    memset(y, 0, (size_t)count * sizeof(double));
+    for (int32_t a = 0; a < equations->free_count; a++) y[equations->free[a]] = x[a];
+    for (int32_t b = 0; b < length; b++) {
+        t[b] = y[factors->replaced[b]];
+        y[factors->replaced[b]] = 0;
     }
-    DenseView v = dense_view(factors->v, rows, borders), z = dense_view(factors->z, rows, borders);
-    dense_lu_solve(factors->lu, rows, factors->pivots, inner);
-    double before = dense_max_abs(inner, rows);
-    dense_apply_transposed(v, inner, -1, 1, outer);
-    dense_lu_solve(factors->p, borders, factors->p_pivots, outer);
-    dense_apply(z, outer, -1, 1, inner);
-    if (!(before <= CANCELLED * dense_max_abs(inner, rows))) return false;
-    for (int32_t a = 0; a < free_count; a++) {
-        int32_t unknown = equations->free[a], place = factors->place[unknown];
-        x[a] = place >= 0 ? inner[place] : outer[factors->rank[unknown]];
-    }
+    solve_kept(factors, y);
+    double before = dense_max_abs(y, count);
+    dense_apply_transposed(dense_view(factors->v, count, length), y, -1, 1, t);
+    dense_lu_solve(factors->p, length, factors->p_pivots, t);
+    dense_apply(dense_view(factors->z, count, length), t, 1, 1, y);
+    if (!(before <= CANCELLED_LIMIT * dense_max_abs(y, count))) return false;
+    for (int32_t a = 0; a < equations->free_count; a++) x[a] = y[equations->free[a]];
     return true;
 }
 
@@ -215,27 +192,29 @@ bool contact_factors_solve(ContactFactors *factors, const ContactEquations *equa
 
 void contact_factors_archive(ContactFactors *factors, Archive *archive)
 {
+    int32_t count = factors->count;
     archive_section(archive, "contact factors");
-    archive_octets(archive, factors->status, factors->count);
-    archive_index(archive, &factors->rows, 0, factors->count + 1);
-    if (archive_reads(archive)) factors->border_count = 0;
+    archive_octets(archive, factors->status, count);
+    archive_index(archive, &factors->rows, 0, count + 1);
+    if (archive_reads(archive)) factors->replaced_count = 0;
     if (archive->failed || factors->rows == 0) return;
     int32_t rows = factors->rows;
     archive_numbers(archive, factors->lu, (int64_t)rows * rows);
     archive_indices(archive, factors->pivots, rows, 1, rows + 1);
-    archive_indices(archive, factors->unknown, rows, 0, factors->count);
-    archive_indices(archive, factors->normal, rows, 0, factors->count);
-    archive_numbers(archive, factors->mu, rows);
-    archive_numbers(archive, factors->beside, rows);
-    archive_index(archive, &factors->border_count, 0, factors->room + 1);
+    archive_indices(archive, factors->free, rows, 0, count);
+    for (int32_t k = 0; k < count; k++) {
+        archive_index(archive, &factors->row[k].normal, -1, count);
+        archive_number(archive, &factors->row[k].mu);
+        archive_number(archive, &factors->row[k].beside);
+    }
+    for (int32_t a = 0; !archive->failed && a < rows; a++)
+        archive_require(archive, factors->row[factors->free[a]].normal >= 0);
+    archive_index(archive, &factors->replaced_count, 0, room_of(rows) + 1);
     if (archive->failed) return;
-    int32_t borders = factors->border_count;
-    archive_indices(archive, factors->border, borders, 0, factors->count);
-    archive_numbers(archive, factors->z, (int64_t)rows * borders);
-    archive_numbers(archive, factors->v, (int64_t)rows * borders);
-    archive_numbers(archive, factors->p, (int64_t)borders * borders);
-    archive_indices(archive, factors->p_pivots, borders, 1, borders + 1);
-    if (!archive_reads(archive) || archive->failed) return;
-    find_places(factors->unknown, rows, factors->count, factors->place);
-    find_places(factors->border, borders, factors->count, factors->rank);
+    int32_t length = factors->replaced_count;
+    archive_indices(archive, factors->replaced, length, 0, count);
+    archive_numbers(archive, factors->z, (int64_t)count * length);
+    archive_numbers(archive, factors->v, (int64_t)count * length);
+    archive_numbers(archive, factors->p, (int64_t)length * length);
+    archive_indices(archive, factors->p_pivots, length, 1, length + 1);
 }

@@ -1,44 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // LU of the derivative J of a contact problem, made once and kept up to date. From one Newton step
 // to the next few rows change: those of nodes whose status does, or that pass a kink of their
-// friction law. A row beyond the weakening stays as it is to the bit. So J is the J0 that was
-// factored, with a border (Bisschop and Meeraus, Math. Programming 13, 1977),
+// friction law. A row beyond the weakening stays as it is to the bit. Taken for all unknowns, a row
+// of the unit matrix for each that is held, J is the J0 that was factored with rows V in place of
+// some, R. So (Woodbury's formula: Hager, SIAM Review 31, 1989)
 //
-//     [ J0  U ] [ x ]   [ b ]      U: a column D e for each row of J0 that no longer holds (D: the
-//     [ V   T ] [ z ] = [ c ]      scale of S), the column of J for each unknown that came in
+//     J^-1 b = y + Z t,    J0 y = b, 0 in R,    (V Z) t = b_R - V y,    Z = J0^-1 [e_k for k in R]
 //
-// V and T: the rows as they are now, or D e where an unknown is held again; b is 0 where a row no
-// longer holds, c has its right-hand side. With Z = J0^-1 U and P = T - V Z,
-//
-//     P z = c - V J0^-1 b,     x = J0^-1 b - Z z,
-//
-// at a few solutions with J0 for each new column and a LU of P. What is in the border stays there
-// until J0 is made anew: its column of Z does not depend on the row. Used by
-// contact/contact_newton.
+// at one solution with J0 for each row that comes into R, and a LU of V Z. A row in R may change
+// again: its column of Z stays as it is. Used by contact/contact_newton.
 #ifndef AMONTONS_CONTACT_CONTACT_FACTORS_H
 #define AMONTONS_CONTACT_CONTACT_FACTORS_H
 
 #include "contact/contact_equations.h"
 
+// Row k of J: S_k + mu S_normal + beside e_k.
+typedef struct FactoredRow {
+    int32_t normal;   // as ContactRow has it; -1: the unknown is held
+    double mu;
+    double beside;   // as contact_diagonal has it
+} FactoredRow;
+
 typedef struct ContactFactors {
-    int32_t count, room;   // interface unknowns; the border's at most
-    double *lu;   // [rows^2] of J0; owned, like all that follows
-    int32_t *pivots, *unknown;   // [rows]
-    int32_t *normal;   // [rows] of J0's rows, as ContactRow has them, like the next
-    double *mu;
-    double *beside;   // [rows] and what contact_diagonal had
-    int32_t rows;   // of J0; 0: none is kept
+    int32_t count;   // interface unknowns
+    int32_t rows;   // that are free in J0; 0: none is kept
+    double *lu;   // [rows^2] of those; owned, like all that follows
+    int32_t *pivots;   // [rows]
+    int32_t *free;   // [rows] unknowns
+    FactoredRow *row;   // [count] of J0
     uint8_t *status;   // [contact_count + rod_count] that J is for (contact_copy_statuses)
-    int32_t border_count;
-    int32_t *border;   // [border_count] unknowns
-    double *z;   // [rows * border_count] Z
-    double *v;   // [rows * border_count] V'
-    double *p;   // [border_count^2] LU of P
-    int32_t *p_pivots;   // [border_count]
-    int32_t *place, *rank;   // [count] where an unknown stands in J0 and in the border; -1: not
-    int32_t *now;   // [count] work: where it stands among what is free; -1: held
-    double *diagonal;   // [count] work
-    double *inner, *outer;   // [count] work: J0^-1 b; c and z
+    int32_t replaced_count;
+    int32_t *replaced;   // [replaced_count] R
+    double *z, *v;   // [count * replaced_count] Z and V'
+    double *p;   // [replaced_count^2] LU of V Z
+    int32_t *p_pivots;   // [replaced_count]
+    FactoredRow *now;   // [count] work: rows of J
+    double *x, *y, *t;   // [count] work
 } ContactFactors;
 
 bool contact_factors_create(const Interface *interface, ContactFactors *factors, Error *err);
@@ -48,8 +45,8 @@ void contact_factors_destroy(ContactFactors *factors);
 bool contact_factors_make(ContactFactors *factors, const ContactEquations *equations,
                           const double *matrix);
 
-// The same by a border of what is kept, which must be of the same S. false: more has changed than a
-// border is good for, a node opened or closed, which changes all of S', or P is singular; what is
+// The same by other rows of what is kept, which must be of the same S. false: more has changed than
+// this is good for, a node opened or closed, which changes all of S', or V Z is singular; what is
 // kept is of no more use.
 bool contact_factors_update(ContactFactors *factors, const ContactEquations *equations,
                             const double *matrix);

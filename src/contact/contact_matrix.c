@@ -12,19 +12,15 @@
 #include "contact/contact_status.h"
 #include "contact/interface.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
-// Of both unknowns of every node: sweeps after which the copy is made anew.
-static const int32_t SWEEPS_EACH = 8;
-// Of an unknown, at most, before the copy is renewed: those, and one of each after the last look.
-enum { SWEEPS_KEPT = 9 };
+// Sweeps for each unknown before the copy is renewed.
+enum { SWEEPS_LIMIT = 9 };
 // Unknowns that are swept together, at most: S' then comes from memory once for all of them. Both
 // of a node always are.
 enum { PAIR = 2, TOGETHER = 16 };
-// Part of its diagonal entry that is left of an unknown when the others of O are held, at least: a
-// body that nothing holds has 0, up to rounding; one that a step's mass holds has far more.
-static const double SINGULAR = 1e-8;
 
 bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *matrix, Error *err)
 {
@@ -35,7 +31,7 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
     matrix->closed = memory_bytes(bytes, err);
     matrix->out = NEW_ARRAY(uint8_t, count, err);
     matrix->work = NEW_ARRAY(double, 3 * TOGETHER * (int64_t)count, err);
-    matrix->order = NEW_ARRAY(int32_t, SWEEPS_KEPT * (int64_t)count, err);
+    matrix->order = NEW_ARRAY(int32_t, SWEEPS_LIMIT * (int64_t)count, err);
     return error_is_clean(err);
 }
 
@@ -56,12 +52,13 @@ static void renew_copy(ContactMatrix *matrix)
     memset(matrix->out, 0, count);
 }
 
-// A pivot below its part of S's own entry would leave, swept back, only the digits that it has more
-// than rounding: false, and the copy is of no more use.
+// A pivot is what is left of S's own entry when the others of O are held: 0, up to rounding, of a
+// body that nothing holds, far more than half of the digits of one that a step's mass holds. false:
+// it is less, and the copy is of no more use.
 static bool pivot_holds(const ContactMatrix *matrix, int32_t k, double pivot)
 {
     int64_t entry = (int64_t)k * (matrix->count + 1);
-    return matrix->out[k] ? pivot < 0 : pivot > SINGULAR * matrix->schur[entry];
+    return matrix->out[k] ? pivot < 0 : pivot > sqrt(DBL_EPSILON) * matrix->schur[entry];
 }
 
 static void note_sweep(ContactMatrix *matrix, int32_t k, bool first)
@@ -111,8 +108,8 @@ const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
                                    int32_t contact_count, int32_t dim)
 {
     if (!memchr(status, CONTACT_OPEN, (size_t)contact_count)) return matrix->schur;
-    int32_t unknowns = dim * contact_count;
-    if (matrix->swept < 0 || matrix->swept > SWEEPS_EACH * unknowns) renew_copy(matrix);
+    int32_t unknowns = dim * contact_count, room = SWEEPS_LIMIT * matrix->count - matrix->swept;
+    if (matrix->swept < 0 || room < unknowns) renew_copy(matrix);
     int32_t list[TOGETHER], length = 0;
     bool holds = true;
     for (int32_t k = 0; k < unknowns && holds; k++) {
@@ -144,11 +141,10 @@ void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archiv
     int32_t swept = matrix->swept;
     int64_t sweeps = matrix->sweeps, factored = matrix->factored == last ? last : 0;
     archive_section(archive, "contact matrix");
-    archive_index(archive, &swept, -1, SWEEPS_KEPT * matrix->count + 1);
+    archive_index(archive, &swept, -1, SWEEPS_LIMIT * matrix->count + 1);
     if (archive->failed) return;
     if (swept > 0) archive_indices(archive, matrix->order, swept, -matrix->count, matrix->count);
     archive_count(archive, &sweeps);
-    archive_count(archive, &matrix->imaged);
     archive_count(archive, &factored);
     if (!archive_reads(archive)) return;
     matrix->factored = factored;

@@ -27,8 +27,7 @@ typedef struct ContactMatrix {
     int64_t sweeps;   // counted
     int32_t *order;   // [swept] the unknowns swept since then, ~k where others are swept together
         // with k: rounding depends on it
-    int64_t imaged;   // which of contact/contact_newton's images is of it; 0: none
-    int64_t factored;   // and which of its factorisations
+    int64_t factored;   // which of contact/contact_newton's factorisations is of it; 0: none
 } ContactMatrix;
 
 // schur: [count^2]. *matrix is overwritten; on failure contact_matrix_destroy frees what was

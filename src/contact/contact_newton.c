@@ -19,8 +19,6 @@ bool contact_newton_create(const Interface *interface, ContactNewton *newton, Er
     newton->step = NEW_ARRAY(double, count, err);
     newton->more = NEW_ARRAY(double, count, err);
     newton->pull = NEW_ARRAY(double, count, err);
-    newton->velocity = NEW_ARRAY(double, count, err);
-    newton->image = NEW_ARRAY(double, count, err);
     return error_is_clean(err) && contact_factors_create(interface, &newton->factors, err);
 }
 
@@ -33,9 +31,27 @@ void contact_newton_destroy(ContactNewton *newton)
     memory_free(newton->step);
     memory_free(newton->more);
     memory_free(newton->pull);
-    memory_free(newton->velocity);
-    memory_free(newton->image);
     *newton = (ContactNewton){0};
+}
+
+void contact_newton_react(ContactNewton *newton)
+{
+    contact_react(&newton->equations);
+    newton->exact = true;
+}
+
+// Held unknowns take their values. A node that would slip against its status starts from rest.
+static void hold(ContactNewton *newton)
+{
+    const Interface *interface = newton->equations.problem->interface;
+    const ContactSolution *at = newton->equations.at;
+    newton->listed = false;
+    contact_hold(&newton->equations);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double *slip_rate = &at->velocity[interface_tangent(interface, i)];
+        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
+            *slip_rate = 0;
+    }
 }
 
 void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
@@ -44,54 +60,21 @@ void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
     newton->equations = (ContactEquations){
         .problem = problem, .at = solution, .free = newton->free, .row = newton->row};
     newton->rounding = rounding * dense_max_abs(problem->g, problem->interface->count);
-    int64_t *of = &problem->matrix->imaged;
-    bool kept = *of > 0 && *of == newton->images;
-    *of = 0;
-    if (!kept) {
-        contact_newton_react(newton);
-        return;
-    }
-    newton->exact = false;
-    for (int32_t k = 0; k < problem->interface->count; k++)
-        solution->reaction[k] = newton->image[k] - problem->g[k];
+    hold(newton);
+    contact_newton_react(newton);
 }
 
-void contact_newton_end(ContactNewton *newton)
-{
-    const ContactProblem *problem = newton->equations.problem;
-    for (int32_t k = 0; k < problem->interface->count; k++)
-        newton->image[k] = newton->equations.at->reaction[k] + problem->g[k];
-    problem->matrix->imaged = ++newton->images;
-}
-
-// Reactions are of the velocities as they are.
-static void note_velocities(ContactNewton *newton)
-{
-    size_t count = (size_t)newton->equations.problem->interface->count;
-    memcpy(newton->velocity, newton->equations.at->velocity, count * sizeof(double));
-}
-
-void contact_newton_react(ContactNewton *newton)
-{
-    contact_react(&newton->equations);
-    note_velocities(newton);
-    newton->exact = true;
-}
-
-// What moved by less than rounding has not: until it has come further.
-void contact_newton_follow(ContactNewton *newton)
+void contact_newton_settle(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
     int32_t count = problem->interface->count;
-    double nothing = newton->rounding / problem->matrix->diagonal;
+    memcpy(newton->more, at->velocity, (size_t)count * sizeof(double));
+    hold(newton);
     bool moved = false;
     for (int32_t k = 0; k < count; k++) {
-        newton->more[k] = 0;
-        if (fabs(at->velocity[k] - newton->velocity[k]) <= nothing) continue;
-        newton->more[k] = at->velocity[k] - newton->velocity[k];
-        newton->velocity[k] = at->velocity[k];
-        moved = true;
+        newton->more[k] = at->velocity[k] - newton->more[k];
+        moved = moved || newton->more[k] != 0;
     }
     if (!moved) return;
     newton->exact = false;
@@ -99,40 +82,20 @@ void contact_newton_follow(ContactNewton *newton)
                       at->reaction);
 }
 
-void contact_newton_settle(ContactNewton *newton)
-{
-    const ContactSolution *at = newton->equations.at;
-    newton->listed = false;
-    contact_hold(&newton->equations);
-    for (int32_t i = 0; i < newton->equations.problem->interface->contact_count; i++) {
-        double *slip_rate =
-            &at->velocity[interface_tangent(newton->equations.problem->interface, i)];
-        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
-            *slip_rate = 0;
-    }
-    contact_newton_follow(newton);
-}
-
 bool contact_newton_list(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
-    int32_t *free = newton->equations.free, count = 0;
     newton->closed = contact_matrix_close(
         problem->matrix, at->status, problem->interface->contact_count, problem->interface->dim);
     if (!newton->closed) return false;
     newton->open_count = 0;
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
-        if (status_slips(at->status[i])) free[count++] = interface_tangent(problem->interface, i);
         if (at->status[i] != CONTACT_OPEN) continue;
         newton->open[newton->open_count++] = interface_tangent(problem->interface, i);
         newton->open[newton->open_count++] = interface_normal(problem->interface, i);
     }
-    for (int32_t j = 0; j < problem->interface->rod_count; j++) {
-        if (!at->rod_touches[j] || rod_stiffness(problem, j) > 0)
-            free[count++] = interface_rod(problem->interface, j);
-    }
-    newton->equations.free_count = count;
+    contact_list_free(&newton->equations, false);
     contact_find_rows(&newton->equations);
     contact_residuals(&newton->equations, newton->step);
     newton->listed = true;
@@ -214,7 +177,6 @@ static void take_step(ContactNewton *newton)
         at->velocity[unknown] += newton->pull[unknown];
         at->reaction[unknown] = 0;
     }
-    note_velocities(newton);
     newton->exact = false;
 }
 
@@ -260,9 +222,6 @@ void contact_newton_archive(ContactNewton *newton, Archive *archive)
 {
     contact_factors_archive(&newton->factors, archive);
     archive_flag(archive, &newton->factors_gain);
-    archive_numbers(archive, newton->velocity, newton->factors.count);
-    archive_numbers(archive, newton->image, newton->factors.count);
-    archive_count(archive, &newton->images);
     archive_count(archive, &newton->factorisations);
     archive_count(archive, &newton->updates);
 }

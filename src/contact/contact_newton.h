@@ -3,11 +3,10 @@
 // matrix of contact/contact_matrix for them) and what is free, F, a step x of the velocities of F
 // changes reactions by S'_.F x elsewhere and moves open nodes by -S_OO^-1 S_OF x, which one product
 // with columns of S' gives. S v, which has the columns of the open nodes as well, is found as a
-// whole after the last step only (`exact`): on pads most nodes are open and few slip. The next
-// solve with the same S, as that of the other stage or of the next time step, begins from it and
-// adds the columns of what has moved since.
+// whole before the first step and after the last (`exact`): on pads most nodes are open and few
+// slip.
 // Factors of the derivative are kept and used again while steps with them gain (a chord method), or
-// get a border where few rows have changed (contact/contact_factors). Used by
+// brought up to date where few rows have changed (contact/contact_factors). Used by
 // contact/contact_solver, which changes the statuses.
 #ifndef AMONTONS_CONTACT_CONTACT_NEWTON_H
 #define AMONTONS_CONTACT_CONTACT_NEWTON_H
@@ -30,11 +29,8 @@ typedef struct ContactNewton {
     ContactRow *row;   // [count] work: the equations of what is free
     double *step, *more;   // [count] work
     double *pull;   // [count] work: what open nodes do to the others
-    double *velocity;   // [count] that reactions are of
-    double *image;   // [count] S velocity at the end of the last solve that succeeded
     ContactFactors factors;   // of the last derivative
     bool factors_gain;   // steps with them have gained a digit since
-    int64_t images;   // counted, solves that succeeded; the matrix notes which was its own
     int64_t factorisations;   // counted, derivatives factored anew
     int64_t updates;   // counted, derivatives that had factors brought up to date
 } ContactNewton;
@@ -43,22 +39,15 @@ typedef struct ContactNewton {
 bool contact_newton_create(const Interface *interface, ContactNewton *newton, Error *err);
 void contact_newton_destroy(ContactNewton *newton);
 
-// A solve begins; contact_newton_settle brings velocities and reactions in line. rounding: part of
-// the largest entry of g.
+// A solve begins: held unknowns take their values, and reactions are found. rounding: part of the
+// largest entry of g.
 void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
                           ContactSolution *solution, double rounding);
-
-// A solve that succeeded ends, exact: S v is kept for the next one with this matrix.
-void contact_newton_end(ContactNewton *newton);
 
 // Reactions are S v - g, S v with all its columns.
 void contact_newton_react(ContactNewton *newton);
 
-// Reactions are S v - g up to rounding, by the columns of what has moved since they were found.
-void contact_newton_follow(ContactNewton *newton);
-
-// Held unknowns take their values, and reactions follow. A node that would slip against its status
-// starts from rest.
+// The same where statuses have changed; reactions follow by the columns of what moved.
 void contact_newton_settle(ContactNewton *newton);
 
 // Lists what is free and open by the statuses as they are. false: nothing holds the open nodes.

@@ -21,13 +21,13 @@
 
 static const double NEAR = 1e-10;   // of the scales: on the path, on a bound
 static const double ASIDE = 0.5;   // of a step: Newton may lead so far from its tangent
-static const double ABOVE = 1e4;   // of the scale of velocity: no step presses that far down
-static const double RAY = 1e6;   // of tau at the start: beyond, the path does not come back
+static const double HEIGHT_LIMIT = 1e4;   // of the scale of velocity: no step presses so far down
+static const double TAU_LIMIT = 1e6;   // of that at the start: beyond, the path does not come back
 enum {
-    STEPS_EACH = 200,   // steps for each unknown; with friction 5 on 12 pads 170 were needed
+    STEPS_LIMIT = 200,   // for each unknown; with friction 5 on 12 pads 170 were needed
     CORRECTIONS = 8,   // Newton steps back onto the path
-    TRIALS = 60,   // points tried in a step
-    STARTS = 200,   // pressures, and statuses of rod nodes, tried at the start
+    TRIALS_LIMIT = 60,   // points tried in a step
+    STARTS_LIMIT = 200,   // pressures, and statuses of rod nodes, tried at the start
 };
 
 // The matrix has one row and column more than the interface, for tau.
@@ -37,7 +37,6 @@ bool contact_path_create(const Interface *interface, ContactPath *path, Error *e
     *path = (ContactPath){.count = interface->count};
     path->free = NEW_ARRAY(int32_t, count, err);
     path->equation = NEW_ARRAY(ContactRow, count, err);
-    path->place = NEW_ARRAY(int32_t, count, err);
     path->pivots = NEW_ARRAY(int32_t, count + 1, err);
     path->matrix = NEW_ARRAY(double, (count + 1) * (count + 1), err);
     path->lift = NEW_ARRAY(double, count, err);
@@ -54,7 +53,6 @@ void contact_path_destroy(ContactPath *path)
 {
     memory_free(path->free);
     memory_free(path->equation);
-    memory_free(path->place);
     memory_free(path->pivots);
     memory_free(path->matrix);
     memory_free(path->lift);
@@ -67,29 +65,12 @@ void contact_path_destroy(ContactPath *path)
     *path = (ContactPath){0};
 }
 
-static void add_free(PathTrace *trace, int32_t unknown)
-{
-    trace->path->place[unknown] = trace->system.free_count;
-    trace->path->free[trace->system.free_count++] = unknown;
-}
-
-// Lists what is free and puts what is held in its place.
+// What is held is in its place, what is free is listed, the row is empty.
 static void arrange(PathTrace *trace)
 {
-    const ContactProblem *problem = trace->system.problem;
-    const Interface *interface = problem->interface;
-    const ContactSolution *at = trace->system.at;
     contact_hold(&trace->system);
-    trace->system.free_count = 0;
-    for (int32_t k = 0; k < interface->count; k++) trace->path->place[k] = -1;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (at->status[i] != CONTACT_STICK) add_free(trace, interface_tangent(interface, i));
-        if (at->status[i] == CONTACT_OPEN) add_free(trace, interface_normal(interface, i));
-    }
-    for (int32_t j = 0; j < interface->rod_count; j++) {
-        if (!at->rod_touches[j] || rod_stiffness(problem, j) > 0)
-            add_free(trace, interface_rod(interface, j));
-    }
+    contact_list_free(&trace->system, true);
+    memset(trace->path->row, 0, ((size_t)trace->path->count + 1) * sizeof(double));
 }
 
 // r = S v - g + tau d
@@ -187,8 +168,8 @@ static void exchange(PathTrace *trace, PathBound bound)
         velocity_sign = up * direction;
     }
     arrange(trace);
-    memset(path->row, 0, ((size_t)trace->system.free_count + 1) * sizeof(double));
-    if (velocity_sign != 0) path->row[path->place[grown]] = velocity_sign;
+    for (int32_t a = 0; a < trace->system.free_count; a++)
+        if (path->free[a] == grown) path->row[a] = velocity_sign;
     if (tangent != 0) add_reaction_row(trace, t, tangent);
     if (normal != 0) add_reaction_row(trace, interface_normal(interface, i), normal);
 }
@@ -243,8 +224,8 @@ static bool place_point(PathTrace *trace, double tau_kept, double distance)
 }
 
 // A step to the first bound, or to a point before it (reached->node PATH_AT_NO_BOUND).
-// false: no point was found within TRIALS. The length of a first trial is bounded by the scale of
-// velocity beyond tau, as a tangent that meets no bound would lead to infinity.
+// false: no point was found within TRIALS_LIMIT. The length of a first trial is bounded by the
+// scale of velocity beyond tau, as a tangent that meets no bound would lead to infinity.
 static bool advance(PathTrace *trace, PathBound *reached)
 {
     ContactPath *path = trace->path;
@@ -253,7 +234,7 @@ static bool advance(PathTrace *trace, PathBound *reached)
         fmin(path_nearest_bound(trace).distance, trace->scales.velocity + fabs(trace->tau));
     for (int32_t a = 0; a < trace->system.free_count; a++)
         path->kept[a] = trace->system.at->velocity[path->free[a]];
-    for (int32_t trial = 0; trial < TRIALS; trial++) {
+    for (int32_t trial = 0; trial < TRIALS_LIMIT; trial++) {
         bool placed = place_point(trace, tau_kept, distance);
         double least = placed ? path_worst_condition(trace, reached) : -INFINITY;
         if (fabs(least) <= NEAR) return true;
@@ -320,7 +301,7 @@ static bool start_pressed(PathTrace *trace)
     memset(path->lift, 0, (size_t)path->count * sizeof(double));
     for (int32_t i = 0; i < interface->contact_count; i++) {
         bool above = problem->bound[interface_normal(interface, i)] <
-                     -ABOVE * trace->scales.velocity;
+                     -HEIGHT_LIMIT * trace->scales.velocity;
         at->status[i] = above ? CONTACT_OPEN : CONTACT_STICK;
         if (!above) path->lift[interface_normal(interface, i)] = problem->matrix->diagonal;
     }
@@ -328,9 +309,8 @@ static bool start_pressed(PathTrace *trace)
     memset(path->piece, 0, (size_t)interface->contact_count);
     memset(at->velocity, 0, (size_t)path->count * sizeof(double));
     trace->tau = 4 * trace->scales.velocity;
-    for (int32_t trial = 0; trial < STARTS; trial++) {
+    for (int32_t trial = 0; trial < STARTS_LIMIT; trial++) {
         arrange(trace);
-        memset(path->row, 0, ((size_t)trace->system.free_count + 1) * sizeof(double));
         path->row[trace->system.free_count] = -1;
         if (!find_tangent(trace)) return false;
         find_reaction(trace);
@@ -353,14 +333,14 @@ static bool start_pressed(PathTrace *trace)
 }
 
 // From a start to tau = 0.
-// false: given up after STEPS_EACH steps for each unknown, where a step was not found, or on a ray
+// false: given up after STEPS_LIMIT steps for each unknown, where a step was not found, or on a ray
 // that leaves for tau to infinity.
 static bool trace_path(PathTrace *trace)
 {
     ContactPath *path = trace->path;
     PathBound reached = {.node = PATH_AT_NO_BOUND};
-    double highest = RAY * trace->tau;
-    for (int32_t step = 0; step < STEPS_EACH * path->count && trace->tau < highest; step++) {
+    double highest = TAU_LIMIT * trace->tau;
+    for (int32_t step = 0; step < STEPS_LIMIT * path->count && trace->tau < highest; step++) {
         if (step > 0 && !find_tangent(trace)) return false;
         path->steps++;
         if (!advance(trace, &reached)) return false;

@@ -21,7 +21,6 @@ typedef struct ContactPath {
     int32_t count;   // interface unknowns
     int32_t *free;   // [count] unknowns that are not held; owned, like all that follows
     ContactRow *equation;   // [count] work: their equations
-    int32_t *place;   // [count] where an unknown stands in `free`; -1: held
     int32_t *pivots;   // [count + 1]
     double *matrix;   // [(count + 1)^2]
     double *lift;   // [count] d, force/velocity: tau is a velocity

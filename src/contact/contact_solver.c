@@ -22,8 +22,7 @@ static const double CLEARLY = 100;
 // The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
-    return (ContactSolverDef){
-        .iterations_all = 30, .iterations_one = 200, .iterations_short = 40, .tolerance = 1e-12};
+    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 40, .tolerance = 1e-12};
 }
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
@@ -99,13 +98,11 @@ static bool update_statuses(Solve *solve, double least)
 }
 
 // The rod's kind decides what a bonded or absent rod does.
-static void fix_rod_kind(const Solve *solve)
+static void fix_rod_kind(const ContactProblem *problem, const ContactSolution *solution)
 {
-    const ContactProblem *problem = solve->newton->equations.problem;
-    uint8_t *touches = solve->newton->equations.at->rod_touches;
     size_t rods = (size_t)problem->interface->rod_count;
-    if (problem->rod_kind == ROD_AWAY) memset(touches, 0, rods);
-    if (problem->rod_kind == ROD_IS_BONDED) memset(touches, 1, rods);
+    if (problem->rod_kind == ROD_AWAY) memset(solution->rod_touches, 0, rods);
+    if (problem->rod_kind == ROD_IS_BONDED) memset(solution->rod_touches, 1, rods);
 }
 
 // What is left to the tolerance becomes exact. A node may slip against its status by the tolerance,
@@ -134,11 +131,9 @@ static void clean_solution(const Solve *solve)
 // Only the worst status is changed from here on.
 static void change_one(Solve *solve)
 {
-    const ContactSolver *solver = solve->solver;
     if (!solve->change_all) return;
     solve->change_all = false;
-    solve->limit = solve->iterations + (solver->follows_path ? solver->def.iterations_one
-                                                             : solver->def.iterations_short);
+    solve->limit = solve->iterations + solve->solver->def.iterations_one;
     solve->solver->fallbacks++;
 }
 
@@ -192,7 +187,7 @@ static bool starts_fast(Solve *solve)
     solve->least = INFINITY;
     solve->stalled = 0;
     solve->newton->listed = false;
-    contact_newton_follow(solve->newton);
+    contact_newton_react(solve->newton);
     return true;
 }
 
@@ -240,10 +235,9 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                    .change_all = true,
                    .before = INFINITY,
                    .started = -1};
+    fix_rod_kind(problem, solution);
     contact_newton_begin(newton, problem, solution, 1e-3 * solver->def.tolerance);
-    fix_rod_kind(&solve);
     note_statuses(&solve);
-    contact_newton_settle(newton);
     while (may_go_on(&solve)) {
         if (!newton->listed && !contact_newton_list(newton)) return false;
         solver->iterations++;
@@ -252,7 +246,6 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         Progress progress = judge_step(&solve);
         if (progress == GIVEN_UP) return false;
         if (progress == SOLVED) {
-            contact_newton_end(newton);
             clean_solution(&solve);
             return true;
         }

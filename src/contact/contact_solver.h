@@ -20,8 +20,7 @@ typedef struct ContactSolverDef {
     int32_t
         iterations_all;   // Newton steps in which every violated status is changed: 30, some ten
     // times what a solvable problem was seen to need
-    int32_t iterations_one;   // and then those that change only the worst: 200
-    int32_t iterations_short;   // the same where the caller has shorter steps: 40
+    int32_t iterations_one;   // and then those that change only the worst: 40
     double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
         // above what rounding leaves in S v - g
 } ContactSolverDef;

@@ -7,6 +7,7 @@ import shutil
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
@@ -32,6 +33,16 @@ class Lists(unittest.TestCase):
             for text, said in cases:
                 path.write_text(text)
                 self.assertTrue(any(said in fault for fault in listed.faults(Path(folder))), said)
+
+    def test_limits_are_in_no_list(self):
+        limit = listed.Constant("NEW_LIMIT", "contact/contact_path.c", "", "")
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(SOURCE / "src", Path(folder, "src"))
+            path = Path(folder, "src", limit.file)
+            path.write_text(path.read_text() + "enum { NEW_LIMIT = 3 };\n")
+            self.assertEqual(listed.faults(Path(folder)), [])
+            with unittest.mock.patch.object(listed, "CONSTANTS", [*listed.CONSTANTS, limit]):
+                self.assertTrue(any("NEW_LIMIT" in fault for fault in listed.faults(Path(folder))))
 
     def test_every_form_of_a_definition_is_found(self):
         text = ("static const double A = 3, B[] = {[C] = 2e-2, [D] = 1};   // E = 5\n"
