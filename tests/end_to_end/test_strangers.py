@@ -119,18 +119,18 @@ class Command(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             def call(*words):
                 return subprocess.run([FOLDER / "strangers.py", "-o", folder, "--limit", "0", *words], capture_output=True, text=True)
-            first = call("--only", "68")
-            kept = Path(folder, "068.json")
+            first = call("--only", "268")
+            kept = Path(folder, "268.json")
             data = json.loads(kept.read_text())
             self.assertEqual(data["asked"]["status"], 0, first.stderr)
             self.assertGreater(len(data["asked"]["levels"]), 2)
-            self.assertIn("0 problems to compute", call("--only", "68").stdout)
+            self.assertIn("0 problems to compute", call("--only", "268").stdout)
             self.assertEqual(json.loads(kept.read_text()), data)
             table = Path(folder, "table.md").read_text()
-            self.assertNotIn("| 68 |", table)
+            self.assertNotIn("| 268 |", table)
             self.assertIn("1 problems computed", table)
-            call("--only", "68", "--table", "--show-judging")
-            self.assertIn("| 68 |", Path(folder, "table.md").read_text())
+            call("--only", "268", "--table", "--show-judging")
+            self.assertIn("| 268 |", Path(folder, "table.md").read_text())
 
 
 if __name__ == "__main__":
