@@ -98,7 +98,7 @@ class Resume(OwnCache):
         process = subprocess.Popen([PROGRAM, "run", FIG1, *PLAIN, "time.until.U=0.06", "--to", "0.01%", "-o",
                                     self.folder / "bar"], stderr=subprocess.PIPE, text=True, env=self.environment)
         shown = ""
-        while not shown.startswith("mesh 2"):
+        while not shown.startswith("mesh 2:"):
             shown = process.stderr.readline()
             self.assertTrue(shown)
         process.send_signal(signal.SIGINT)
