@@ -7,6 +7,7 @@
 #include "io/files/file_lock.h"
 #include "io/files/open_file.h"
 #include "io/hdf5/result_file.h"
+#include "record/events.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -138,7 +139,6 @@ static void write_frame_link(HtmlWriter *html, const RenderFrames *frames, doubl
 static void write_event(HtmlWriter *html, const EventTable *table, int32_t k, const double scale[2],
                         const RenderFrames *frames)
 {
-    static const char *const kinds[KINDS] = {"quasi-static", "bounded rapid", "bulk sliding"};
     double *const *column = table->column;
     int32_t kind = column[KIND][k] >= 0 && column[KIND][k] < KINDS ? (int32_t)column[KIND][k] : -1;
     const double shown[] = {column[U_START][k],
@@ -148,7 +148,7 @@ static void write_event(HtmlWriter *html, const EventTable *table, int32_t k, co
                             column[RATE][k] / scale[1],
                             column[SPEED][k]};
     html_markup(html, "<tr class='kind%d'><td class='number'>%d</td><td>%s</td>", kind, k + 1,
-                kind < 0 ? "unknown" : kinds[kind]);
+                event_words(column[KIND][k]));
     for (size_t c = 0; c < sizeof shown / sizeof *shown; ++c) {
         html_markup(html, "<td class='number'>");
         html_number(html, shown[c], c < 2 ? DIGITS : 3);

@@ -21,11 +21,21 @@ enum { FIRST_ROOM = 64 };
 const char *event_name(EventKind kind)
 {
     static const char *const names[] = {
-#define X(symbol, name) name,
+#define X(symbol, name, words) name,
         EVENT_KINDS(X)
 #undef X
     };
     return names[kind];
+}
+
+const char *event_words(double stored)
+{
+    static const char *const words[] = {
+#define X(symbol, name, words) words,
+        EVENT_KINDS(X)
+#undef X
+    };
+    return stored >= 0 && stored < EVENT_LEADING + 1 ? words[(int32_t)stored] : "unknown";
 }
 
 // rate_scale: the rod's velocity, or what stands for it (model/obtain, set_scales).

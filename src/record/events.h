@@ -11,14 +11,14 @@
 #include "record/front_path.h"
 #include "record/pad_sums.h"
 
-// symbol, name; the numbers stand in history.h5 (io/hdf5/result_file)
+// symbol, name, as people are told of it; the numbers stand in history.h5 (io/hdf5/result_file)
 #define EVENT_KINDS(X)                                                                             \
-    X(EVENT_QUASI_STATIC, "quasi-static")                                                          \
-    X(EVENT_BOUNDED, "bounded rapid")                                                              \
-    X(EVENT_LEADING, "leading rapid")
+    X(EVENT_QUASI_STATIC, "quasi-static", "quasi-static")                                          \
+    X(EVENT_BOUNDED, "bounded rapid", "bounded rapid")                                             \
+    X(EVENT_LEADING, "leading rapid", "bulk sliding")
 
 typedef enum EventKind {
-#define X(symbol, name) symbol,
+#define X(symbol, name, words) symbol,
     EVENT_KINDS(X)
 #undef X
 } EventKind;
@@ -60,6 +60,8 @@ typedef struct Events {
 } Events;
 
 const char *event_name(EventKind kind);   // static storage
+// Of a kind as history.h5 has it; "unknown": it is none. Static storage.
+const char *event_words(double stored);
 
 // rate_scale: the rod's velocity, or what else quasi-static slip goes at; rapid is twice that.
 bool events_create(const Interface *interface, double rate_scale, Events *events, Error *err);

@@ -8,6 +8,7 @@
 #include "io/files/text_file.h"
 #include "io/hdf5/result_file.h"
 #include "io/text/json_reader.h"
+#include "record/events.h"
 #include "run/result_folder.h"
 
 #include <math.h>
@@ -105,16 +106,12 @@ enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
 
 static void write_events(double *const column[EVENT_COLUMNS], int32_t count, FILE *out)
 {
-    static const char *const kinds[] = {"quasi-static", "bounded rapid", "bulk sliding"};
     if (count == 0) return;
     fprintf(out, "\n  %-14s %12s %12s %12s %14s\n", "event", "U start", "U stop", "reach",
             "peak slip rate");
-    for (int32_t i = 0; i < count && i < EVENTS_SHOWN_MAX; i++) {
-        double kind = column[KIND][i];
-        bool known = kind >= 0 && kind < 3;
-        fprintf(out, "  %-14s %12.6g %12.6g %12.6g %14.4g\n", known ? kinds[(int)kind] : "unknown",
+    for (int32_t i = 0; i < count && i < EVENTS_SHOWN_MAX; i++)
+        fprintf(out, "  %-14s %12.6g %12.6g %12.6g %14.4g\n", event_words(column[KIND][i]),
                 column[U_START][i], column[U_STOP][i], column[REACH][i], column[PEAK_RATE][i]);
-    }
     if (count > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", count - EVENTS_SHOWN_MAX);
 }
 
