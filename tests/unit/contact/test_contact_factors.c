@@ -58,14 +58,7 @@ static void end_rig(Rig *rig)
 // Open nodes are free here, as S is that of all.
 static void list_free(Rig *rig)
 {
-    int32_t count = 0;
-    for (int32_t i = 0; i < HAND_NODES; i++) {
-        if (rig->at.status[i] != CONTACT_STICK) rig->free[count++] = 2 * i;
-        if (rig->at.status[i] == CONTACT_OPEN) rig->free[count++] = 2 * i + 1;
-    }
-    for (int32_t j = 0; j < RODS; j++)
-        if (!rig->at.rod_touches[j] || softness[j] > 0) rig->free[count++] = 2 * HAND_NODES + j;
-    rig->equations.free_count = count;
+    contact_list_free(&rig->equations, true);
     contact_find_rows(&rig->equations);
 }
 
@@ -141,12 +134,22 @@ static void test_opens(void **state)
     end_rig(&rig);
 }
 
+// What is written of one is read into the other. false: it is refused.
+static bool read_back(ContactFactors *from, ContactFactors *into, Error *err)
+{
+    static char bytes[4 * 8 * COUNT * COUNT];
+    Archive archive = archive_write(bytes, sizeof bytes);
+    contact_factors_archive(from, &archive);
+    archive = archive_read(bytes, archive.at);
+    contact_factors_archive(into, &archive);
+    return archive_check(&archive, true, err);
+}
+
 // Read back they give the same bits, and follow on to the same bits.
 static void test_archive(void **state)
 {
     (void)state;
     static Rig rig;
-    static char bytes[4 * 8 * COUNT * COUNT];
     Error err = {0};
     Random random = {.state = 4};
     ContactFactors copy;
@@ -159,13 +162,7 @@ static void test_archive(void **state)
         list_free(&rig);
         assert_true(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
         if (trial > 8) assert_true(contact_factors_update(&copy, &rig.equations, rig.hand.schur));
-        if (trial == 8) {
-            Archive archive = archive_write(bytes, sizeof bytes);
-            contact_factors_archive(&rig.factors, &archive);
-            archive = archive_read(bytes, archive.at);
-            contact_factors_archive(&copy, &archive);
-            assert_true(archive_check(&archive, true, &err));
-        }
+        if (trial == 8) assert_true(read_back(&rig.factors, &copy, &err));
         if (trial < 8) continue;
         double x[COUNT], y[COUNT];
         for (int32_t a = 0; a < COUNT; a++) x[a] = y[a] = random_between(&random, -1, 1);
@@ -183,7 +180,6 @@ static void test_archive_without_row(void **state)
 {
     (void)state;
     static Rig rig;
-    static char bytes[4 * 8 * COUNT * COUNT];
     Error err = {0};
     Random random = {.state = 6};
     ContactFactors copy;
@@ -192,11 +188,7 @@ static void test_archive_without_row(void **state)
     list_free(&rig);
     assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
     rig.factors.row[rig.factors.free[3]].normal = -1;
-    Archive archive = archive_write(bytes, sizeof bytes);
-    contact_factors_archive(&rig.factors, &archive);
-    archive = archive_read(bytes, archive.at);
-    contact_factors_archive(&copy, &archive);
-    assert_false(archive_check(&archive, true, &err));
+    assert_false(read_back(&rig.factors, &copy, &err));
     error_clear(&err);
     contact_factors_destroy(&copy);
     end_rig(&rig);

@@ -230,24 +230,6 @@ static void test_what_is_said_of_a_bar(void **state)
     expect(levels, "not known (cells are too long for slip: no time for more)");
 }
 
-// An answer of the last mesh outside the bar of all is told beside the other.
-static void test_last_mesh_apart(void **state)
-{
-    (void)state;
-    RunWarnings warnings = {0};
-    Levels levels = {.count = 1};
-    Level *level = &levels.list[0];
-    level->run_count = 1;
-    level->runs[0].answer[ANSWER_MU_HOLD].value = 0.495;
-    level->answer[ANSWER_MU_HOLD] = (ErrorBar){.value = 0.4};
-    warnings_of_last_mesh(&levels, &warnings);
-    assert_int_equal(warnings.count, 0);
-    level->answer[ANSWER_MU_HOLD].apart = true;
-    warnings_of_last_mesh(&levels, &warnings);
-    assert_int_equal(warnings.count, 1);
-    assert_non_null(strstr(warnings.text[0], "mu_hold is 0.4950 there and 0.4000 by all"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -258,7 +240,6 @@ int main(void)
         cmocka_unit_test(test_loads_of_the_runs),
         cmocka_unit_test_teardown(test_no_room_for_refine, end),
         cmocka_unit_test(test_what_is_said_of_a_bar),
-        cmocka_unit_test(test_last_mesh_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
