@@ -122,11 +122,11 @@ static const ErrorBar *asked(const Accuracy *accuracy)
     return levels_answer(&accuracy->levels, accuracy->levels.asked);
 }
 
+// A bar that is not known, as where slip is not resolved, is NaN, and met by nothing.
 static bool is_met(const Accuracy *accuracy)
 {
     const ErrorBar *answer = asked(accuracy);
     return levels_enough(&accuracy->levels, accuracy->levels.asked) &&
-           levels_resolved(&accuracy->levels) && !isnan(answer->parts.mesh) &&
            answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
@@ -293,9 +293,8 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
     simulation->deadline = accuracy->deadline;
     if (!simulation_loop(simulation, err)) TRY(is_time_up(accuracy, simulation, err));
-    Answers answers = answers_of(&simulation->drops);
-    steady_answer(&simulation->steady, &answers);
-    if (answers.steady || accuracy_is_known(accuracy, &answers))
+    Answers answers = simulation_answers(simulation);
+    if (accuracy_is_known(accuracy, &answers))
         levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
     while (levels_lack_runs(accuracy) && accuracy_seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));

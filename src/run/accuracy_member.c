@@ -35,11 +35,11 @@ int32_t accuracy_runs_first(const Accuracy *accuracy)
 
 // The next pressure, over the scene's: the ends of the window, then points between them, in pairs
 // that leave the mean where it is.
-static double next_pressure(Accuracy *accuracy)
+static double next_pressure(const Accuracy *accuracy)
 {
     static const double places[] = {1, 0.5, 0.75, 0.25};
     double half = accuracy->scene->accuracy.window / 2;
-    int32_t run = accuracy->members++;
+    int32_t run = accuracy->members;
     double place = places[run / 2 % (int32_t)(sizeof places / sizeof *places)];
     return 1 + (run % 2 == 0 ? -half : half) * place;
 }
@@ -71,6 +71,7 @@ bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
 {
     const Estimate *mu_M = &answers->mu_M;
     double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
+    if (answers->steady) return true;
     if (answers->regime.run_in != RUN_IN_OVER) return false;
     if (answers->peaks_counted >= PEAKS_MIN) return mu_M->error <= allowed * mu_M->value;
     return answers->peaks_counted == 0 && answers->enough;
@@ -226,18 +227,15 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
-    if (coarse && (*coarse = is_too_coarse(accuracy, interface))) {
-        accuracy->members--;
-        goto cleanup;
-    }
+    if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
     double begun = clock_seconds();
     TRY(step_until_known(accuracy, simulation, &wait, err));
-    Answers answers = answers_of(&simulation->drops);
-    steady_answer(&simulation->steady, &answers);
+    Answers answers = simulation_answers(simulation);
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
     level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
     levels_add_run(&accuracy->levels, pressure, &answers, simulation->control.counters.accepted);
+    accuracy->members++;
     expect_full(accuracy, simulation, begun - started, clock_seconds() - begun);
 cleanup:
     if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);

@@ -21,7 +21,7 @@ typedef struct Accuracy {
     const RunOptions *options;
     Levels levels;
     double step;   // of cell size from level to level
-    int32_t members;   // runs begun behind the bar
+    int32_t members;   // whole runs behind the bar, but for that in full
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
     double full;   // expected of the run in full, s; 0: no run is whole
     bool out_of_time;

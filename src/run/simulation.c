@@ -303,13 +303,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+Answers simulation_answers(const Simulation *simulation)
+{
+    Answers answers = answers_of(&simulation->drops);
+    steady_answer(&simulation->steady, &answers);
+    return answers;
+}
+
 // Of several meshes and runs, where there are; of this run else. *least: the load drop that counts
 // before which the fewest cells slipped; NULL: none.
 static Answers answers_to_report(const Simulation *simulation, const Event **least)
 {
-    Answers answers = answers_of(&simulation->drops);
+    Answers answers = simulation_answers(simulation);
     *least = drops_least_resolved(&simulation->drops, answers.first);
-    steady_answer(&simulation->steady, &answers);
     one_mesh_answer(simulation, *least, &answers);
     if (simulation->levels) levels_answer_for(simulation->levels, &answers);
     return answers;

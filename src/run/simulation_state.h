@@ -73,6 +73,7 @@ bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end 
 
 bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
 bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
+Answers simulation_answers(const Simulation *simulation);   // of this run so far, at its end
 // When rod or load next come to a point of the scene's programs; INFINITY: never.
 double steering_next_point(const Simulation *simulation);
 // After a step: where it has reached `point` waves are resolved again.
