@@ -70,7 +70,7 @@ class Damaged(unittest.TestCase):
                 self.assertIn(done.returncode, (1, 2), done.stderr)
                 where = r"(fields/bulk_\d+\.vtu|HDF5 or VTK crashes)"   # VTK does, where a type is unknown
                 self.assertRegex(done.stderr, rf"\Aamontons: error: [^\n\x1b]*{where}[^\n\x1b]*\n\Z")
-                self.assertNotIn("0x", done.stderr)
+                self.assertNotIn("0x", done.stderr.replace(str(result), ""))   # no address; the name of the folder is chance
 
 
 class FieldFiles(unittest.TestCase):
