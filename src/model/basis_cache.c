@@ -26,15 +26,26 @@ static void archive_matrices(ReducedBulk *reduced, Archive *archive)
 }
 
 // Of `count` unknowns of `whole`.
-static void archive_map(SymmetryMap *map, int32_t count, int32_t whole, Archive *archive)
+static void archive_pairs(Transform *by, int32_t count, int32_t whole, Archive *archive)
 {
     if (archive_fills(archive))
-        archive_require(archive, symmetry_map_create(count, map, archive->err));
-    archive_indices(archive, map->one, count, 0, whole);
-    archive_indices(archive, map->other, count, 0, whole);
-    archive_numbers(archive, map->sign, count);
-    for (int32_t k = 0; archive_fills(archive) && k < count; k++)
-        symmetry_map_append(map, map->one[k], map->other[k], map->sign[k] < 0 ? -1 : 1);
+        archive_require(archive, transform_create(whole, count, whole, by, archive->err));
+    for (int32_t k = 0; k < count; k++) {
+        int32_t pair[2] = {0};
+        double sign = 1;
+        if (!archive_reads(archive)) {
+            const TransformBlock *block = &by->blocks[k];
+            pair[0] = block->rows[0];
+            pair[1] = block->rows[block->size - 1];
+            sign = block->values[block->size - 1];
+        }
+        archive_indices(archive, pair, 2, 0, whole);
+        archive_number(archive, &sign);
+        if (!archive_fills(archive)) continue;
+        archive_require(archive,
+                        by->block_of[pair[0]] == NO_BLOCK && by->block_of[pair[1]] == NO_BLOCK);
+        if (archive_fills(archive)) transform_append_pair(by, pair[0], pair[1], sign < 0 ? -1 : 1);
+    }
 }
 
 static void archive_parts(ReducedBulk *reduced, Archive *archive)
@@ -53,7 +64,7 @@ static void archive_parts(ReducedBulk *reduced, Archive *archive)
         archive_sizes(&part[p], archive);
         archive_matrices(&part[p], archive);
         symmetry->interior[p] = part[p].interior_count;
-        archive_map(&symmetry->border[p], part[p].interface_count, border, archive);
+        archive_pairs(&symmetry->border[p], part[p].interface_count, border, archive);
     }
     archive_require(archive, part[0].interface_count + part[1].interface_count == border &&
                                  part[0].full_dofs + part[1].full_dofs == reduced->full_dofs &&
@@ -80,7 +91,7 @@ static void archive_modes(void *self, Archive *archive)
         archive_new_numbers(archive, &reduced->modes, (int64_t)reduced->full_dofs * reduced->count);
     for (int p = 0; part && p < 2; p++) {
         archive_new_numbers(archive, &part[p].modes, (int64_t)part[p].full_dofs * part[p].count);
-        archive_map(&reduced->symmetry->mesh[p], part[p].full_dofs, reduced->full_dofs, archive);
+        archive_pairs(&reduced->symmetry->mesh[p], part[p].full_dofs, reduced->full_dofs, archive);
     }
 }
 

@@ -101,7 +101,7 @@ static bool recover_parts(const ReducedBulk *reduced, int32_t count, const doubl
     for (int32_t k = 0; k < count; k++) {
         memset(full[k], 0, (size_t)reduced->full_dofs * sizeof(double));
         for (int p = 0; p < 2; p++)
-            symmetry_map_add(&reduced->symmetry->mesh[p], work.field[p][k], full[k]);
+            transform_apply(&reduced->symmetry->mesh[p], work.field[p][k], full[k]);
     }
 cleanup:
     recovery_destroy(&work);

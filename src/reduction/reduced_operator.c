@@ -95,7 +95,7 @@ static bool condense_parts(CondensedBulk *condensed, OperatorTerms terms, double
         part = NEW_ARRAY(double, m *m, err);
         TRY(part);
         TRY(condensed_part_create(&reduced->part[p], terms, &condensed->part[p], part, taken, err));
-        symmetry_map_add_square(&symmetry->border[p], part, (int32_t)size, border);
+        transform_add_square(&symmetry->border[p], part, border);
     }
     condensed->pushed = NEW_ARRAY(double, size, err);
     TRY(mirrored_dofs_condense(border, symmetry->interface_count, symmetry->mirrored,
@@ -137,7 +137,7 @@ void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double
     for (int p = 0; p < 2; p++) {
         condensed_part_condense(&reduced->part[p], &condensed->part[p], system->local[p],
                                 system->image[p]);
-        symmetry_map_add(&symmetry->border[p], system->image[p], condensed->pushed);
+        transform_apply(&symmetry->border[p], system->image[p], condensed->pushed);
     }
     memcpy(g, condensed->pushed, (size_t)m * sizeof *g);
     dense_apply_transposed(dense_view(condensed->mirrored.follow, n, m), condensed->pushed + m, -1,
@@ -161,7 +161,7 @@ void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, do
     memcpy(border + m, condensed->pushed + m, (size_t)n * sizeof *border);
     dense_apply(dense_view(condensed->mirrored.follow, n, m), interface, -1, 1, border + m);
     for (int p = 0; p < 2; p++) {
-        symmetry_map_take(&symmetry->border[p], border, system->image[p]);
+        transform_apply_transposed(&symmetry->border[p], border, system->image[p]);
         condensed_part_expand(&reduced->part[p], &condensed->part[p], system->image[p],
                               system->local[p]);
     }

@@ -53,8 +53,7 @@ typedef struct Builder {
     double *values;   // [m] eigenvalues
     double *eigen_work;   // [dense_eigen_work(m)]
     BulkOperator mesh;   // the whole, where nothing is replaced
-    FarBlock far_block;
-    FarField far;   // far.block NULL: nothing is replaced
+    FarField far;
 } Builder;
 
 // All but the reduced bulk.
@@ -67,7 +66,6 @@ static void builder_destroy(Builder *work)
     memory_free(work->eigen_work);
     bulk_operator_destroy(&work->mesh);
     far_field_destroy(&work->far);
-    far_block_destroy(&work->far_block);
 }
 
 static bool builder_create(Builder *work, Error *err)
@@ -311,12 +309,11 @@ static bool is_uniform(const Materials *materials)
 // What is far from the interface comes back into the modes.
 static bool expand_modes(Builder *work, Error *err)
 {
-    const FarField *far = &work->far;
+    const Transform *by = &work->far.modes;
     ReducedBulk *reduced = work->reduced;
-    double *near = reduced->modes, *modes = NULL;
-    int64_t size = far->mesh_dofs;
-    reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
-    if (modes) far_field_expand(far, near, reduced->count, modes, err);
+    double *near = reduced->modes;
+    reduced->modes = NEW_ARRAY(double, (int64_t)by->size * reduced->count, err);
+    if (reduced->modes) transform_apply_many(by, near, reduced->count, reduced->modes, err);
     memory_free(near);
     return error_is_clean(err);
 }
@@ -327,11 +324,11 @@ static void add_far_field(const Builder *work)
     const FarField *far = &work->far;
     ReducedBulk *reduced = work->reduced;
     int64_t m = reduced->interface_count;
-    reduced->full_dofs = far->mesh_dofs;
-    memcpy(reduced->stiffness, far->block->stiffness, (size_t)(m * m) * sizeof(double));
+    reduced->full_dofs = far->modes.size;
+    memcpy(reduced->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
     for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
         ParameterPoint point = {.inertia = reduced->errors.inertia[level]};
-        reduced->errors.error[level] += far->block->error * allowed_error(work, point);
+        reduced->errors.error[level] += far->error * allowed_error(work, point);
     }
 }
 
@@ -340,7 +337,7 @@ static bool build_on(Builder *work, Error *err)
     const ReductionDef *def = work->def;
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
-    double slowest = work->far_block.samples.slowest;   // where the whole mesh was looked at
+    double slowest = work->far.slowest;   // where the whole mesh was looked at
     TRY(builder_create(work, err));
     if (slowest > 0) TRY(list_training_points(work, slowest, err));
     if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
@@ -354,26 +351,10 @@ static bool build_on(Builder *work, Error *err)
     TRY(compare_beyond(work, err));
     TRY(find_viscous(work, err));
     TRY(basis_finish(&work->basis, def->modes, work->reduced, err));
-    if (def->modes && work->far.block) TRY(expand_modes(work, err));
-    if (work->far.block) add_far_field(work);
+    if (def->modes && work->far.used) TRY(expand_modes(work, err));
+    if (work->far.used) add_far_field(work);
 cleanup:
     interface_operator_destroy(statics);
-    return error_is_clean(err);
-}
-
-static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
-                        Error *err)
-{
-    const ReductionDef *def = work->def;
-    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
-    FarBlock *block = &work->far_block;
-    TRY(far_block_create(bulk, interface_dofs, m, &far_def, block, err));
-    if (block->patch_count == 0) goto cleanup;
-    work->far.block = block;
-    TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
-    TRY(far_field_measure(&work->far, block, err));
-    if (block->patch_count == 0) work->far.block = NULL;
-cleanup:
     return error_is_clean(err);
 }
 
@@ -381,11 +362,12 @@ bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t in
                      const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
     Builder work = {.def = def, .reduced = reduced};
+    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
     *reduced = (ReducedBulk){.scales = def->scales};
     if (interface_count >= FAR_INTERFACE)
-        TRY(replace_far(&work, bulk, interface_dofs, interface_count, err));
-    work.full = work.far.block ? &work.far.system : &work.mesh;
-    if (!work.far.block)
+        TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &work.far, err));
+    work.full = work.far.used ? &work.far.system : &work.mesh;
+    if (!work.far.used)
         TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &work.mesh, err));
     TRY(build_on(&work, err));
 cleanup:

@@ -9,8 +9,8 @@
 void symmetry_parts_destroy(SymmetryParts *symmetry)
 {
     for (int p = 0; p < 2; p++) {
-        symmetry_map_destroy(&symmetry->border[p]);
-        symmetry_map_destroy(&symmetry->mesh[p]);
+        transform_destroy(&symmetry->border[p]);
+        transform_destroy(&symmetry->mesh[p]);
     }
     mirrored_dofs_destroy(&symmetry->at_rest);
     *symmetry = (SymmetryParts){0};
@@ -57,7 +57,7 @@ static void split(const SymmetryParts *symmetry, const double *border, const dou
 {
     const double *interior = x + symmetry->interface_count + symmetry->mirrored;
     for (int p = 0; p < 2; p++) {
-        symmetry_map_take(&symmetry->border[p], border, local[p]);
+        transform_apply_transposed(&symmetry->border[p], border, local[p]);
         memcpy(local[p] + symmetry->border[p].count, interior,
                (size_t)symmetry->interior[p] * sizeof *interior);
         interior += symmetry->interior[p];
@@ -70,7 +70,7 @@ static void join(const SymmetryParts *symmetry, const double *const local[2], do
     double *interior = x + symmetry->interface_count + symmetry->mirrored;
     memset(border, 0, (size_t)(symmetry->interface_count + symmetry->mirrored) * sizeof *border);
     for (int p = 0; p < 2; p++) {
-        symmetry_map_add(&symmetry->border[p], local[p], border);
+        transform_apply(&symmetry->border[p], local[p], border);
         memcpy(interior, local[p] + symmetry->border[p].count,
                (size_t)symmetry->interior[p] * sizeof *interior);
         interior += symmetry->interior[p];

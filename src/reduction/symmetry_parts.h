@@ -12,7 +12,7 @@
 #ifndef AMONTONS_REDUCTION_SYMMETRY_PARTS_H
 #define AMONTONS_REDUCTION_SYMMETRY_PARTS_H
 
-#include "reduction/symmetry_map.h"
+#include "reduction/transform.h"
 
 // Mirrored unknowns condensed out of an S on the border.
 typedef struct MirroredDofs {
@@ -29,8 +29,8 @@ void mirrored_dofs_destroy(MirroredDofs *mirrored);
 typedef struct SymmetryParts {
     int32_t interface_count, mirrored;   // m; unknowns of w
     int32_t interior[2];   // q of each part
-    SymmetryMap border[2];   // of [u_b; u_R]; owned, like all below
-    SymmetryMap mesh[2];   // of the whole mesh's unknowns; empty where the modes are not at hand
+    Transform border[2];   // of [u_b; u_R]; owned, like all below
+    Transform mesh[2];   // of the whole mesh's unknowns; empty where the modes are not at hand
     MirroredDofs at_rest;   // of K
 } SymmetryParts;
 

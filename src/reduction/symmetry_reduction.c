@@ -10,7 +10,7 @@ static bool settle(SymmetryParts *symmetry, const ReducedBulk *part, Error *err)
     double *schur = NEW_ARRAY(double, size *size, err);
     if (!schur) return false;
     for (int p = 0; p < 2; p++)
-        symmetry_map_add_square(&symmetry->border[p], part[p].stiffness, (int32_t)size, schur);
+        transform_add_square(&symmetry->border[p], part[p].stiffness, schur);
     bool done = mirrored_dofs_condense(schur, symmetry->interface_count, symmetry->mirrored,
                                        &symmetry->at_rest, NULL, err);
     memory_free(schur);
@@ -46,12 +46,12 @@ bool symmetry_reduction_build(Mirror *mirror, int32_t m, const ReductionDef *def
                             &reduced->part[p], err));
         symmetry->interior[p] = reduced->part[p].interior_count;
         symmetry->border[p] = from->border;
-        from->border = (SymmetryMap){0};
+        from->border = (Transform){0};
         reduced->interior_count += symmetry->interior[p];
         reduced->full_dofs += from->bulk.dof_count;
         if (!def->modes) continue;
         symmetry->mesh[p] = from->unknowns;
-        from->unknowns = (SymmetryMap){0};
+        from->unknowns = (Transform){0};
     }
     reduced->count = m + reduced->interior_count;
     TRY(settle(symmetry, reduced->part, err));
