@@ -3,31 +3,11 @@
 // bytes over. Modes are several times as large and seldom wanted, so they have a file of their own.
 #include "model/basis_cache.h"
 
-static void archive_sizes(ReducedBulk *reduced, Archive *archive)
-{
-    archive_length(archive, &reduced->full_dofs);
-    archive_length(archive, &reduced->interface_count);
-    archive_length(archive, &reduced->interior_count);
-    reduced->count = reduced->interface_count + reduced->interior_count;
-    archive_lend_numbers(archive, &reduced->load, reduced->count);
-}
-
-static void archive_matrices(ReducedBulk *reduced, Archive *archive)
-{
-    int64_t m = reduced->interface_count, all = reduced->count;
-    ReductionErrors *errors = &reduced->errors;
-    archive_index(archive, &errors->count, 0, REDUCTION_LEVELS_MAX + 1);
-    archive_numbers(archive, errors->inertia, errors->count);
-    archive_numbers(archive, errors->error, errors->count);
-    archive_lend_numbers(archive, &reduced->mass, all * all);
-    archive_lend_numbers(archive, &reduced->damping, all * all);
-    archive_lend_numbers(archive, &reduced->stiffness, m * m);
-    archive_lend_numbers(archive, &reduced->viscous, m * m);
-}
-
-// Of `count` unknowns of `whole`.
+// Of `count` unknowns of `whole`; T = 1 where these are all.
 static void archive_pairs(Transform *by, int32_t count, int32_t whole, Archive *archive)
 {
+    if (archive_fills(archive)) *by = (Transform){.size = whole, .count = count};
+    if (count == whole) return;
     if (archive_fills(archive))
         archive_require(archive, transform_create(whole, count, whole, by, archive->err));
     for (int32_t k = 0; k < count; k++) {
@@ -48,50 +28,58 @@ static void archive_pairs(Transform *by, int32_t count, int32_t whole, Archive *
     }
 }
 
-static void archive_parts(ReducedBulk *reduced, Archive *archive)
+static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
 {
-    int32_t m = reduced->interface_count;
-    SymmetryParts *symmetry = reduced->symmetry =
-        archive_new(archive, reduced->symmetry, 1, sizeof *symmetry);
-    ReducedBulk *part = reduced->part = archive_new(archive, reduced->part, 2, sizeof *part);
-    if (!symmetry || !part) return;
-    archive_length(archive, &symmetry->mirrored);
-    int32_t n = symmetry->mirrored, border = m + n;
-    symmetry->interface_count = m;
-    archive_new_numbers(archive, &symmetry->at_rest.follow, (int64_t)n * m);
-    archive_new_numbers(archive, &symmetry->at_rest.lower, (int64_t)n * n);
-    for (int p = 0; p < 2; p++) {
-        archive_sizes(&part[p], archive);
-        archive_matrices(&part[p], archive);
-        symmetry->interior[p] = part[p].interior_count;
-        archive_pairs(&symmetry->border[p], part[p].interface_count, border, archive);
-    }
-    archive_require(archive, part[0].interface_count + part[1].interface_count == border &&
-                                 part[0].full_dofs + part[1].full_dofs == reduced->full_dofs &&
-                                 part[0].count + part[1].count == reduced->count);
+    ReductionErrors *errors = &part->errors;
+    archive_length(archive, &part->full_dofs);
+    archive_length(archive, &part->border_count);
+    archive_length(archive, &part->interior_count);
+    part->count = part->border_count + part->interior_count;
+    int64_t m = part->border_count, all = part->count;
+    archive_require(archive, all > 0);
+    archive_index(archive, &errors->count, 0, REDUCTION_LEVELS_MAX + 1);
+    archive_numbers(archive, errors->inertia, errors->count);
+    archive_numbers(archive, errors->error, errors->count);
+    archive_lend_numbers(archive, &part->load, all);
+    archive_lend_numbers(archive, &part->mass, all * all);
+    archive_lend_numbers(archive, &part->damping, all * all);
+    archive_lend_numbers(archive, &part->stiffness, m * m);
+    archive_lend_numbers(archive, &part->viscous, m * m);
+    archive_pairs(&part->border, part->border_count, border, archive);
 }
 
 static void archive_basis(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;
-    bool parted = reduced->symmetry != NULL;
-    archive_sizes(reduced, archive);
-    archive_flag(archive, &parted);
-    if (parted)
-        archive_parts(reduced, archive);
-    else
-        archive_matrices(reduced, archive);
+    archive_length(archive, &reduced->interface_count);
+    archive_length(archive, &reduced->mirrored);
+    archive_length(archive, &reduced->count);
+    archive_index(archive, &reduced->part_count, 1, REDUCED_PARTS_MAX + 1);
+    int32_t m = reduced->interface_count, n = reduced->mirrored, left = reduced->count - m - n;
+    int32_t border = m + n, dofs = 0;
+    archive_lend_numbers(archive, &reduced->load, reduced->count);
+    archive_require(archive, left >= 0);
+    archive_new_numbers(archive, &reduced->at_rest.follow, (int64_t)n * m);
+    archive_new_numbers(archive, &reduced->at_rest.lower, (int64_t)n * n);
+    for (int p = 0; p < reduced->part_count; p++) {
+        ReducedPart *part = &reduced->part[p];
+        archive_part(part, m + n, archive);
+        border -= part->border_count;
+        left -= part->interior_count;
+        dofs += part->full_dofs;
+    }
+    archive_require(archive, border == 0 && left == 0);
+    reduced->full_dofs = dofs;
 }
 
 // Of a basis that is there.
 static void archive_modes(void *self, Archive *archive)
 {
-    ReducedBulk *reduced = self, *part = reduced->part;
-    if (!part)
-        archive_new_numbers(archive, &reduced->modes, (int64_t)reduced->full_dofs * reduced->count);
-    for (int p = 0; part && p < 2; p++) {
-        archive_new_numbers(archive, &part[p].modes, (int64_t)part[p].full_dofs * part[p].count);
-        archive_pairs(&reduced->symmetry->mesh[p], part[p].full_dofs, reduced->full_dofs, archive);
+    ReducedBulk *reduced = self;
+    for (int p = 0; p < reduced->part_count; p++) {
+        ReducedPart *part = &reduced->part[p];
+        archive_new_numbers(archive, &part->modes, (int64_t)part->full_dofs * part->count);
+        archive_pairs(&part->mesh, part->full_dofs, reduced->full_dofs, archive);
     }
 }
 
@@ -114,7 +102,7 @@ bool basis_cache_store(const char *name, const ReducedBulk *reduced, char note[C
 {
     ReducedBulk same = *reduced;
     if (!name[0]) return false;
-    if (!reduced_bulk_has_modes(reduced))
+    if (!reduced->part[0].modes)
         cache_remove(CACHE_MODES, name);
     else if (!cache_store(&(CacheItem){CACHE_MODES, name, archive_modes, &same}, note))
         return false;

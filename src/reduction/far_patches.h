@@ -24,7 +24,7 @@ typedef struct FarPatches {
 // interface_dofs: [m], neighbours side by side.
 bool far_patches_create(const SparsePattern *pattern, const int32_t *interface_dofs, int32_t m,
                         FarPatches *patches, Error *err);
-// Each patch's own matrices, and room for `expected` modes. unit: E.
+// Each patch's own K/E, and room for `expected` modes. unit: E.
 bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatches *patches,
                        Error *err);
 void far_patches_destroy(FarPatches *patches);

@@ -19,7 +19,6 @@ void patch_modes_destroy(PatchModes *modes)
     memory_free(modes->dofs);
     sparse_pattern_destroy(&modes->pattern);
     memory_free(modes->stiffness);
-    memory_free(modes->damping);
     memory_free(modes->field);
     memory_free(modes->image);
     *modes = (PatchModes){0};

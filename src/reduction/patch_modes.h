@@ -11,8 +11,8 @@
 typedef struct PatchModes {
     int32_t size;   // unknowns
     int32_t *dofs;   // [size] which of the mesh, ascending; owned, as what follows
-    SparsePattern pattern;   // of their own K and C
-    double *stiffness, *damping;   // [entries] K/E, C
+    SparsePattern pattern;   // of their own K
+    double *stiffness;   // [entries] K/E
     int32_t count, room;   // columns
     double *field;   // [size * room] F, F'(K/E)F = 1
     double *image;   // [size * room] (K/E) F

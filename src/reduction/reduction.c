@@ -43,7 +43,7 @@ typedef struct Builder {
     BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
     const ReductionDef *def;
     GrowingBasis basis;
-    ReducedBulk *reduced;   // not owned
+    ReducedPart *part;   // not owned
     TrainingPoints training;
     OperatorTerms terms[TRAINING_POINTS_MAX];   // [training.count] of its points
     FactorsAhead *ahead;   // of these
@@ -56,7 +56,7 @@ typedef struct Builder {
     FarField far;
 } Builder;
 
-// All but the reduced bulk.
+// All but the part.
 static void builder_destroy(Builder *work)
 {
     factors_ahead_destroy(work->ahead);
@@ -236,7 +236,7 @@ static bool list_training_points(Builder *work, double slowest, Error *err)
     training_points_list(&work->def->materials, &work->def->scales, slowest,
                          inertia_element(work->full->bulk, &work->def->scales,
                                          work->full->interface_dofs, work->full->interface_count),
-                         &work->reduced->errors, &work->training);
+                         &work->part->errors, &work->training);
     work->basis.responses.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->training.count; k++)
         work->terms[k] = parameter_terms(work->training.points[k].point, &work->def->scales);
@@ -249,7 +249,7 @@ static bool list_training_points(Builder *work, double slowest, Error *err)
 
 static bool train_basis(Builder *work, Error *err)
 {
-    ReductionErrors *errors = &work->reduced->errors;
+    ReductionErrors *errors = &work->part->errors;
     for (int32_t k = 0; k < work->training.count; k++) {
         TrainingPoint now = work->training.points[k];
         FactoredPoint full;
@@ -267,7 +267,7 @@ cleanup:
 // Far beyond an element S is the interface's own mass: the mass matrix is diagonal.
 static bool compare_beyond(Builder *work, Error *err)
 {
-    ReductionErrors *errors = &work->reduced->errors;
+    ReductionErrors *errors = &work->part->errors;
     const BulkOperator *full = work->full;
     int64_t m = full->interface_count;
     ParameterPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
@@ -291,7 +291,7 @@ cleanup:
 static bool find_viscous(Builder *work, Error *err)
 {
     int64_t m = work->basis.interface_count;
-    double *viscous = work->reduced->viscous = NEW_ARRAY(double, m *m, err);
+    double *viscous = work->part->viscous = NEW_ARRAY(double, m *m, err);
     bool definite = false;
     if (!viscous || !condense_basis(work, (ParameterPoint){1, 0}, &definite, err)) return false;
     if (!definite) FAIL(err, ERROR_COMPUTE, "the viscous interior is not positive definite");
@@ -310,10 +310,10 @@ static bool is_uniform(const Materials *materials)
 static bool expand_modes(Builder *work, Error *err)
 {
     const Transform *by = &work->far.modes;
-    ReducedBulk *reduced = work->reduced;
-    double *near = reduced->modes;
-    reduced->modes = NEW_ARRAY(double, (int64_t)by->size * reduced->count, err);
-    if (reduced->modes) transform_apply_many(by, near, reduced->count, reduced->modes, err);
+    ReducedPart *part = work->part;
+    double *near = part->modes;
+    part->modes = NEW_ARRAY(double, (int64_t)by->size * part->count, err);
+    if (part->modes) transform_apply_many(by, near, part->count, part->modes, err);
     memory_free(near);
     return error_is_clean(err);
 }
@@ -322,13 +322,13 @@ static bool expand_modes(Builder *work, Error *err)
 static void add_far_field(const Builder *work)
 {
     const FarField *far = &work->far;
-    ReducedBulk *reduced = work->reduced;
-    int64_t m = reduced->interface_count;
-    reduced->full_dofs = far->modes.size;
-    memcpy(reduced->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
-    for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
-        ParameterPoint point = {.inertia = reduced->errors.inertia[level]};
-        reduced->errors.error[level] += far->error * allowed_error(work, point);
+    ReducedPart *part = work->part;
+    int64_t m = part->border_count;
+    part->full_dofs = far->modes.size;
+    memcpy(part->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
+    for (int32_t level = 0; level < part->errors.count - 1; level++) {
+        ParameterPoint point = {.inertia = part->errors.inertia[level]};
+        part->errors.error[level] += far->error * allowed_error(work, point);
     }
 }
 
@@ -350,7 +350,7 @@ static bool build_on(Builder *work, Error *err)
     TRY(train_basis(work, err));
     TRY(compare_beyond(work, err));
     TRY(find_viscous(work, err));
-    TRY(basis_finish(&work->basis, def->modes, work->reduced, err));
+    TRY(basis_finish(&work->basis, def->modes, work->part, err));
     if (def->modes && work->far.used) TRY(expand_modes(work, err));
     if (work->far.used) add_far_field(work);
 cleanup:
@@ -359,11 +359,12 @@ cleanup:
 }
 
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                     const ReductionDef *def, ReducedBulk *reduced, Error *err)
+                     const ReductionDef *def, ReducedPart *part, Error *err)
 {
-    Builder work = {.def = def, .reduced = reduced};
+    Builder work = {.def = def, .part = part};
     FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
-    *reduced = (ReducedBulk){.scales = def->scales};
+    *part = (ReducedPart){.border = {.size = interface_count, .count = interface_count},
+                          .mesh = {.size = bulk->dof_count, .count = bulk->dof_count}};
     if (interface_count >= FAR_INTERFACE)
         TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &work.far, err));
     work.full = work.far.used ? &work.far.system : &work.mesh;

@@ -49,6 +49,7 @@ double *transform_append(Transform *by, const int32_t *rows, int32_t size, int32
     }
     by->block_count++;
     by->count += count;
+    by->row_count += size;
     return block->values;
 }
 
@@ -66,26 +67,30 @@ int32_t transform_column(const Transform *by, int32_t row)
     return block == NO_BLOCK ? NO_BLOCK : by->blocks[block].first;
 }
 
+// Blocks of one column: a block's number is its column, a row's place that of its value.
 void transform_apply(const Transform *by, const double *y, double *x)
 {
-    for (int32_t k = 0; k < by->block_count; k++) {
-        TransformBlock b = by->blocks[k];
-        for (int32_t j = 0; j < b.count; j++)
-            for (int32_t i = 0; i < b.size; i++)
-                x[b.rows[i]] += b.values[(int64_t)i * b.count + j] * y[b.first + j];
-    }
+    for (int32_t k = 0; !by->blocks && k < by->size; k++) x[k] += y[k];
+    for (int32_t k = 0; k < by->row_count; k++)
+        x[by->rows[k]] += by->values[k] * y[by->block_of[by->rows[k]]];
 }
 
 void transform_apply_transposed(const Transform *by, const double *x, double *y)
 {
-    for (int32_t k = 0; k < by->block_count; k++) {
-        TransformBlock b = by->blocks[k];
-        for (int32_t j = 0; j < b.count; j++) {
-            double sum = 0;
-            for (int32_t i = 0; i < b.size; i++)
-                sum += b.values[(int64_t)i * b.count + j] * x[b.rows[i]];
-            y[b.first + j] = sum;
-        }
+    if (!by->blocks) memcpy(y, x, (size_t)by->size * sizeof *y);
+    if (by->blocks) memset(y, 0, (size_t)by->count * sizeof *y);
+    for (int32_t k = 0; k < by->row_count; k++)
+        y[by->block_of[by->rows[k]]] += by->values[k] * x[by->rows[k]];
+}
+
+void transform_add_square(const Transform *by, const double *s, double *a)
+{
+    if (!by->blocks) dense_add_scaled(1, s, by->size * by->size, a);
+    for (int32_t k = 0; k < by->row_count; k++) {
+        const double *from = s + (int64_t)by->block_of[by->rows[k]] * by->count;
+        double *out = a + (int64_t)by->rows[k] * by->size;
+        for (int32_t i = 0; i < by->row_count; i++)
+            out[by->rows[i]] += by->values[k] * by->values[i] * from[by->block_of[by->rows[i]]];
     }
 }
 
@@ -111,21 +116,6 @@ bool transform_apply_many(const Transform *by, const double *y, int32_t columns,
     memory_free(moved);
     memory_free(fields);
     return error_is_clean(err);
-}
-
-void transform_add_square(const Transform *by, const double *s, double *a)
-{
-    for (int32_t c = 0; c < by->count; c++) {
-        TransformBlock column = by->blocks[c];
-        for (int32_t k = 0; k < column.size; k++) {
-            double *out = a + (int64_t)column.rows[k] * by->size;
-            for (int32_t r = 0; r < by->count; r++) {
-                TransformBlock row = by->blocks[r];
-                double value = column.values[k] * s[(int64_t)c * by->count + r];
-                for (int32_t i = 0; i < row.size; i++) out[row.rows[i]] += row.values[i] * value;
-            }
-        }
-    }
 }
 
 // --- T'AT ---------------------------------------------------------------------------------------
@@ -314,13 +304,13 @@ bool bulk_transform(const Bulk *from, const Transform *by, Bulk *to, Error *err)
                  .load = NEW_ARRAY(double, by->count, err),
                  .held = NEW_ARRAY(uint8_t, by->count, err)};
     if (!error_is_clean(err) || !transform_matrices(from, by, to, err)) return false;
-    transform_apply_transposed(by, from->load, to->load);
     for (const TransformBlock *b = by->blocks; b < by->blocks + by->block_count; b++) {
         for (int64_t j = 0; j < b->count; j++) {
             bool held = true;
             for (int32_t i = 0; i < b->size; i++) {
                 double value = b->values[i * b->count + j];
                 to->mass[b->first + j] += value * value * from->mass[b->rows[i]];
+                to->load[b->first + j] += value * from->load[b->rows[i]];
                 held = held && from->held[b->rows[i]];
             }
             to->held[b->first + j] = held;

@@ -20,8 +20,8 @@ enum { NO_BLOCK = -1 };
 typedef struct Transform {
     int32_t size, count;   // of x and y
     int32_t block_count;
-    TransformBlock *blocks;   // [block_count] owned, like all below
-    int32_t *rows;   // of all blocks
+    TransformBlock *blocks;   // [block_count] owned, like all below; NULL: T = 1
+    int32_t row_count, *rows;   // [row_count] of all blocks
     double *values;
     int32_t *block_of, *place;   // [size] block of each x, where it is in `rows`; NO_BLOCK: none
 } Transform;
@@ -36,13 +36,14 @@ void transform_append_pair(Transform *by, int32_t one, int32_t image, double sig
 // Where an unknown's block begins among y, NO_BLOCK: nowhere.
 int32_t transform_column(const Transform *by, int32_t row);
 
+// Three where blocks have one column each, or T is 1.
 void transform_apply(const Transform *by, const double *y, double *x);   // x += T y
 void transform_apply_transposed(const Transform *by, const double *x, double *y);   // y = T'x
+// a [size^2] += T s T' of a symmetric s [count^2]
+void transform_add_square(const Transform *by, const double *s, double *a);
 // x = T y of `columns` columns; x starts at 0.
 bool transform_apply_many(const Transform *by, const double *y, int32_t columns, double *x,
                           Error *err);
-// a [size^2] += T s T' of a symmetric s [count^2]; blocks of one column.
-void transform_add_square(const Transform *by, const double *s, double *a);
 
 // T'KT, T'CT, T'f and the diagonal of T'MT: no more than that may be there. Held is what all of a
 // block's unknowns are.

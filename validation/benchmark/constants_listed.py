@@ -221,7 +221,7 @@ NOT_A_CHOICE = {
     "fem/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING},
     "reduction/reduced_bulk.c": {"BETWEEN": "of what is said of the error, not of the basis"},
     "reduction/basis_extension.c": {"INVERSE_STEPS": "to an eigenvalue that is compared with powers of 10"},
-    "reduction/reduced_bulk.h": {"REDUCTION_LEVELS_MAX": SIZE},
+    "reduction/reduced_bulk.h": {"REDUCTION_LEVELS_MAX": SIZE, "REDUCED_PARTS_MAX": "a block, or its two halves"},
     "reduction/training_points.h": {"TRAINING_VISCOSITIES_MAX": SIZE, "TRAINING_POINTS_MAX": SIZE},
     "reduction/transform.h": {"NO_BLOCK": "none"},
     "reduction/transform.c": {"ROOT_HALF": "the root of 1/2"},

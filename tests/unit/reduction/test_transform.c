@@ -111,33 +111,48 @@ static void test_bulk(void **state)
     reduced_block_destroy(&block);
 }
 
+// T y of blocks; T y and T'x of pairs and unknowns as they are, and of T = 1.
 static void test_vectors(void **state)
 {
     (void)state;
     Error err = {0};
     Random random = {.state = 11};
-    Transform by;
     enum { SIZE = 130 };
+    double x[SIZE], wanted[SIZE], found[SIZE];
+    Transform by, pairs, one = {.size = SIZE, .count = SIZE};
     make_transform(SIZE, &by);
     int32_t m = by.count;
-    double *t = written_out(&by), x[SIZE], wanted[SIZE] = {0}, transposed[SIZE] = {0}, found[SIZE];
-    double *y = hand_matrix(m, COLUMNS), *many = hand_matrix(SIZE, COLUMNS);
-    for (int32_t k = 0; k < m * COLUMNS; k++) y[k] = random_between(&random, -1, 1);
+    double *t = written_out(&by), *y = hand_matrix(SIZE, COLUMNS);
+    double *many = hand_matrix(SIZE, COLUMNS);
+    for (int32_t k = 0; k < SIZE * COLUMNS; k++) y[k] = random_between(&random, -1, 1);
     for (int32_t k = 0; k < SIZE; k++) x[k] = random_between(&random, -1, 1);
     assert_true(transform_apply_many(&by, y, COLUMNS, many, &err));
     for (int32_t c = 0; c < COLUMNS; c++) {
-        memset(found, 0, sizeof found);
         hand_apply(t, SIZE, m, y + c * m, wanted);
-        transform_apply(&by, y + c * m, found);
-        assert_all_near("T y", found, wanted, SIZE, 1e-14);
         assert_all_near("T y of many", many + c * SIZE, wanted, SIZE, 1e-14);
     }
-    for (int32_t j = 0; j < m; j++)
-        for (int32_t i = 0; i < SIZE; i++) transposed[j] += t[j * SIZE + i] * x[i];
-    transform_apply_transposed(&by, x, found);
-    assert_all_near("T'x", found, transposed, m, 1e-14);
+    free(t);
+    assert_true(transform_create(SIZE, SIZE, SIZE, &pairs, &err));
+    for (int32_t k = 0; k < SIZE / 2 - 2; k++)
+        transform_append_pair(&pairs, k, k % 3 ? SIZE - 1 - k : k, k % 2 ? 1 : -1);
+    t = written_out(&pairs);
+    hand_apply(t, SIZE, pairs.count, y, wanted);
+    for (int32_t k = 0; k < SIZE; k++) found[k] = x[k], wanted[k] += x[k];
+    transform_apply(&pairs, y, found);
+    assert_all_near("x + T y", found, wanted, SIZE, 1e-14);
+    transform_apply_transposed(&pairs, x, found);
+    for (int32_t j = 0; j < pairs.count; j++) {
+        double sum = 0;
+        for (int32_t i = 0; i < SIZE; i++) sum += t[j * SIZE + i] * x[i];
+        assert_near("T'x", found[j], sum, 1e-14);
+    }
+    transform_apply_transposed(&one, x, found);
+    assert_memory_equal(found, x, sizeof x);
+    transform_apply(&one, x, found);
+    for (int32_t k = 0; k < SIZE; k++) assert_true(found[k] == 2 * x[k]);
     free(t), free(y), free(many);
     transform_destroy(&by);
+    transform_destroy(&pairs);
 }
 
 // a + T s T' of pairs, two unknowns that are their own images, one in none.
@@ -165,6 +180,10 @@ static void test_square(void **state)
                     wanted[j * SIZE + i] += t[p * SIZE + i] * s[q * COUNT + p] * t[q * SIZE + j];
     transform_add_square(&by, s, a);
     assert_all_near("a + T s T'", a, wanted, SIZE * SIZE, 1e-15);
+    Transform one = {.size = COUNT, .count = COUNT};
+    for (int32_t k = 0; k < COUNT * COUNT; k++) a[k] = 1;
+    transform_add_square(&one, s, a);
+    for (int32_t k = 0; k < COUNT * COUNT; k++) assert_true(a[k] == 1 + s[k]);
     free(t);
     transform_destroy(&by);
 }
