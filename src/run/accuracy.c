@@ -75,7 +75,7 @@ static double next_step(const Accuracy *accuracy)
     const Levels *levels = &accuracy->levels;
     double cells = level_cells(&levels->list[levels->count - 1]);
     if (levels->count < LEVELS_LEAST - 1) return accuracy->step;
-    double lacks = SLIP_CELLS_ENOUGH / fmax(cells, 0.5);
+    double lacks = SLIP_CELLS_ENOUGH / cells;
     return fmin(fmax(accuracy->step, 1.1 * lacks), STEP_SPLIT);
 }
 

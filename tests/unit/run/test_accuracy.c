@@ -195,7 +195,6 @@ static RunWarnings said_of(Levels *levels)
         Level *level = &levels->list[k];
         level->contact_nodes = 1 + (20 << k);
         level->nodes_along = level->contact_nodes;
-        level->pads = 1;
         level->run_count = 2;
         for (int32_t kind = 0; kind < ANSWER_KINDS; kind++) {
             level->answer[kind].value = 0.3;
