@@ -43,8 +43,8 @@ double accuracy_seconds_left(const Accuracy *accuracy);
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
 // One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the
-// mesh has too few contact nodes, as many as the one before, its cells are too long for slip, or the
-// run failed; nothing was added. Out of time: nothing was added.
+// mesh has too few contact nodes, as many as the one before, its cells are too long for slip, or
+// the run failed. Then, as when time is out, nothing was added.
 bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err);
 
 #endif
