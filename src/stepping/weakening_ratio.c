@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-enum { POWERS_LIMIT = 1000 };   // 200 were too few for 1 ratio of 60000
+enum { POWERS_LIMIT = 1000 };   // 300 were enough for 430 000 ratios of 60 scenes
 
 static double length_of(const MovingSet *set, const double *x)
 {

@@ -73,8 +73,6 @@ CONSTANTS = [
     *of("stepping/step_control.c",
         ("SAFETY", "part of the tolerance that the error of a longer step must keep", HERE),
         ("LEDGER_SHARE", "part of the ledger's tolerance that long steps may use up", HERE),
-        ("HOLD_FIRST", "steps after one that slip outgrew before a longer one is tried", HERE),
-        ("HOLD_MAX", "the same, doubled each time, at most", HERE),
         ("UNCERTIFIED_DROP", "rungs down from a step into a state that is not certified", HERE),
         ("SMALL_OSCILLATION", "part of v_c that an oscillation may reach unseen", HERE)),
     *of("stepping/oscillation_record.c",
