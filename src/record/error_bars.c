@@ -8,10 +8,10 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Of mu, over nodes along the contact: what a mesh scatters by, and the way to ever smaller cells,
-// before meshes tell. From a tenth to ten times as much was met, on blocks as on pads
-// (validation/benchmark/priors.md): so that is worth no more than one level.
-static const double USUAL = 0.2;
+// Of mu, over the cells that slip where slow slip turns fast: what a mesh scatters by, and the way
+// to ever smaller cells, before meshes tell. From a tenth to ten times as much was met, on blocks
+// as on pads (validation/benchmark/priors.md): so that is worth no more than one level.
+static const double USUAL = 0.05;
 enum { USUAL_LEVELS = 1 };
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
@@ -125,21 +125,38 @@ static bool is_alone(const Levels *levels, AnswerKind kind)
     return !is_known(last, kind) || last->nodes_along == coarsest_nodes(levels, kind);
 }
 
-double level_cells(const Level *level)
+// Half a cell where a node went from rest to fast slip at once.
+static double cells_of(const Level *level)
 {
-    if (level->pads > 1) return level->nodes_along / level->pads - 1;
-    return isnan(level->slip_cells) ? level->nodes_along - 1 : level->slip_cells;
+    return isnan(level->slip_cells) ? level->nodes_along - 1 : fmax(level->slip_cells, 0.5);
+}
+
+// Of the contact, by all meshes: on one of them the fewest may be those of an odd event.
+static double slipping_part(const Levels *levels)
+{
+    double nodes = 0, cells = 0;
+    for (int32_t l = 0; l < levels->count; l++) {
+        if (levels->list[l].undamped) continue;
+        nodes += levels->list[l].nodes_along;
+        cells += cells_of(&levels->list[l]);
+    }
+    return nodes > 0 ? cells / nodes : 1;
+}
+
+double levels_cells(const Levels *levels)
+{
+    return slipping_part(levels) * levels->list[levels->count - 1].nodes_along;
 }
 
 bool levels_resolved(const Levels *levels)
 {
-    return level_cells(&levels->list[levels->count - 1]) >= SLIP_CELLS_ENOUGH;
+    return levels_cells(levels) >= SLIP_CELLS_ENOUGH;
 }
 
 // Of a level's value, over `origin`.
-static double scatter_of(const Level *level, double origin)
+static double scatter_of(const Level *level, double usual, double origin)
 {
-    return hypot(USUAL / level->nodes_along, level->end_wait / origin);
+    return hypot(usual / level->nodes_along, level->end_wait / origin);
 }
 
 // Of a level's mean, from its spread over branches.
@@ -150,7 +167,7 @@ static double variance_of_runs(const Level *level, double spread)
 
 // What the levels say together: value = a + b / n on n nodes along the contact, each level off by a
 // scatter that falls like 1 / n, and by what its few runs leave of their spread over branches; b is
-// about 0, as far as USUAL, before anything is known.
+// about 0, as far as what is usual, before anything is known.
 typedef struct Limit {
     double value;   // a: in the limit of ever smaller cells
     double mesh;   // of a, 95 %, from scatter and b; NaN: one level
@@ -169,14 +186,15 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 {
     const Level *last = &levels->list[levels->count - 1];
     double origin = level_value(last, kind);   // all in parts of it
-    double S = 0, Sx = 0, Sxx = 1 / (USUAL * USUAL), Sv = 0, Sxv = 0, Svv = 0;
+    double usual = USUAL / slipping_part(levels);   // over nodes along the contact
+    double S = 0, Sx = 0, Sxx = 1 / (usual * usual), Sv = 0, Sxv = 0, Svv = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double x = 1.0 / level->nodes_along, v = level_value(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
         double runs = variance_of_runs(level, spread) / (origin * origin);
-        double own = scatter_of(level, origin), w = weight[l] = 1 / (own * own + runs);
+        double own = scatter_of(level, usual, origin), w = weight[l] = 1 / (own * own + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
     }

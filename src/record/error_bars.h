@@ -47,7 +47,6 @@ typedef struct Level {
     double refine;   // mesh.set.refine
     int32_t contact_nodes;
     double nodes_along;   // along its length (contact/interface), of which a cell is 1/nodes_along
-    int32_t pads;   // pieces of the contact, at least 1
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
     double slip_cells;   // least that slipped before slow slip turned fast; NaN: not known
     double end_wait;   // what mu rises by while the last nodes of the contact hold (run/end_wait)
@@ -96,10 +95,10 @@ bool levels_enough(const Levels *levels, AnswerKind kind);
 // Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);
 
-// Cells that decide on a level: those that slipped where slow slip turned fast; where pads divide
-// the contact those of a pad, as slip waits at its edges and the pad then slides as a whole. The
-// mesh's part of a bar is known only where there are SLIP_CELLS_ENOUGH on the last level.
-double level_cells(const Level *level);
+// That slip on the last level where slow slip turns fast, by the part of the contact that does on
+// all levels; all of them where slip never turns fast. The mesh's part of a bar is known only where
+// they are SLIP_CELLS_ENOUGH.
+double levels_cells(const Levels *levels);
 bool levels_resolved(const Levels *levels);
 
 // A run of the last level has no answer, as its run-in was not over.

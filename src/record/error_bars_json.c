@@ -100,7 +100,6 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
         json_number(json, "seconds", level->seconds);
         json_boolean(json, "undamped", level->undamped);
         json_number(json, "slip_cells", level->slip_cells);
-        json_number(json, "cells", level_cells(level));
         json_number(json, "end_wait", level->end_wait);
         write_bars(level->answer, json);
         write_runs(level, json);

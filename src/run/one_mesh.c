@@ -18,7 +18,6 @@ void one_mesh_read(const Simulation *simulation, Level *level)
 {
     level->contact_nodes = simulation->model.interface.contact_count;
     level->nodes_along = interface_nodes_along(&simulation->model.interface);
-    level->pads = simulation->model.interface.pad_count;
     level->undamped = is_undamped(simulation);
 }
 

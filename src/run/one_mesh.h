@@ -7,7 +7,7 @@
 #include "record/error_bars.h"
 #include "run/simulation_state.h"
 
-// Contact nodes, pads, and whether cells are too long for slip.
+// Contact nodes, and whether cells are too long for slip.
 void one_mesh_read(const Simulation *simulation, Level *level);
 // How far the answers of this run alone are known, from its mesh and from `least`, the load drop
 // before which the fewest cells slipped (NULL: none).
