@@ -16,9 +16,8 @@
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
 // A ratio that changes by less than this part in a power of the iteration has settled: enough to
-// tell it from 1. So many powers at most.
+// tell it from 1.
 static const double SETTLED = 1e-6;
-enum { POWERS_MAX = 200 };
 
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
 // (reduction/interface_operator), once for all states.
@@ -173,8 +172,8 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
         fill_coupled(certificate, closed);
         certificate->checks++;
         if (dense_lu(certificate->matrix, certificate->moving.count, pivots))
-            ratio = weakening_ratio(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
-                                    SETTLED, certificate->vector);
+            ratio = weakening_ratio(&certificate->moving, certificate->matrix, pivots, SETTLED,
+                                    certificate->vector);
     }
     certificate->seconds += clock_seconds() - started;
     return ratio;

@@ -15,8 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK_SIZE = 8, NODE_SIZE = 4, NEWTON_MAX = 50 };
-static const double NEWTON_TOLERANCE = 1e-15;   // of the speed: rounding
+enum { BLOCK_SIZE = 8, NODE_SIZE = 4 };
 
 // x and z of one node.
 typedef double Pair __attribute__((vector_size(16)));
@@ -167,7 +166,7 @@ static double below_largest_root(const FrictionLaw *law, double free_speed, doub
 
 // The speed left of `free_speed` by friction: the largest root of excess_speed; 0: sticks. Newton
 // from the right goes down to it where the law is convex; else halving helps where a step leaves
-// the interval that holds it.
+// the interval that holds it. Both end where nothing is left between the ends of this interval.
 static double slip_speed(const FrictionLaw *law, double free_speed, double strength, bool slipped)
 {
     bool may_stick = free_speed <= strength * friction_coefficient(law, 0);
@@ -176,17 +175,16 @@ static double slip_speed(const FrictionLaw *law, double free_speed, double stren
     double speed = free_speed, high = free_speed;
     double low = convex ? 0 : below_largest_root(law, free_speed, strength);
     if (low < 0) return 0;
-    for (int32_t k = 0; k < NEWTON_MAX; k++) {
-        double slope = 1 + strength * friction_slope(law, speed);
+    do {
+        double slope = 1 + strength * friction_slope(law, speed), before = speed;
         if (convex && slope <= 0) return 0;   // there is no root: it has come to rest
         double excess = excess_speed(law, free_speed, strength, speed);
         *(excess > 0 ? &high : &low) = speed;
         speed -= excess / slope;
-        bool outside = !(speed >= low && speed <= high);
-        if (!convex && outside) speed = 0.5 * (low + high);
+        bool inside = (speed > low && speed < high) || speed == before;
+        if (!convex && !inside) speed = 0.5 * (low + high);
         if (speed <= 0) return 0;
-        if (fabs(excess) <= NEWTON_TOLERANCE * free_speed) break;
-    }
+    } while (low < speed && speed < high);
     return speed;
 }
 

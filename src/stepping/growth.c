@@ -9,7 +9,7 @@
 // A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
 // one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w:
 // the soft ends of its strip are led by it. Of each shift's space only pairs whose residual is
-// below the tolerance are believed; neighbouring shifts see some of them twice, and keep_rate drops
+// below RESIDUAL are believed; neighbouring shifts see some of them twice, and keep_rate drops
 // the second.
 #include "stepping/growth.h"
 
@@ -20,12 +20,15 @@
 #include <math.h>
 #include <string.h>
 
-static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative
+// Shifts of the scan from one of Arnoldi's to the next, whose spaces overlap; vectors of a space.
+enum { STRIDE = 3, VECTORS = 40 };
+static const double RESIDUAL = 1e-8;   // of an eigenpair that is believed: |P u| against its terms
+static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative: such agree to 1e-7,
+    // others differ by 1e-4
 static const double NO_RATE = 1e-7;   // |theta| s below it is 0: of a rod, which has no mass, or of
     // motions so stiff that y and a/s differ by rounding
 
 struct Growth {
-    GrowthDef def;
     BulkOperator *system;   // not owned, like the next
     const Interface *interface;
     bool on_spring;   // the rod has a way of its own
@@ -38,12 +41,12 @@ struct Growth {
     double *step;   // [interface_count]
     double *g, *border;   // [interface_count]
     double *rhs, *image;   // [dof_count]
-    double *basis;   // [state_size * (vectors + 1)] orthonormal
-    double *projected;   // [(vectors + 1) * vectors] Hessenberg
-    double *square, *ritz;   // [vectors^2]
-    double *theta_re, *theta_im, *dots;   // [vectors + 1]
-    double *eigen_work;   // [dense_eigen_work(vectors)]
-    double *mode_re, *mode_im, *real_mode, *candidate;   // [interface_count]
+    double *basis;   // [state_size * (VECTORS + 1)] orthonormal
+    double *eigen_work;   // [dense_eigen_work(VECTORS)]
+    double *mode_re, *mode_im, *real_mode;   // [interface_count]
+    double projected[(VECTORS + 1) * VECTORS];   // Hessenberg
+    double square[VECTORS * VECTORS], ritz[VECTORS * VECTORS];
+    double theta_re[VECTORS], theta_im[VECTORS], dots[VECTORS];
 };
 
 static int64_t state_size(const Growth *growth)
@@ -55,18 +58,14 @@ static int64_t state_size(const Growth *growth)
 // distance of two nodes: length/contact_count.
 GrowthDef growth_def(double length, double speed, int32_t contact_count)
 {
-    return (GrowthDef){.slowest = speed / (4 * length),
-                       .fastest = speed * contact_count / length,
-                       .stride = 3,
-                       .vectors = 40,
-                       .tolerance = 1e-8};
+    return (GrowthDef){.slowest = speed / (4 * length), .fastest = speed * contact_count / length};
 }
 
-// The basis is the largest: 2 dof_count (vectors + 1) doubles, 41 vectors of twice the reduced
+// The basis is the largest: 2 dof_count (VECTORS + 1) doubles, 41 vectors of twice the reduced
 // bulk's size.
 static bool allocate(Growth *growth, Error *err)
 {
-    int64_t m = growth->interface->count, n = growth->system->dof_count, k = growth->def.vectors;
+    int64_t m = growth->interface->count, n = growth->system->dof_count;
     growth->matrix = NEW_ARRAY(double, m *m, err);
     growth->pivots = NEW_ARRAY(int32_t, m, err);
     growth->step = NEW_ARRAY(double, m, err);
@@ -74,18 +73,11 @@ static bool allocate(Growth *growth, Error *err)
     growth->border = NEW_ARRAY(double, m, err);
     growth->rhs = NEW_ARRAY(double, n, err);
     growth->image = NEW_ARRAY(double, n, err);
-    growth->basis = NEW_ARRAY(double, state_size(growth) * (k + 1), err);
-    growth->projected = NEW_ARRAY(double, (k + 1) * k, err);
-    growth->square = NEW_ARRAY(double, k *k, err);
-    growth->ritz = NEW_ARRAY(double, k *k, err);
-    growth->theta_re = NEW_ARRAY(double, k + 1, err);
-    growth->theta_im = NEW_ARRAY(double, k + 1, err);
-    growth->dots = NEW_ARRAY(double, k + 1, err);
-    growth->eigen_work = NEW_ARRAY(double, dense_eigen_work((int32_t)k), err);
+    growth->basis = NEW_ARRAY(double, state_size(growth) * (VECTORS + 1), err);
+    growth->eigen_work = NEW_ARRAY(double, dense_eigen_work(VECTORS), err);
     growth->mode_re = NEW_ARRAY(double, m, err);
     growth->mode_im = NEW_ARRAY(double, m, err);
     growth->real_mode = NEW_ARRAY(double, m, err);
-    growth->candidate = NEW_ARRAY(double, m, err);
     return error_is_clean(err);
 }
 
@@ -95,7 +87,6 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
 {
     Growth *growth = NEW_ARRAY(Growth, 1, err);
     if (!growth) goto cleanup;
-    growth->def = *def;
     growth->system = block->system;
     growth->interface = block->interface;
     growth->on_spring = block->system->machine.stiffness > 0;
@@ -119,11 +110,9 @@ void growth_destroy(Growth *growth)
 {
     if (!growth) return;
     for (int32_t k = 0; k < GROWTH_SHIFTS_MAX; k++) interface_operator_destroy(growth->at[k]);
-    double *arrays[] = {growth->matrix,    growth->step,       growth->g,        growth->border,
-                        growth->rhs,       growth->image,      growth->basis,    growth->projected,
-                        growth->square,    growth->ritz,       growth->theta_re, growth->theta_im,
-                        growth->dots,      growth->eigen_work, growth->mode_re,  growth->mode_im,
-                        growth->real_mode, growth->candidate};
+    double *arrays[] = {growth->matrix,  growth->step,    growth->g,        growth->border,
+                        growth->rhs,     growth->image,   growth->basis,    growth->eigen_work,
+                        growth->mode_re, growth->mode_im, growth->real_mode};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
     moving_set_destroy(&growth->moving);
     memory_free(growth->pivots);
@@ -139,7 +128,7 @@ static double ratio_at(Growth *growth, int32_t k)
     moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
     if (!dense_lu(growth->matrix, moving->count, growth->pivots)) return INFINITY;
-    return weakening_ratio(moving, growth->matrix, growth->pivots, 2000, 1e-12, growth->step);
+    return weakening_ratio(moving, growth->matrix, growth->pivots, 1e-12, growth->step);
 }
 
 // ratio >= 1: some s > 0 is a real growth rate with the pressure held. At an end of the range no
@@ -230,7 +219,7 @@ cleanup:
 
 // Makes `x` orthogonal to the first `count` vectors, twice (once loses digits); dots: what was
 // taken off. Returns what is left of its length, and scales it to 1.
-static double orthogonalise(const Growth *growth, int32_t count, double *x, double *dots)
+static double orthogonalise(Growth *growth, int32_t count, double *x, double *dots)
 {
     int32_t size = (int32_t)state_size(growth);
     DenseView basis = {growth->basis, size, count};
@@ -263,15 +252,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Fills `projected` [(vectors + 1) rows]; *count: the dimension reached, *rest: its last residual.
+// Fills `projected` [VECTORS + 1 rows]; *count: the dimension reached, *rest: its last residual.
 // Arnoldi: column j of `projected` has the products of step j, below its diagonal the length of
 // what was new.
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
-    int64_t size = state_size(growth), rows = growth->def.vectors + 1;
+    int64_t size = state_size(growth), rows = VECTORS + 1;
     TRY(start_basis(growth, k, err));
-    memset(growth->projected, 0, (size_t)(rows * (rows - 1)) * sizeof(double));
-    for (*count = 0; *count < growth->def.vectors;) {
+    memset(growth->projected, 0, sizeof growth->projected);
+    for (*count = 0; *count < VECTORS;) {
         int32_t j = (*count)++;
         double *next = growth->basis + size * (j + 1), *column = growth->projected + rows * j;
         TRY(apply_inverse(growth, k, growth->basis + size * j, next, err));
@@ -351,7 +340,7 @@ static void take_pair(Growth *growth, int32_t count, GrowthRate found, const dou
         for (int32_t m = 0; m < growth->interface->count; m++) growth->mode_im[m] *= -1;
         scale_mode(growth, growth->mode_re, growth->mode_im);
     }
-    if (found.im == 0 && found.re > rates->real.re * (1 + SAME_RATE)) {
+    if (found.im == 0 && found.re > rates->real.re) {
         rates->real = found;
         lift_mode(growth, count, re, growth->real_mode);
         scale_mode(growth, growth->real_mode, NULL);
@@ -365,7 +354,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
 {
     int32_t count = 0;
     double rest = 0, s = growth->shift[k];
-    int64_t rows = growth->def.vectors + 1;
+    int64_t rows = VECTORS + 1;
     if (!factor_moving(growth, k)) return true;   // s is itself a rate; other shifts see it
     TRY(build_basis(growth, k, &count, &rest, err));
     for (int32_t j = 0; j < count; j++)
@@ -380,7 +369,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
         const double *re = growth->ritz + (int64_t)count * j, *im = pair ? re + count : NULL;
         double last = hypot(re[count - 1], pair ? im[count - 1] : 0);
         if (pair) j++;
-        if (!(rest * last <= growth->def.tolerance * sqrt(square))) continue;
+        if (!(rest * last <= RESIDUAL * sqrt(square))) continue;
         if (s * sqrt(square) < NO_RATE) continue;
         // lambda = s + 1/theta; of a pair the one with im > 0 is kept, whose vector is conjugate.
         GrowthRate found = {.re = s + x / square, .im = fabs(y) / square};
@@ -390,12 +379,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Every stride-th shift: their spaces overlap.
 bool growth_rates(Growth *growth, const State *state, GrowthRates *rates, Error *err)
 {
     *rates = (GrowthRates){.mode_re = growth->mode_re, .mode_im = growth->mode_im};
     moving_set_find(&growth->moving, state, true);
-    for (int32_t k = 0; k < growth->shift_count; k += growth->def.stride)
+    for (int32_t k = 0; k < growth->shift_count; k += STRIDE)
         TRY(rates_near_shift(growth, k, rates, err));
 cleanup:
     return error_is_clean(err);

@@ -28,9 +28,6 @@ enum { GROWTH_KEPT = 8, GROWTH_SHIFTS_MAX = 24 };
 typedef struct GrowthDef {
     double slowest, fastest;   // rates looked for: the scan's s go up from one to the other by 2,
         // 1/time. What grows yet faster, far beyond l_c, may be missed.
-    int32_t stride;   // Arnoldi at every stride-th of them: 3
-    int32_t vectors;   // of a Krylov space: 40; 30 gave the same on 20 to 80 cells
-    double tolerance;   // of an eigenpair, |P u| against its terms: 1e-8
 } GrowthDef;
 // For a block of this length with so many contact nodes, and c_L: c/(4 L) to some c/dx.
 GrowthDef growth_def(double length, double speed, int32_t contact_count);

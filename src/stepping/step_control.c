@@ -18,11 +18,6 @@ static const double SAFETY = 0.5;
 // nodes that hit, however short the step; still shorter ones only drive the force of the blow up.)
 static const double LEDGER_SHARE = 0.5;
 
-// After a step that slip outgrew, or whose energies do not balance, none is made longer for so many
-// accepted ones, twice as many each time until a state is certified. Without this mu of seven pads
-// of set B (P = 5.75e-5) came out 1 to 2 % higher.
-enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
-
 // Rungs down from a long step into a state that is not certified, at most as far as waves are
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
@@ -76,7 +71,6 @@ void step_control_restart(StepControl *control)
     control->settles = false;
     control->now.time = 0;
     control->counters = (StepCounters){0};
-    control->hold = control->hold_end = 0;   // counted in accepted steps
     control->looked_steps = 0;
     control->looked_time = 0;
     for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
@@ -194,21 +188,11 @@ static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdi
     return target > k ? target : k + 1;
 }
 
-// Counted in accepted steps.
-static void hold_rung(StepControl *control)
-{
-    control->hold = control->hold == 0 ? HOLD_FIRST : 2 * control->hold;
-    if (control->hold > HOLD_MAX) control->hold = HOLD_MAX;
-    control->hold_end = control->counters.accepted + control->hold;
-}
-
 // The rung after an accepted step: one up when the error allows it and the certificate does.
 static int32_t next_rung(StepControl *control, int32_t k, double error, bool retried)
 {
     double expected = error * exp2(estimate_order(control));
-    bool held = control->counters.accepted < control->hold_end;
-    bool grows = !retried && !held && k > control->coarsest &&
-                 expected < SAFETY * control->def.tolerance;
+    bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
     int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
     if (next >= resolving || control->certified || may_skip_waves(control, &control->now))
         return next;
@@ -316,7 +300,6 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         Verdict verdict = judge_step(control, k, &outcome, &certified);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
-            if (certified) control->hold = control->hold_end = 0;
             accept_step(control, k, &outcome);
             scan_growth(control, k);
             if (!shortened || retried)
@@ -328,7 +311,6 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         counters->rejected_energy += verdict == STEP_UNBALANCED;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
-        if (verdict == STEP_UNCERTIFIED || verdict == STEP_UNBALANCED) hold_rung(control);
         k = smaller_rung(control, k, verdict, &outcome);
         if (k >= control->ladder.rung_count)
             FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
@@ -392,8 +374,6 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_integer(archive, &control->scanned);
     archive_index(archive, &control->rung, 0, control->ladder.rung_count);
     archive_index(archive, &control->coarsest, 0, control->ladder.rung_count + 1);
-    archive_count(archive, &control->hold);
-    archive_count(archive, &control->hold_end);
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
     counters_archive(&control->counters, archive);

@@ -58,8 +58,6 @@ typedef struct StepControl {
     bool settles;   // see step_control_settle
     bool lands;   // steps end where `remaining` does, on rungs made for it, down to an eighth of
         // the wave step
-    int64_t hold;   // steps for which no longer one is tried, after growth was met
-    int64_t hold_end;   // accepted steps when that is over
     int64_t looked_steps;   // accepted when step_control_gets_on looked last
     double looked_time;   // reached then
     StepCounters counters;

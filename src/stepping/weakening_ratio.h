@@ -12,11 +12,10 @@
 
 #include "stepping/moving_set.h"
 
-// ratio(s) by at most powers_max powers of A^-1 W, fewer where two of them agree to `tolerance`,
-// relative; where they never do, a bound from above. lu, pivots: A as dense_lu leaves it. x:
-// [count] work. 0 where nothing weakens.
+// ratio(s) by powers of A^-1 W until two of them agree to `tolerance`, relative; INFINITY where
+// they never do. lu, pivots: A as dense_lu leaves it. x: [count] work. 0 where nothing weakens.
 double weakening_ratio(const MovingSet *set, const double *lu, const int32_t *pivots,
-                       int32_t powers_max, double tolerance, double *x);
+                       double tolerance, double *x);
 
 // The top of the parabola through ratios at three s, each twice the one before, in log s; the
 // middle one where that is not the largest. *octaves: how far from the middle s the top is.
