@@ -212,8 +212,10 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
 // --- sweeps -------------------------------------------------------------------------------------
 // One point that ended, or was found finished.
 typedef struct SweepView {
+    int32_t point;   // from 0, in the order of the table
     const char *words;   // "load.pressure=0.003 ...": what tells it from the others
     const char *message;   // why it failed; NULL: it did not
+    const char *run;   // its run.json; NULL: it left none (`keep: table`)
     double mu_M, mu_M_error;   // NaN: none
     const char *quantity;   // what the study ranks by, "mu_hold"; else "mu_M"
     double value, bar, known_to;   // of it; bar: with the mesh's part; NaN: none
