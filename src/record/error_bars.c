@@ -11,7 +11,7 @@ const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 // Of mu, over the cells that slip where slow slip turns fast: what a mesh scatters by, and the way
 // to ever smaller cells, before meshes tell. From a tenth to ten times as much was met, on blocks
 // as on pads (validation/benchmark/priors.md): so that is worth no more than one level.
-static const double USUAL = 0.04;
+static const double USUAL = 0.05;
 enum { USUAL_LEVELS = 1 };
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
@@ -125,27 +125,32 @@ static bool is_alone(const Levels *levels, AnswerKind kind)
     return !is_known(last, kind) || last->nodes_along == coarsest_nodes(levels, kind);
 }
 
-double level_cells(const Level *level)
+// Half a cell where a node went from rest to fast slip at once.
+static double cells_of(const Level *level)
 {
     return isnan(level->slip_cells) ? level->nodes_along - 1 : fmax(level->slip_cells, 0.5);
 }
 
-bool levels_resolved(const Levels *levels)
-{
-    return level_cells(&levels->list[levels->count - 1]) >= SLIP_CELLS_ENOUGH;
-}
-
-// USUAL, over nodes along the contact.
-static double usual_over_nodes(const Levels *levels, AnswerKind kind)
+// Of the contact, by all meshes: on one of them the fewest may be those of an odd event.
+static double slipping_part(const Levels *levels)
 {
     double nodes = 0, cells = 0;
     for (int32_t l = 0; l < levels->count; l++) {
-        const Level *level = &levels->list[l];
-        if (!is_known(level, kind)) continue;
-        nodes += level->nodes_along;
-        cells += level_cells(level);
+        if (levels->list[l].undamped) continue;
+        nodes += levels->list[l].nodes_along;
+        cells += cells_of(&levels->list[l]);
     }
-    return USUAL * nodes / cells;
+    return nodes > 0 ? cells / nodes : 1;
+}
+
+double levels_cells(const Levels *levels)
+{
+    return slipping_part(levels) * levels->list[levels->count - 1].nodes_along;
+}
+
+bool levels_resolved(const Levels *levels)
+{
+    return levels_cells(levels) >= SLIP_CELLS_ENOUGH;
 }
 
 // Of a level's value, over `origin`.
@@ -181,7 +186,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 {
     const Level *last = &levels->list[levels->count - 1];
     double origin = level_value(last, kind);   // all in parts of it
-    double usual = usual_over_nodes(levels, kind);
+    double usual = USUAL / slipping_part(levels);   // over nodes along the contact
     double S = 0, Sx = 0, Sxx = 1 / (usual * usual), Sv = 0, Sxv = 0, Svv = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {

@@ -95,10 +95,10 @@ bool levels_enough(const Levels *levels, AnswerKind kind);
 // Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);
 
-// That slipped where slow slip turned fast, half a one where a node went from rest to fast slip at
-// once; all of the contact's where slip never turned fast. The mesh's part of a bar is known only
-// where there are SLIP_CELLS_ENOUGH on the last level.
-double level_cells(const Level *level);
+// That slip on the last level where slow slip turns fast, by the part of the contact that does on
+// all levels; all of them where slip never turns fast. The mesh's part of a bar is known only where
+// they are SLIP_CELLS_ENOUGH.
+double levels_cells(const Levels *levels);
 bool levels_resolved(const Levels *levels);
 
 // A run of the last level has no answer, as its run-in was not over.

@@ -73,9 +73,8 @@ cleanup:
 static double next_step(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;
-    double cells = level_cells(&levels->list[levels->count - 1]);
     if (levels->count < LEVELS_LEAST - 1) return accuracy->step;
-    double lacks = SLIP_CELLS_ENOUGH / cells;
+    double lacks = SLIP_CELLS_ENOUGH / levels_cells(levels);
     return fmin(fmax(accuracy->step, 1.1 * lacks), STEP_SPLIT);
 }
 
@@ -149,8 +148,8 @@ static double next_seconds(const Accuracy *accuracy)
 // With the run in full on it.
 static bool has_time_for_level(const Accuracy *accuracy)
 {
-    double full = accuracy->full * (growth_ahead(accuracy) - 1);   // more than is kept back
-    return next_seconds(accuracy) + full <= accuracy_seconds_left(accuracy);
+    double more = accuracy_full(accuracy, growth_ahead(accuracy)) - accuracy_full(accuracy, 1);
+    return next_seconds(accuracy) + more <= accuracy_seconds_left(accuracy);
 }
 
 static void show_level(const Accuracy *accuracy)
@@ -302,6 +301,7 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     levels->met = is_met(accuracy);
     if (!levels->met) warnings_of_bar(levels, &simulation->warnings);
     warnings_of_last_mesh(levels, &simulation->warnings);
+    if (*accuracy->passed_over) warnings_add(&simulation->warnings, "%s", accuracy->passed_over);
     simulation->started = accuracy->started;
     simulation->levels = levels;
     TRY(amontons_simulation_finish(simulation, summary, err));

@@ -44,9 +44,16 @@ static double next_pressure(const Accuracy *accuracy)
     return 1 + (run % 2 == 0 ? -half : half) * place;
 }
 
+double accuracy_full(const Accuracy *accuracy, double times)
+{
+    double most = FULL_SHARE * accuracy->scene->accuracy.within;
+    double stepping = times * accuracy->stepping;
+    return times * accuracy->making + (most > 0 ? fmin(stepping, most) : stepping);
+}
+
 double accuracy_seconds_left(const Accuracy *accuracy)
 {
-    return accuracy->deadline - accuracy->full - clock_seconds();
+    return accuracy->deadline - accuracy_full(accuracy, 1) - clock_seconds();
 }
 
 // The scene of a run that writes nothing; owned by the caller.
@@ -169,7 +176,8 @@ static void expect_full(Accuracy *accuracy, const Simulation *simulation, double
     if (sooner || !isfinite(way)) way = fmin(way, 1);
     bool whole = accuracy_last_level(accuracy)->run_count >= accuracy_runs_first(accuracy);
     if (accuracy->levels.count > 1 && !whole) return;
-    accuracy->full = making + fmin(way * stepping, FULL_SHARE * scene->accuracy.within);
+    accuracy->making = making;
+    accuracy->stepping = way * stepping;
 }
 
 // Of a run that was stopped: no error where it was time that stopped it.
@@ -208,6 +216,16 @@ static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
     return last->undamped || same || !contact_has_nodes(interface);
 }
 
+// Its steps came to no end, as where slip weakens faster than viscosity can damp on a cell: a finer
+// mesh may.
+static void pass_over(Accuracy *accuracy, Error *err)
+{
+    snprintf(accuracy->passed_over, sizeof accuracy->passed_over,
+             "no run on the mesh of %d contact nodes, finer ones were taken: %.300s",
+             accuracy_last_level(accuracy)->contact_nodes, err->message);
+    *err = (Error){0};
+}
+
 bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
 {
     Level *level = accuracy_last_level(accuracy);
@@ -218,7 +236,7 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     Simulation *simulation = NULL;
     EndWait wait = {.mu = NAN};
     bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
-    double started = clock_seconds(), deadline = accuracy->deadline - accuracy->full;
+    double started = clock_seconds(), deadline = accuracy->deadline - accuracy_full(accuracy, 1);
     double pressure = next_pressure(accuracy);
     Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
     accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
@@ -229,7 +247,12 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     one_mesh_read(simulation, level);
     if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
     double begun = clock_seconds();
-    TRY(step_until_known(accuracy, simulation, &wait, err));
+    step_until_known(accuracy, simulation, &wait, err);
+    if (coarse && (*coarse = err->code == ERROR_COMPUTE)) {
+        pass_over(accuracy, err);
+        goto cleanup;
+    }
+    TRY(error_is_clean(err));
     Answers answers = simulation_answers(simulation);
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);

@@ -23,8 +23,9 @@ typedef struct Accuracy {
     double step;   // of cell size from level to level
     int32_t members;   // whole runs behind the bar, but for that in full
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
-    double full;   // expected of the run in full, s; 0: no run is whole
+    double making, stepping;   // expected of the run in full, s; 0: no run is whole
     bool out_of_time;
+    char passed_over[400];   // why the last mesh that failed was passed over; "": none was
     Answers so_far;   // of the run under way
     char stage[64];   // of it, as the caller is told
     Simulation *cut;   // the first run of all, where time cut it short; owned
@@ -34,14 +35,16 @@ Level *accuracy_last_level(Accuracy *accuracy);
 // Before another mesh is looked at: two on the first, where they tell branches from the mesh, and
 // where meshes are few as each halves the cells of the last; else one.
 int32_t accuracy_runs_first(const Accuracy *accuracy);
+// Kept back for the run in full, s, where it takes so many times as long.
+double accuracy_full(const Accuracy *accuracy, double times);
 // For runs behind the bar, s: what the run in full needs is kept back. INFINITY: no limit.
 double accuracy_seconds_left(const Accuracy *accuracy);
 // What more slidings could still change is a small part of the bar wanted.
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
 // One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the
-// mesh has too few contact nodes, as many as the one before, or its cells are too long for slip;
-// nothing was stepped. Out of time: nothing was added.
+// mesh has too few contact nodes, as many as the one before, its cells are too long for slip, or
+// the run failed. Then, as when time is out, nothing was added.
 bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err);
 
 #endif

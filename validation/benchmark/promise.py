@@ -13,7 +13,7 @@ The reference of a case is the mean over meshes of the mean over three pressures
 program's window has them. A block has two meshes: quads of 96 cells along it, and quads of order 2 of 48. Pads and grooves,
 where values of single meshes scatter (slip waits at the edges of pads, whose last cells differ), have four: 112 and 88
 cells a length, and of order 2 56 and 44, graded by 8, 16, 8 and 16 towards the edges. Its own error is the standard error
-of the meshes' means, or that of the single runs where it is more. A bar holds the reference where they differ by no more
+of the meshes' means, or that of the single runs where it is more; where it is above a third of a bar of 1 %, three finer meshes are added. A bar holds the reference where they differ by no more
 than the bar.
 
 Every run is kept in FOLDER/promise.jsonl as it ends (default results/promise): the same command goes on where it was
@@ -41,6 +41,8 @@ WITHIN = "60s"
 WINDOW = (0.995, 1, 1.005)      # of pressure: ends and middle of the program's own window
 REFERENCES = {True: ((96, 1, 1), (48, 2, 1)),      # of a block: (cells, order, grade)
               False: ((112, 1, 8), (56, 2, 8), (88, 1, 16), (44, 2, 16))}
+FINER = {True: ((112, 1, 1), (128, 1, 1), (64, 2, 1)), False: ((128, 1, 16), (144, 1, 8), (72, 2, 8))}     # where that is not enough
+OWN_MAX = min(WANTED) / 3       # over mu
 QUIET = ["output.history=false", "output.fields=none", "output.figures=[]"]
 HELD = 0.95
 
@@ -155,10 +157,10 @@ def standard_error(values):
     return statistics.stdev(values) / math.sqrt(len(values))
 
 
-def reference(case, kept):
+def reference(case, kept, meshes=None):
     """(mean, its own error); None: no bulk sliding, or a run failed."""
-    means, every = [], []
-    for cells, order, grade in REFERENCES[case.is_block]:
+    means, every, meshes = [], [], meshes or REFERENCES[case.is_block]
+    for cells, order, grade in meshes:
         rows = [kept.obtain(case, f"reference {cells} order {order} grade {grade} at {factor}",
                             lambda f=factor: reference_run(case, cells, order, grade, f)) for factor in WINDOW]
         values = [row["mu"] for row in rows]
@@ -166,24 +168,26 @@ def reference(case, kept):
             return None
         means.append(statistics.mean(values))
         every += values
-    return statistics.mean(means), max(standard_error(means), standard_error(every))
+    mean, own = statistics.mean(means), max(standard_error(means), standard_error(every))
+    if own > OWN_MAX * mean and meshes == REFERENCES[case.is_block]:
+        return reference(case, kept, meshes + FINER[case.is_block])
+    return mean, own
 
 
 def reference_hold(case, kept):
     """The same of mu_hold, whose answer is the lowest of the window; None: not kept, as by versions before, or none."""
     lowest = []
-    for cells, order, grade in REFERENCES[case.is_block]:
+    for cells, order, grade in REFERENCES[case.is_block] + FINER[case.is_block]:
         rows = [kept.rows.get((case.name, f"reference {cells} order {order} grade {grade} at {factor}"), {}) for factor in WINDOW]
         values = [row.get("hold") for row in rows]
-        if None in values:
-            return None
-        lowest.append(min(values))
-    return statistics.mean(lowest), standard_error(lowest)
+        if None not in values:
+            lowest.append(min(values))
+    return (statistics.mean(lowest), standard_error(lowest)) if len(lowest) > 1 else None
 
 
 def known_references(path):
     """case name: (mean, its own error) of mu_M, and of mu_hold, from the tables of an earlier promise.md: a reference does
-    not depend on bars."""
+    not depend on bars. Those that finer meshes are asked for are left out."""
     known = {"mu_M": {}, "mu_hold": {}}
     answer = "mu_M"
     for line in path.read_text().splitlines() if path else []:
@@ -192,7 +196,8 @@ def known_references(path):
             answer = "mu_hold"
         if len(cells) == 3 and cells[0].startswith(("A, ", "B, ")):
             known[answer][cells[0]] = (float(cells[1]), float(cells[1]) * float(cells[2]) / 100)
-    return known["mu_M"], known["mu_hold"]
+    good = {name for name, (mean, own) in known["mu_M"].items() if own <= OWN_MAX * mean}
+    return tuple({name: truth for name, truth in found.items() if name in good} for found in known.values())
 
 
 def ask(case, wanted):
