@@ -271,6 +271,13 @@ void dense_multiply(DenseView a, DenseView b, double factor, double keep, double
                 a.values, a.rows, b.values, b.rows, keep, c, a.rows);
 }
 
+void dense_multiply_by_transposed(DenseView a, DenseView b, double *c)
+{
+    if (a.columns == 0 || a.rows == 0 || b.rows == 0) return;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, a.rows, b.rows, a.columns, 1, a.values,
+                a.rows, b.values, b.rows, 1, c, a.rows);
+}
+
 void dense_add_square(DenseView a, double *c)
 {
     if (a.columns == 0 || a.rows == 0) return;

@@ -93,6 +93,8 @@ static inline DenseView dense_view(const double *values, int64_t rows, int64_t c
 // c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
+// c += a b'
+void dense_multiply_by_transposed(DenseView a, DenseView b, double *c);
 // c += a a', its lower triangle.
 void dense_add_square(DenseView a, double *c);
 // Where c or b are rows of a larger matrix, whose columns are `stride` apart: c = factor

@@ -3,84 +3,83 @@
 // bytes over. Modes are several times as large and seldom wanted, so they have a file of their own.
 #include "model/basis_cache.h"
 
-static void archive_sizes(ReducedBulk *reduced, Archive *archive)
+// Of `count` unknowns of `whole`; T = 1 where these are all.
+static void archive_pairs(Transform *by, int32_t count, int32_t whole, Archive *archive)
 {
-    archive_length(archive, &reduced->full_dofs);
-    archive_length(archive, &reduced->interface_count);
-    archive_length(archive, &reduced->interior_count);
-    reduced->count = reduced->interface_count + reduced->interior_count;
-    archive_lend_numbers(archive, &reduced->load, reduced->count);
+    if (archive_fills(archive)) *by = (Transform){.size = whole, .count = count};
+    if (count == whole) return;
+    if (archive_fills(archive))
+        archive_require(archive, transform_create(whole, count, whole, by, archive->err));
+    for (int32_t k = 0; k < count; k++) {
+        int32_t pair[2] = {0};
+        double sign = 1;
+        if (!archive_reads(archive)) {
+            const TransformBlock *block = &by->blocks[k];
+            pair[0] = block->rows[0];
+            pair[1] = block->rows[block->size - 1];
+            sign = block->values[block->size - 1];
+        }
+        archive_indices(archive, pair, 2, 0, whole);
+        archive_number(archive, &sign);
+        if (!archive_fills(archive)) continue;
+        archive_require(archive,
+                        by->block_of[pair[0]] == NO_BLOCK && by->block_of[pair[1]] == NO_BLOCK);
+        if (archive_fills(archive)) transform_append_pair(by, pair[0], pair[1], sign < 0 ? -1 : 1);
+    }
 }
 
-static void archive_matrices(ReducedBulk *reduced, Archive *archive)
+static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
 {
-    int64_t m = reduced->interface_count, all = reduced->count;
-    ReductionErrors *errors = &reduced->errors;
+    ReductionErrors *errors = &part->errors;
+    archive_length(archive, &part->full_dofs);
+    archive_length(archive, &part->border_count);
+    archive_length(archive, &part->interior_count);
+    part->count = part->border_count + part->interior_count;
+    int64_t m = part->border_count, all = part->count;
+    archive_require(archive, all > 0);
     archive_index(archive, &errors->count, 0, REDUCTION_LEVELS_MAX + 1);
     archive_numbers(archive, errors->inertia, errors->count);
     archive_numbers(archive, errors->error, errors->count);
-    archive_lend_numbers(archive, &reduced->mass, all * all);
-    archive_lend_numbers(archive, &reduced->damping, all * all);
-    archive_lend_numbers(archive, &reduced->stiffness, m * m);
-    archive_lend_numbers(archive, &reduced->viscous, m * m);
-}
-
-// Of `count` unknowns of `whole`.
-static void archive_map(SymmetryMap *map, int32_t count, int32_t whole, Archive *archive)
-{
-    if (archive_fills(archive))
-        archive_require(archive, symmetry_map_create(count, map, archive->err));
-    archive_indices(archive, map->one, count, 0, whole);
-    archive_indices(archive, map->other, count, 0, whole);
-    archive_numbers(archive, map->sign, count);
-    for (int32_t k = 0; archive_fills(archive) && k < count; k++)
-        symmetry_map_append(map, map->one[k], map->other[k], map->sign[k] < 0 ? -1 : 1);
-}
-
-static void archive_parts(ReducedBulk *reduced, Archive *archive)
-{
-    int32_t m = reduced->interface_count;
-    SymmetryParts *symmetry = reduced->symmetry =
-        archive_new(archive, reduced->symmetry, 1, sizeof *symmetry);
-    ReducedBulk *part = reduced->part = archive_new(archive, reduced->part, 2, sizeof *part);
-    if (!symmetry || !part) return;
-    archive_length(archive, &symmetry->mirrored);
-    int32_t n = symmetry->mirrored, border = m + n;
-    symmetry->interface_count = m;
-    archive_new_numbers(archive, &symmetry->at_rest.follow, (int64_t)n * m);
-    archive_new_numbers(archive, &symmetry->at_rest.lower, (int64_t)n * n);
-    for (int p = 0; p < 2; p++) {
-        archive_sizes(&part[p], archive);
-        archive_matrices(&part[p], archive);
-        symmetry->interior[p] = part[p].interior_count;
-        archive_map(&symmetry->border[p], part[p].interface_count, border, archive);
-    }
-    archive_require(archive, part[0].interface_count + part[1].interface_count == border &&
-                                 part[0].full_dofs + part[1].full_dofs == reduced->full_dofs &&
-                                 part[0].count + part[1].count == reduced->count);
+    archive_lend_numbers(archive, &part->load, all);
+    archive_lend_numbers(archive, &part->mass, all * all);
+    archive_lend_numbers(archive, &part->damping, all * all);
+    archive_lend_numbers(archive, &part->stiffness, m * m);
+    archive_lend_numbers(archive, &part->viscous, m * m);
+    archive_pairs(&part->border, part->border_count, border, archive);
 }
 
 static void archive_basis(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;
-    bool parted = reduced->symmetry != NULL;
-    archive_sizes(reduced, archive);
-    archive_flag(archive, &parted);
-    if (parted)
-        archive_parts(reduced, archive);
-    else
-        archive_matrices(reduced, archive);
+    archive_length(archive, &reduced->interface_count);
+    archive_length(archive, &reduced->mirrored);
+    archive_length(archive, &reduced->count);
+    archive_index(archive, &reduced->part_count, 1, REDUCED_PARTS_MAX + 1);
+    int32_t m = reduced->interface_count, n = reduced->mirrored, left = reduced->count - m - n;
+    int32_t border = m + n, dofs = 0;
+    archive_lend_numbers(archive, &reduced->load, reduced->count);
+    archive_require(archive, left >= 0);
+    archive_new_numbers(archive, &reduced->at_rest.follow, (int64_t)n * m);
+    archive_new_numbers(archive, &reduced->at_rest.lower, (int64_t)n * n);
+    for (int p = 0; p < reduced->part_count; p++) {
+        ReducedPart *part = &reduced->part[p];
+        archive_part(part, m + n, archive);
+        border -= part->border_count;
+        left -= part->interior_count;
+        dofs += part->full_dofs;
+    }
+    archive_require(archive, border == 0 && left == 0);
+    reduced->full_dofs = dofs;
 }
 
 // Of a basis that is there.
 static void archive_modes(void *self, Archive *archive)
 {
-    ReducedBulk *reduced = self, *part = reduced->part;
-    if (!part)
-        archive_new_numbers(archive, &reduced->modes, (int64_t)reduced->full_dofs * reduced->count);
-    for (int p = 0; part && p < 2; p++) {
-        archive_new_numbers(archive, &part[p].modes, (int64_t)part[p].full_dofs * part[p].count);
-        archive_map(&reduced->symmetry->mesh[p], part[p].full_dofs, reduced->full_dofs, archive);
+    ReducedBulk *reduced = self;
+    for (int p = 0; p < reduced->part_count; p++) {
+        ReducedPart *part = &reduced->part[p];
+        archive_new_numbers(archive, &part->modes, (int64_t)part->full_dofs * part->count);
+        archive_pairs(&part->mesh, part->full_dofs, reduced->full_dofs, archive);
     }
 }
 
@@ -103,7 +102,7 @@ bool basis_cache_store(const char *name, const ReducedBulk *reduced, char note[C
 {
     ReducedBulk same = *reduced;
     if (!name[0]) return false;
-    if (!reduced_bulk_has_modes(reduced))
+    if (!reduced->part[0].modes)
         cache_remove(CACHE_MODES, name);
     else if (!cache_store(&(CacheItem){CACHE_MODES, name, archive_modes, &same}, note))
         return false;

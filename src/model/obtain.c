@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/memory.h"
+#include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
 #include "io/cache/cache_folder.h"
@@ -84,7 +85,7 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     memcpy(model->materials.area, shape->sizes.region_area, sizeof shape->sizes.region_area);
     memcpy(model->materials.width, shape->sizes.region_width, sizeof shape->sizes.region_width);
     materials_find_mean(&model->materials);
-    reduced_bulk_set_scales(&model->reduced, bulk_scales(model, load));
+    model->reduced.scales = bulk_scales(model, load);
     model->is_reduced = true;
     return model_set_load(model, shape->sizes.load_resultant, err) &&
            bulk_operator_reduce(&model->reduced, shape->rotation,
@@ -104,25 +105,6 @@ static bool list_rotation(const Model *model, const ReductionBlock *block, Shape
         shape->rotation[k] = turned * model->length;
     }
     return shape->rotation != NULL;
-}
-
-// By its symmetry, where it has one.
-static bool build_basis(Model *model, const ReductionBlock *block, const Interface *interface,
-                        ReductionDef *def, Error *err)
-{
-    Mirror mirror = {0};
-    if (block->image)
-        TRY(mirror_find(&block->bulk, block->image, interface->dofs, interface->count, &mirror,
-                        err));
-    if (mirror.found)
-        TRY(symmetry_reduction_build(&mirror, interface->count, def, &model->reduced, err));
-    else
-        TRY(reduction_build(&block->bulk, interface->dofs, interface->count, def, &model->reduced,
-                            err));
-cleanup:
-    mirror_destroy(&mirror);
-    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
-    return error_is_clean(err);
 }
 
 // That of the shape's name, from the cache; *found: it is there, and of this block.
@@ -150,6 +132,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     ReductionDef def = {.tolerance = reduction_tolerance(scene),
                         .materials = block->materials,
                         .modes = wants_mesh(scene),
+                        .node_image = block->image,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     FileLock lock = {0};
     if (scene->reduction.cache) {
@@ -162,7 +145,10 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     if (model->from_cache) goto cleanup;
     if (cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
     if (model->from_cache) goto cleanup;
-    TRY(model_blame_extremes(model, build_basis(model, block, interface, &def, err), err));
+    bool built = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count, &def,
+                                          &model->reduced, err);
+    TRY(model_blame_extremes(model, built, err));
+    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
     if (!basis_cache_store(shape->basis, &model->reduced, model->cache_note)) shape->basis[0] = 0;
 cleanup:
     file_lock_release(&lock);
@@ -237,7 +223,7 @@ static bool expect(Model *model, bool held, Error *err)
 {
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
-    bool mirrored = model->reduced.symmetry != NULL;
+    bool mirrored = model->reduced.part_count > 1;
     if (!held && is_reducible(scene))
         TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
                              model->interface.count, &mirrored, err));

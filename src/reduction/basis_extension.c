@@ -8,7 +8,7 @@
 #include <string.h>
 
 // The squared length of what is left of a response below which it is rounding.
-static const double DEPENDENT = 1e-12;
+static const double DEPENDENT_LIMIT = 1e-12;
 
 enum { INVERSE_STEPS = 8 };   // to the smallest eigenvalue, within some per cent
 
@@ -96,7 +96,7 @@ bool extension_factor(const GrowingBasis *basis, Extension *x)
     // `gram` is done with.
     double least = smallest_eigenvalue(x->lower, (int32_t)added, x->gram[0]);
     x->loss = x->largest / least;
-    return least > DEPENDENT * x->largest;
+    return least > DEPENDENT_LIMIT * x->largest;
 }
 
 // a [rows * columns] into the upper left corner of a new one, [new_rows * new_columns], zero
@@ -220,7 +220,7 @@ bool extension_drop_dependent(GrowingBasis *basis, Extension *x, Error *err)
     if (count > 0) dense_multiply_transposed(along, along, -1, 1, left);
     if (!dense_eigen(left, (int32_t)added, values, work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior are not independent");
-    while (kept < added && values[added - 1 - kept] > DEPENDENT * x->largest) kept++;
+    while (kept < added && values[added - 1 - kept] > DEPENDENT_LIMIT * x->largest) kept++;
     for (int64_t j = added - kept; j < added; j++)
         for (int64_t i = 0; i < added; i++) left[j * added + i] /= sqrt(values[j]);
     DenseView rotation = dense_view(left + (added - kept) * added, added, kept);

@@ -67,41 +67,40 @@ cleanup:
 }
 
 // Psi, and Phi W.
-static bool write_modes(const GrowingBasis *basis, const Turn *turn, ReducedBulk *reduced,
-                        Error *err)
+static bool write_modes(const GrowingBasis *basis, const Turn *turn, ReducedPart *part, Error *err)
 {
     int64_t dofs = basis->full_dofs, m = basis->interface_count, r = basis->interior_count;
-    double *modes = reduced->modes = NEW_ARRAY(double, dofs *(m + r), err);
+    double *modes = part->modes = NEW_ARRAY(double, dofs *(m + r), err);
     if (!modes) return false;
     memcpy(modes, basis->responses.blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
     return basis_form(basis, turn->w, r, modes + dofs * m, err);
 }
 
-bool basis_finish(GrowingBasis *basis, bool modes, ReducedBulk *reduced, Error *err)
+bool basis_finish(GrowingBasis *basis, bool modes, ReducedPart *part, Error *err)
 {
     Turn turn = {0};
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;
     TRY(turn_create(basis, &turn, err));
-    reduced->full_dofs = basis->full_dofs;
-    reduced->interface_count = (int32_t)m;
-    reduced->interior_count = (int32_t)r;
-    reduced->count = (int32_t)all;
-    reduced->mass = put_together(basis, BULK_MASS, &turn, err);
-    reduced->damping = put_together(basis, BULK_DAMPING, &turn, err);
-    reduced->load = NEW_ARRAY(double, all, err);
-    reduced->stiffness = NEW_ARRAY(double, m *m, err);
+    part->full_dofs = basis->full_dofs;
+    part->border_count = (int32_t)m;
+    part->interior_count = (int32_t)r;
+    part->count = (int32_t)all;
+    part->mass = put_together(basis, BULK_MASS, &turn, err);
+    part->damping = put_together(basis, BULK_DAMPING, &turn, err);
+    part->load = NEW_ARRAY(double, all, err);
+    part->stiffness = NEW_ARRAY(double, m *m, err);
     if (!error_is_clean(err)) goto cleanup;
-    memcpy(reduced->stiffness, basis->statics[BULK_STIFFNESS], (size_t)(m * m) * sizeof(double));
-    memcpy(reduced->load, basis->load, (size_t)m * sizeof(double));
-    dense_apply_transposed(dense_view(turn.w, r, r), basis->load + m, 1, 0, reduced->load + m);
-    double *mass = reduced->mass + m * (all + 1), *damping = reduced->damping + m * (all + 1);
+    memcpy(part->stiffness, basis->statics[BULK_STIFFNESS], (size_t)(m * m) * sizeof(double));
+    memcpy(part->load, basis->load, (size_t)m * sizeof(double));
+    dense_apply_transposed(dense_view(turn.w, r, r), basis->load + m, 1, 0, part->load + m);
+    double *mass = part->mass + m * (all + 1), *damping = part->damping + m * (all + 1);
     for (int64_t j = 0; j < r; j++) {
         mass[j * (all + 1)] = turn.diagonal[j];
         if (j + 1 < r) mass[j * (all + 1) + 1] = mass[(j + 1) * (all + 1) - 1] = turn.beside[j];
         for (int64_t i = 0; i < r; i++)
             damping[j * all + i] = (turn.damping[j * r + i] + turn.damping[i * r + j]) / 2;
     }
-    if (modes) TRY(write_modes(basis, &turn, reduced, err));
+    if (modes) TRY(write_modes(basis, &turn, part, err));
 cleanup:
     turn_destroy(&turn);
     return error_is_clean(err);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A basis that is built becomes a reduced bulk. Called by reduction/reduction.
+// A basis that is built becomes a part of a reduced bulk. Called by reduction/reduction.
 #ifndef AMONTONS_REDUCTION_BASIS_FINISH_H
 #define AMONTONS_REDUCTION_BASIS_FINISH_H
 
 #include "reduction/basis_state.h"
 
-// Fills matrices, load and sizes of `reduced`, its modes where they are wanted. Turns Phi so that
+// Fills matrices, load and sizes of `part`, its modes where they are wanted. Turns Phi so that
 // its K is the unit matrix and its M tridiagonal; `basis` is of no use any more.
-bool basis_finish(GrowingBasis *basis, bool modes, ReducedBulk *reduced, Error *err);
+bool basis_finish(GrowingBasis *basis, bool modes, ReducedPart *part, Error *err);
 
 #endif

@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bulk that is left where a FarBlock replaces what is far from the interface: unknowns that are
-// near, a few rows of elements, and many small dense blocks, few of them high up. Called by
-// reduction/reduction.
+// What is far from the interface moves in few ways only: a wave of wave number k has fallen by
+// exp(-k d) at a distance d. So unknowns far from it are replaced by a few modes, patch by
+// patch, the deeper the larger (reduction/far_patches):
+//
+//     u = T [ u_near; a1; a2; .. ],   T = [ 1           ]
+//                                         [   F1        ]
+//                                         [      F2     ]   and so on.
+//
+// What is left is a small bulk: rows of elements that are near, and dense blocks, few of them high
+// up. The error in S is measured at a point that the modes were not made at; where it is no small
+// part of what is allowed nothing is replaced. Called by reduction/reduction.
 #ifndef AMONTONS_REDUCTION_FAR_FIELD_H
 #define AMONTONS_REDUCTION_FAR_FIELD_H
 
-#include "reduction/far_block.h"
+#include "reduction/far_samples.h"
+#include "reduction/transform.h"
 
 typedef struct FarField {
-    const FarBlock *block;   // not owned
-    Bulk bulk;   // near unknowns in the mesh's order, then coordinates; owned, as what follows
-    BulkOperator system;   // of `bulk`; owned
-    int32_t mesh_dofs, near_count;
-    int32_t *near;   // [near_count] unknowns of the mesh, ascending
-    int32_t *first;   // [patches + 1] of a patch's coordinates among the unknowns of `bulk`
+    bool used;   // false: nothing is replaced
+    Transform modes;   // T; owned, as all below
+    Bulk bulk;   // what is left
+    BulkOperator system;   // of it
+    double *stiffness;   // [interface_count^2] S of K/E of the mesh
+    double slowest;   // inertia of the mesh's slowest mode; 0: it was not looked at
+    double error;   // of S, over what is allowed
 } FarField;
 
-// mesh: the block's. unit: E.
+// interface_dofs: [interface_count] unknowns of `mesh`. No error if nothing can be replaced.
 bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t interface_count,
-                      double unit, FarField *far, Error *err);
+                      const FarFieldDef *def, FarField *far, Error *err);
 void far_field_destroy(FarField *far);
-
-// block: that of `far`: measures what its modes leave; nothing is replaced where it is too much.
-bool far_field_measure(FarField *far, FarBlock *block, Error *err);
-
-// full [mesh_dofs * columns] from those of `far->bulk`, reduced, [its dofs * columns].
-bool far_field_expand(const FarField *far, const double *reduced, int32_t columns, double *full,
-                      Error *err);
 
 #endif

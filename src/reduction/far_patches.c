@@ -157,8 +157,8 @@ static bool list_dofs(int32_t dofs, FarPatches *patches, Error *err)
     return true;
 }
 
-static bool copy_matrices(const Bulk *bulk, double unit, const FarPatches *patches, int32_t p,
-                          Error *err)
+static bool copy_stiffness(const Bulk *bulk, double unit, const FarPatches *patches, int32_t p,
+                           Error *err)
 {
     const SparsePattern *from = &bulk->pattern;
     PatchModes *modes = &patches->modes[p];
@@ -169,14 +169,12 @@ static bool copy_matrices(const Bulk *bulk, double unit, const FarPatches *patch
                                      .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
                                      .index = NEW_ARRAY(int32_t, entries, err)};
     modes->stiffness = NEW_ARRAY(double, entries, err);
-    modes->damping = NEW_ARRAY(double, entries, err);
     if (!error_is_clean(err)) return false;
     for (int32_t j = 0; j < size; j++) {
         for (int32_t k = from->start[dofs[j]]; k < from->start[dofs[j] + 1]; k++) {
             if (patches->of[from->index[k]] != p) continue;
             modes->pattern.index[filled] = patches->place[from->index[k]];
-            modes->stiffness[filled] = bulk->stiffness[k] / unit;
-            modes->damping[filled++] = bulk->damping[k];
+            modes->stiffness[filled++] = bulk->stiffness[k] / unit;
         }
         modes->pattern.start[j + 1] = filled;
     }
@@ -187,7 +185,7 @@ bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatch
                        Error *err)
 {
     for (int32_t p = 0; p < patches->count; p++) {
-        TRY(copy_matrices(bulk, unit, patches, p, err));
+        TRY(copy_stiffness(bulk, unit, patches, p, err));
         TRY(patch_modes_make_room(&patches->modes[p], expected, err));
     }
 cleanup:

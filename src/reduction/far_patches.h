@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The unknowns far from the interface, divided into patches: layers by their distance from it, each
 // twice as deep as the one before, and each cut into parts that are nearest to the same part of the
-// interface, twice as wide, too. Called by reduction/far_block
+// interface, twice as wide, too. Called by reduction/far_field
 // and reduction/far_samples, its counts by model/choice.
 #ifndef AMONTONS_REDUCTION_FAR_PATCHES_H
 #define AMONTONS_REDUCTION_FAR_PATCHES_H
@@ -24,7 +24,7 @@ typedef struct FarPatches {
 // interface_dofs: [m], neighbours side by side.
 bool far_patches_create(const SparsePattern *pattern, const int32_t *interface_dofs, int32_t m,
                         FarPatches *patches, Error *err);
-// Each patch's own matrices, and room for `expected` modes. unit: E.
+// Each patch's own K/E, and room for `expected` modes. unit: E.
 bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatches *patches,
                        Error *err);
 void far_patches_destroy(FarPatches *patches);

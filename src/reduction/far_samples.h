@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Modes of what is far from the interface, from responses of the whole mesh to boundary motions
 // drawn at random (Halko, Martinsson, Tropp, SIAM Review 53, 2011; for substructures:
-// Buhr and Smetana, SIAM J. Sci. Comput. 40, 2018). Used by reduction/far_block
-// and reduction/far_field.
+// Buhr and Smetana, SIAM J. Sci. Comput. 40, 2018). Used by reduction/far_field.
 #ifndef AMONTONS_REDUCTION_FAR_SAMPLES_H
 #define AMONTONS_REDUCTION_FAR_SAMPLES_H
 

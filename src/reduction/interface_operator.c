@@ -296,12 +296,12 @@ static void hash_numbers(Hash *hash, const double *numbers, int64_t count)
     hash_bytes(hash, numbers, (size_t)count * sizeof(double));
 }
 
-static void hash_reduced(Hash *hash, const ReducedBulk *reduced)
+static void hash_part(Hash *hash, const ReducedPart *part)
 {
-    int64_t m = reduced->interface_count, all = reduced->count;
-    hash_numbers(hash, reduced->mass, all * all);
-    hash_numbers(hash, reduced->damping, all * all);
-    hash_numbers(hash, reduced->stiffness, m * m);
+    int64_t m = part->border_count, all = part->count;
+    hash_numbers(hash, part->mass, all * all);
+    hash_numbers(hash, part->damping, all * all);
+    hash_numbers(hash, part->stiffness, m * m);
 }
 
 // A reduced state is in coordinates of its basis: the same mesh reduced on another computer may
@@ -319,7 +319,6 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
         hash_numbers(hash, bulk->stiffness, entries);
         hash_numbers(hash, bulk->damping, entries);
     } else {
-        for (int p = 0; p < (reduced->part ? 2 : 1); p++)
-            hash_reduced(hash, reduced->part ? &reduced->part[p] : reduced);
+        for (int p = 0; p < reduced->part_count; p++) hash_part(hash, &reduced->part[p]);
     }
 }

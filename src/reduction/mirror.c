@@ -7,7 +7,6 @@
 #include "reduction/mirror_nodes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // Of the diagonal entries of row and column, for rounding; where nodes have not been put together
@@ -23,7 +22,6 @@ enum { NONE = -1 };
 typedef struct Finder {
     const Bulk *bulk;
     int32_t *image;   // [dof_count] mirror image of each unknown
-    int32_t *part_of[2];   // [dof_count] the unknown of each part that it belongs to, or NONE
     int32_t border_count, *border;   // the interface, then mirror images that are not on it
     int32_t *place;   // [dof_count] of each on that list, or NONE
     double *root[2];   // [dof_count] of the diagonal of K and of C
@@ -36,7 +34,6 @@ static void finder_destroy(Finder *find)
     memory_free(find->border);
     memory_free(find->place);
     for (int p = 0; p < 2; p++) {
-        memory_free(find->part_of[p]);
         memory_free(find->root[p]);
     }
 }
@@ -46,8 +43,8 @@ void mirror_destroy(Mirror *mirror)
     for (int p = 0; p < 2; p++) {
         MirrorPart *part = &mirror->part[p];
         bulk_destroy(&part->bulk);
-        symmetry_map_destroy(&part->unknowns);
-        symmetry_map_destroy(&part->border);
+        transform_destroy(&part->unknowns);
+        transform_destroy(&part->border);
         memory_free(part->border_dofs);
     }
     *mirror = (Mirror){0};
@@ -103,118 +100,31 @@ static double sign_in(const Bulk *bulk, int part, int32_t dof)
     return part == 0 ? sign_of(bulk, dof) : -sign_of(bulk, dof);
 }
 
-static bool list_unknowns(Finder *find, int p, SymmetryMap *map, Error *err)
+static bool list_unknowns(const Finder *find, int p, Transform *by, Error *err)
 {
     int32_t dofs = find->bulk->dof_count;
-    int32_t *part_of = find->part_of[p] = NEW_ARRAY(int32_t, dofs, err);
-    if (!part_of || !symmetry_map_create(dofs, map, err)) return false;
+    if (!transform_create(dofs, dofs, dofs, by, err)) return false;
     for (int32_t dof = 0; dof < dofs; dof++) {
-        int32_t image = find->image[dof];
         double sign = sign_in(find->bulk, p, dof);
-        part_of[dof] = image < dof ? part_of[image] : NONE;
-        if (image < dof || (image == dof && sign < 0)) continue;
-        part_of[dof] = map->count;
-        symmetry_map_append(map, dof, image, sign);
+        if (find->image[dof] > dof || (find->image[dof] == dof && sign > 0))
+            transform_append_pair(by, dof, find->image[dof], sign);
     }
     return true;
 }
 
-static int ascending(const void *left, const void *right)
-{
-    int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
-    return (a > b) - (a < b);
-}
-
-// Columns of the part's pattern: those of both unknowns of each.
-static bool map_pattern(const Finder *find, int p, const SymmetryMap *map, SparsePattern *to,
-                        Error *err)
-{
-    const SparsePattern *from = &find->bulk->pattern;
-    const int32_t *part_of = find->part_of[p];
-    int32_t entries = from->start[from->size];
-    int32_t *seen = NEW_ARRAY(int32_t, map->count, err);
-    *to = (SparsePattern){.size = map->count,
-                          .start = NEW_ARRAY(int32_t, (int64_t)map->count + 1, err),
-                          .index = NEW_ARRAY(int32_t, entries, err)};
-    if (!error_is_clean(err)) goto cleanup;
-    for (int32_t j = 0; j < map->count; j++) {
-        int32_t end = to->start[j];
-        const int32_t both[] = {map->one[j], map->other[j]};
-        for (int k = 0; k < 2; k++) {
-            for (int32_t at = from->start[both[k]]; at < from->start[both[k] + 1]; at++) {
-                int32_t row = part_of[from->index[at]];
-                if (row == NONE || seen[row] == j + 1) continue;
-                seen[row] = j + 1;
-                to->index[end++] = row;
-            }
-        }
-        qsort(to->index + to->start[j], (size_t)(end - to->start[j]), sizeof *to->index, ascending);
-        to->start[j + 1] = end;
-    }
-cleanup:
-    memory_free(seen);
-    return error_is_clean(err);
-}
-
-// T A T' of a sparse matrix, column by column.
-static void map_matrix(const Finder *find, int p, const SymmetryMap *map, const double *values,
-                       const SparsePattern *to, double *out)
-{
-    const SparsePattern *from = &find->bulk->pattern;
-    const int32_t *part_of = find->part_of[p];
-    for (int32_t j = 0; j < map->count; j++) {
-        const int32_t both[] = {map->one[j], map->other[j]};
-        const double signs[] = {1, map->sign[j]};
-        for (int side = 0; side < 2 && signs[side] != 0; side++) {
-            double weight = map->weight[j] * signs[side];
-            for (int32_t at = from->start[both[side]]; at < from->start[both[side] + 1]; at++) {
-                int32_t dof = from->index[at], row = part_of[dof];
-                if (row == NONE) continue;
-                double share = map->weight[row] * (dof == map->one[row] ? 1 : map->sign[row]);
-                out[sparse_entry(to, row, j)] += weight * share * values[at];
-            }
-        }
-    }
-}
-
-static bool map_bulk(const Finder *find, int p, MirrorPart *part, Error *err)
-{
-    const Bulk *bulk = find->bulk;
-    const SymmetryMap *map = &part->unknowns;
-    Bulk *to = &part->bulk;
-    to->dof_count = map->count;
-    TRY(map_pattern(find, p, map, &to->pattern, err));
-    int64_t entries = to->pattern.start[map->count];
-    to->stiffness = NEW_ARRAY(double, entries, err);
-    to->damping = NEW_ARRAY(double, entries, err);
-    to->mass = NEW_ARRAY(double, map->count, err);
-    to->load = NEW_ARRAY(double, map->count, err);
-    to->held = NEW_ARRAY(uint8_t, map->count, err);
-    if (!error_is_clean(err)) goto cleanup;
-    map_matrix(find, p, map, bulk->stiffness, &to->pattern, to->stiffness);
-    map_matrix(find, p, map, bulk->damping, &to->pattern, to->damping);
-    symmetry_map_take(map, bulk->load, to->load);
-    for (int32_t k = 0; k < map->count; k++) {
-        to->held[k] = bulk->held[map->one[k]];
-        to->mass[k] = (bulk->mass[map->one[k]] + bulk->mass[map->other[k]]) / 2;
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
 // The border's unknowns as those of a part.
-static bool map_border(const Finder *find, int p, MirrorPart *part, Error *err)
+static bool list_border_unknowns(const Finder *find, int p, MirrorPart *part, Error *err)
 {
-    if (!symmetry_map_create(find->border_count, &part->border, err)) return false;
-    part->border_dofs = NEW_ARRAY(int32_t, find->border_count, err);
-    if (!part->border_dofs) return false;
-    for (int32_t k = 0; k < find->border_count; k++) {
+    int32_t count = find->border_count;
+    part->border_dofs = NEW_ARRAY(int32_t, count, err);
+    if (!transform_create(count, count, count, &part->border, err)) return false;
+    for (int32_t k = 0; k < count; k++) {
         int32_t dof = find->border[k], image = find->place[find->image[dof]];
-        int32_t unknown = find->part_of[p][dof];
-        if (unknown == NONE || image < k) continue;
-        int32_t first = part->unknowns.one[unknown] == dof ? k : image;
+        int32_t unknown = transform_column(&part->unknowns, dof);
+        if (unknown == NO_BLOCK || image < k) continue;
+        int32_t first = part->unknowns.blocks[unknown].rows[0] == dof ? k : image;
         part->border_dofs[part->border.count] = unknown;
-        symmetry_map_append(&part->border, first, k + image - first, sign_in(find->bulk, p, dof));
+        transform_append_pair(&part->border, first, k + image - first, sign_in(find->bulk, p, dof));
     }
     return true;
 }
@@ -284,8 +194,8 @@ bool mirror_find(const Bulk *bulk, const int32_t *node_image, const int32_t *int
     for (int p = 0; find.found && p < 2; p++) {
         MirrorPart *part = &mirror->part[p];
         TRY(list_unknowns(&find, p, &part->unknowns, err));
-        TRY(map_border(&find, p, part, err));
-        TRY(map_bulk(&find, p, part, err));
+        TRY(list_border_unknowns(&find, p, part, err));
+        TRY(bulk_transform(bulk, &part->unknowns, &part->bulk, err));
     }
 cleanup:
     finder_destroy(&find);

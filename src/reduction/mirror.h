@@ -7,14 +7,14 @@
 #ifndef AMONTONS_REDUCTION_MIRROR_H
 #define AMONTONS_REDUCTION_MIRROR_H
 
-#include "fem/assembly.h"
-#include "reduction/symmetry_map.h"
+#include "reduction/transform.h"
 
-// Unknowns of the part's bulk are those of `unknowns`, in their order.
+// A pair of unknowns x, x* of the whole is (x + s x*)/sqrt(2) in a part, with s = 1 or -1; one that
+// is its own image is as it is, in one of them. Both parts together are an orthogonal turn.
 typedef struct MirrorPart {
     Bulk bulk;   // owned, like all below
-    SymmetryMap unknowns;   // of the whole bulk
-    SymmetryMap border;   // of the interface and, behind it, mirror images that are not on it
+    Transform unknowns;   // of the whole bulk
+    Transform border;   // of the interface and, behind it, mirror images that are not on it
     int32_t *border_dofs;   // [border.count] unknowns of the part's bulk
 } MirrorPart;
 

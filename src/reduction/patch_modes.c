@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { TOGETHER = 48 };   // columns whose image is formed at once
-
 // Of the largest energy of some fields: what has less is looked at again when the others are taken
 // out, or half of its digits would be lost.
 static const double DIGITS = 1e-8;
@@ -21,7 +19,6 @@ void patch_modes_destroy(PatchModes *modes)
     memory_free(modes->dofs);
     sparse_pattern_destroy(&modes->pattern);
     memory_free(modes->stiffness);
-    memory_free(modes->damping);
     memory_free(modes->field);
     memory_free(modes->image);
     *modes = (PatchModes){0};
@@ -137,31 +134,4 @@ bool patch_modes_add(PatchModes *modes, DenseView fields, double least, FarRoom 
         *added += taken;
     }
     return true;
-}
-
-bool patch_modes_project(const PatchModes *modes, const double *mass,
-                         double *const square[BULK_TERMS], Error *err)
-{
-    int64_t size = modes->size, count = modes->count;
-    double *image = NEW_ARRAY(double, size *TOGETHER, err);
-    double *work = NEW_ARRAY(double, size *SPARSE_WIDE, err);
-    for (int64_t from = 0; image && work && from < count; from += TOGETHER) {
-        int64_t columns = count - from < TOGETHER ? count - from : TOGETHER,
-                at = from * (count + 1);
-        const double *field = modes->field + from * size;
-        DenseView rest = dense_view(field, size, count - from),
-                  part = dense_view(image, size, columns);
-        dense_multiply_transposed_rows(rest, dense_view(modes->image + from * size, size, columns),
-                                       1, 0, square[BULK_STIFFNESS] + at, count);
-        sparse_apply_many(&modes->pattern, modes->damping, field, columns, image, work);
-        dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_DAMPING] + at, count);
-        for (int64_t j = 0; j < columns; j++)
-            for (int64_t i = 0; i < size; i++)
-                image[j * size + i] = mass[modes->dofs[i]] * field[j * size + i];
-        dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_MASS] + at, count);
-    }
-    for (int term = 0; term < BULK_TERMS; term++) dense_mirror(square[term], count);
-    memory_free(image);
-    memory_free(work);
-    return error_is_clean(err);
 }

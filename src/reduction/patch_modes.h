@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Modes of a patch of unknowns, all others at rest: orthonormal in K/E but for rounding, grown
 // from responses of the mesh, of which only what the others lack is taken. Made by
-// reduction/far_patches; used by reduction/far_samples and reduction/far_block.
+// reduction/far_patches; used by reduction/far_samples and reduction/far_field.
 #ifndef AMONTONS_REDUCTION_PATCH_MODES_H
 #define AMONTONS_REDUCTION_PATCH_MODES_H
 
@@ -11,8 +11,8 @@
 typedef struct PatchModes {
     int32_t size;   // unknowns
     int32_t *dofs;   // [size] which of the mesh, ascending; owned, as what follows
-    SparsePattern pattern;   // of their own K and C
-    double *stiffness, *damping;   // [entries] K/E, C
+    SparsePattern pattern;   // of their own K
+    double *stiffness;   // [entries] K/E
     int32_t count, room;   // columns
     double *field;   // [size * room] F, F'(K/E)F = 1
     double *image;   // [size * room] (K/E) F
@@ -38,9 +38,5 @@ bool patch_modes_make_room(PatchModes *modes, int32_t columns, Error *err);
 // modes that are there; *added of them, for which there is room. false: LAPACK finds no energies.
 bool patch_modes_add(PatchModes *modes, DenseView fields, double least, FarRoom *room,
                      int32_t *added);
-
-// square[term] [count^2]: F'(K/E)F, F'CF, F'MF by BulkTerm; mass: [dofs of the mesh].
-bool patch_modes_project(const PatchModes *modes, const double *mass,
-                         double *const square[BULK_TERMS], Error *err);
 
 #endif

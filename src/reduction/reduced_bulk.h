@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bulk as a small dense system: the unknowns u_b of the interface first, then the coordinates
-// q of an interior basis,
+// The bulk as a sum of small dense systems, which share no entry: itself, or its symmetric and its
+// antisymmetric part (reduction/mirror). A part has its unknowns z on the border first, then the
+// coordinates q of an interior basis,
 //
-//     u = [ I   0   ] [ u_b ]      K = [ S_K 0 ]      M = [ M_bb M_bq ]    C full,
-//         [ Psi Phi ] [ q   ]          [ 0   I ]          [ M_qb T    ],
+//     u = [ I   0   ] [ z ]      K = [ S_K 0 ]      M = [ M_bb M_bq ]    C full,
+//         [ Psi Phi ] [ q ]          [ 0   I ]          [ M_qb T    ],
 //
-// T tridiagonal: a product with M or K costs m r, not (m + r)^2. A block that is its own mirror
-// image is kept as two of half the size, which share no entry (reduction/symmetry_parts).
+// T tridiagonal: a product with M or K costs m r, not (m + r)^2. The border is the interface u_b
+// and the mirrored unknowns u_R: images of those of its unknowns, as of rod nodes, that have none
+// there; S on it is the sum of T_p S_p T_p'. What u_R moves beside the static motion that follows
+// the interface is interior to the whole, in coordinates w with the unit matrix as K:
+//
+//     x = [ u_b; w; q_0; q_1 ],   u_R = L^-T w - E u_b,   z_p = T_p' [u_b; u_R],
+//
+// E = S_RR^-1 S_Rb and L L' = S_RR of the border's S of K.
 //
 // All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
-// size and stiffness of a shape. Built by reduction/reduction, stored by model/basis_cache, used
-// through reduction/interface_operator.
+// size and stiffness of a shape. Built by reduction/reduction and reduction/symmetry_reduction,
+// stored by model/basis_cache, used through reduction/interface_operator.
 #ifndef AMONTONS_REDUCTION_REDUCED_BULK_H
 #define AMONTONS_REDUCTION_REDUCED_BULK_H
 
-#include "reduction/symmetry_parts.h"
+#include "reduction/transform.h"
 
 // Factors from the normalised matrices to those of a scene.
 typedef struct BulkScales {
@@ -37,29 +44,44 @@ typedef struct ReductionErrors {
     double error[REDUCTION_LEVELS_MAX];   // [count] the largest of those at several viscosities
 } ReductionErrors;
 
-typedef struct ReducedBulk {
-    int32_t full_dofs;
-    int32_t interface_count;   // m
+typedef struct ReducedPart {
+    int32_t full_dofs;   // of its mesh
+    int32_t border_count;   // m
     int32_t interior_count;   // r
     int32_t count;   // m + r
     double *mass, *damping;   // [count^2] symmetric, both triangles, normalised; owned
     double *stiffness;   // [m^2] S_K; the interior block is the unit matrix; owned
     double *viscous;   // [m^2] S of C alone; owned; NULL: not at hand
     double *load;   // [count] of the unit load; owned
-    double *modes;   // [full_dofs * count] u = modes [u_b; q]; owned; NULL: not at hand
-    double *storage;   // the array that those above lie in (a file's); owned; NULL: none
+    double *modes;   // [full_dofs * count] u = modes [z; q]; owned; NULL: not at hand
     ReductionErrors errors;
+    Transform border;   // T_p, of the whole's border
+    Transform mesh;   // of the whole mesh's unknowns; where the modes are at hand
+} ReducedPart;
+
+// Mirrored unknowns condensed out of an S on the border.
+typedef struct MirroredDofs {
+    double *follow;   // [mirrored * interface] E = S_RR^-1 S_Rb; owned
+    double *lower;   // [mirrored^2] L of S_RR; owned
+} MirroredDofs;
+
+enum { REDUCED_PARTS_MAX = 2 };
+
+typedef struct ReducedBulk {
+    int32_t full_dofs;
+    int32_t interface_count;
+    int32_t mirrored;   // unknowns of w
+    int32_t count;   // of x
+    int32_t part_count;
+    ReducedPart part[REDUCED_PARTS_MAX];
+    MirroredDofs at_rest;   // of K; owned, like all below
+    double *load;   // [count] of the unit load
+    double *storage;   // the array that loads and the parts' matrices lie in (a file's); NULL: none
     BulkScales scales;
-    // How it is put together of two parts: matrices above but `load` are NULL, errors are theirs,
-    // interior unknowns begin with the mirrored ones; owned; NULL: it is in one piece.
-    SymmetryParts *symmetry;
-    struct ReducedBulk *part;   // [2] those two; owned
 } ReducedBulk;
 
+void reduced_part_destroy(ReducedPart *part);
 void reduced_bulk_destroy(ReducedBulk *reduced);
-// Of normalised matrices and of those of its parts.
-void reduced_bulk_set_scales(ReducedBulk *reduced, BulkScales scales);
-bool reduced_bulk_has_modes(const ReducedBulk *reduced);
 
 // The error of S to expect at `inertia` (normalised, see reduction/reduction): the larger of those
 // measured on either side of it.
@@ -69,5 +91,22 @@ double reduced_bulk_error(const ReducedBulk *reduced, double inertia);
 // calls. The modes must be at hand.
 bool reduced_bulk_recover(const ReducedBulk *reduced, int32_t count, const double *const *states,
                           double *const *full, Error *err);
+
+// Motions x into local[p] = [z; q], and back. border: [interface + mirrored] work.
+void reduced_bulk_split_motion(const ReducedBulk *reduced, const double *x, double *const *local,
+                               double *border);
+void reduced_bulk_join_motion(const ReducedBulk *reduced, const double *const *local, double *x,
+                              double *border);
+// Forces: what does the same work.
+void reduced_bulk_split_force(const ReducedBulk *reduced, const double *force, double *const *local,
+                              double *border);
+void reduced_bulk_join_force(const ReducedBulk *reduced, const double *const *local, double *force,
+                             double *border);
+
+// border: [m + count, squared] S. schur [m^2] := S_bb - S_bR E; NULL: not asked for.
+// ERROR_COMPUTE: S_RR is not definite.
+bool mirrored_dofs_condense(const double *border, int32_t m, int32_t count, MirroredDofs *mirrored,
+                            double *schur, Error *err);
+void mirrored_dofs_destroy(MirroredDofs *mirrored);
 
 #endif

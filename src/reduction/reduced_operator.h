@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a reduced bulk is asked in a scene's units: products, and its A condensed on the interface.
-// One of two parts (reduction/symmetry_parts) does so part by part, with work that all it made
-// share: not from two threads at once. Called by reduction/interface_operator.
+// It does so part by part, with work that all it made share: not from two threads at once. Called
+// by reduction/interface_operator.
 #ifndef AMONTONS_REDUCTION_REDUCED_OPERATOR_H
 #define AMONTONS_REDUCTION_REDUCED_OPERATOR_H
 

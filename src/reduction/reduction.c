@@ -43,7 +43,7 @@ typedef struct Builder {
     BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
     const ReductionDef *def;
     GrowingBasis basis;
-    ReducedBulk *reduced;   // not owned
+    ReducedPart *part;   // not owned
     TrainingPoints training;
     OperatorTerms terms[TRAINING_POINTS_MAX];   // [training.count] of its points
     FactorsAhead *ahead;   // of these
@@ -53,11 +53,10 @@ typedef struct Builder {
     double *values;   // [m] eigenvalues
     double *eigen_work;   // [dense_eigen_work(m)]
     BulkOperator mesh;   // the whole, where nothing is replaced
-    FarBlock far_block;
-    FarField far;   // far.block NULL: nothing is replaced
+    FarField far;
 } Builder;
 
-// All but the reduced bulk.
+// All but the part.
 static void builder_destroy(Builder *work)
 {
     factors_ahead_destroy(work->ahead);
@@ -67,7 +66,6 @@ static void builder_destroy(Builder *work)
     memory_free(work->eigen_work);
     bulk_operator_destroy(&work->mesh);
     far_field_destroy(&work->far);
-    far_block_destroy(&work->far_block);
 }
 
 static bool builder_create(Builder *work, Error *err)
@@ -238,7 +236,7 @@ static bool list_training_points(Builder *work, double slowest, Error *err)
     training_points_list(&work->def->materials, &work->def->scales, slowest,
                          inertia_element(work->full->bulk, &work->def->scales,
                                          work->full->interface_dofs, work->full->interface_count),
-                         &work->reduced->errors, &work->training);
+                         &work->part->errors, &work->training);
     work->basis.responses.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->training.count; k++)
         work->terms[k] = parameter_terms(work->training.points[k].point, &work->def->scales);
@@ -251,7 +249,7 @@ static bool list_training_points(Builder *work, double slowest, Error *err)
 
 static bool train_basis(Builder *work, Error *err)
 {
-    ReductionErrors *errors = &work->reduced->errors;
+    ReductionErrors *errors = &work->part->errors;
     for (int32_t k = 0; k < work->training.count; k++) {
         TrainingPoint now = work->training.points[k];
         FactoredPoint full;
@@ -269,7 +267,7 @@ cleanup:
 // Far beyond an element S is the interface's own mass: the mass matrix is diagonal.
 static bool compare_beyond(Builder *work, Error *err)
 {
-    ReductionErrors *errors = &work->reduced->errors;
+    ReductionErrors *errors = &work->part->errors;
     const BulkOperator *full = work->full;
     int64_t m = full->interface_count;
     ParameterPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
@@ -293,7 +291,7 @@ cleanup:
 static bool find_viscous(Builder *work, Error *err)
 {
     int64_t m = work->basis.interface_count;
-    double *viscous = work->reduced->viscous = NEW_ARRAY(double, m *m, err);
+    double *viscous = work->part->viscous = NEW_ARRAY(double, m *m, err);
     bool definite = false;
     if (!viscous || !condense_basis(work, (ParameterPoint){1, 0}, &definite, err)) return false;
     if (!definite) FAIL(err, ERROR_COMPUTE, "the viscous interior is not positive definite");
@@ -311,12 +309,11 @@ static bool is_uniform(const Materials *materials)
 // What is far from the interface comes back into the modes.
 static bool expand_modes(Builder *work, Error *err)
 {
-    const FarField *far = &work->far;
-    ReducedBulk *reduced = work->reduced;
-    double *near = reduced->modes, *modes = NULL;
-    int64_t size = far->mesh_dofs;
-    reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
-    if (modes) far_field_expand(far, near, reduced->count, modes, err);
+    const Transform *by = &work->far.modes;
+    ReducedPart *part = work->part;
+    double *near = part->modes;
+    part->modes = NEW_ARRAY(double, (int64_t)by->size * part->count, err);
+    if (part->modes) transform_apply_many(by, near, part->count, part->modes, err);
     memory_free(near);
     return error_is_clean(err);
 }
@@ -325,13 +322,13 @@ static bool expand_modes(Builder *work, Error *err)
 static void add_far_field(const Builder *work)
 {
     const FarField *far = &work->far;
-    ReducedBulk *reduced = work->reduced;
-    int64_t m = reduced->interface_count;
-    reduced->full_dofs = far->mesh_dofs;
-    memcpy(reduced->stiffness, far->block->stiffness, (size_t)(m * m) * sizeof(double));
-    for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
-        ParameterPoint point = {.inertia = reduced->errors.inertia[level]};
-        reduced->errors.error[level] += far->block->error * allowed_error(work, point);
+    ReducedPart *part = work->part;
+    int64_t m = part->border_count;
+    part->full_dofs = far->modes.size;
+    memcpy(part->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
+    for (int32_t level = 0; level < part->errors.count - 1; level++) {
+        ParameterPoint point = {.inertia = part->errors.inertia[level]};
+        part->errors.error[level] += far->error * allowed_error(work, point);
     }
 }
 
@@ -340,7 +337,7 @@ static bool build_on(Builder *work, Error *err)
     const ReductionDef *def = work->def;
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
-    double slowest = work->far_block.samples.slowest;   // where the whole mesh was looked at
+    double slowest = work->far.slowest;   // where the whole mesh was looked at
     TRY(builder_create(work, err));
     if (slowest > 0) TRY(list_training_points(work, slowest, err));
     if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
@@ -353,39 +350,25 @@ static bool build_on(Builder *work, Error *err)
     TRY(train_basis(work, err));
     TRY(compare_beyond(work, err));
     TRY(find_viscous(work, err));
-    TRY(basis_finish(&work->basis, def->modes, work->reduced, err));
-    if (def->modes && work->far.block) TRY(expand_modes(work, err));
-    if (work->far.block) add_far_field(work);
+    TRY(basis_finish(&work->basis, def->modes, work->part, err));
+    if (def->modes && work->far.used) TRY(expand_modes(work, err));
+    if (work->far.used) add_far_field(work);
 cleanup:
     interface_operator_destroy(statics);
     return error_is_clean(err);
 }
 
-static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
-                        Error *err)
-{
-    const ReductionDef *def = work->def;
-    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
-    FarBlock *block = &work->far_block;
-    TRY(far_block_create(bulk, interface_dofs, m, &far_def, block, err));
-    if (block->patch_count == 0) goto cleanup;
-    work->far.block = block;
-    TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
-    TRY(far_field_measure(&work->far, block, err));
-    if (block->patch_count == 0) work->far.block = NULL;
-cleanup:
-    return error_is_clean(err);
-}
-
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                     const ReductionDef *def, ReducedBulk *reduced, Error *err)
+                     const ReductionDef *def, ReducedPart *part, Error *err)
 {
-    Builder work = {.def = def, .reduced = reduced};
-    *reduced = (ReducedBulk){.scales = def->scales};
+    Builder work = {.def = def, .part = part};
+    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
+    *part = (ReducedPart){.border = {.size = interface_count, .count = interface_count},
+                          .mesh = {.size = bulk->dof_count, .count = bulk->dof_count}};
     if (interface_count >= FAR_INTERFACE)
-        TRY(replace_far(&work, bulk, interface_dofs, interface_count, err));
-    work.full = work.far.block ? &work.far.system : &work.mesh;
-    if (!work.far.block)
+        TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &work.far, err));
+    work.full = work.far.used ? &work.far.system : &work.mesh;
+    if (!work.far.used)
         TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &work.mesh, err));
     TRY(build_on(&work, err));
 cleanup:

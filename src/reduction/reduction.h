@@ -20,8 +20,8 @@
 //
 // get their responses added (reduction/reduction.c). The first term: an energy goes with the square
 // of what is left out. The second: where inertia acts within an element the mesh itself is no
-// better. Called by model/obtain; used through reduction/interface_operator; stored by
-// model/basis_cache.
+// better. Called by reduction/symmetry_reduction; used through reduction/interface_operator; stored
+// by model/basis_cache.
 #ifndef AMONTONS_REDUCTION_REDUCTION_H
 #define AMONTONS_REDUCTION_REDUCTION_H
 
@@ -33,10 +33,11 @@ typedef struct ReductionDef {
     BulkScales scales;   // of the bulk to reduce
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
+    const int32_t *node_image;   // [nodes] of the block (reduction/mirror_nodes); NULL: none
 } ReductionDef;
 
-// interface_dofs: [interface_count] unknowns of `bulk` that stay.
+// interface_dofs: [interface_count] unknowns of `bulk` that stay: the border of a part by itself.
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                     const ReductionDef *def, ReducedBulk *reduced, Error *err);
+                     const ReductionDef *def, ReducedPart *part, Error *err);
 
 #endif

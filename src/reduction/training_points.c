@@ -7,7 +7,10 @@
 // LEVEL_LOWEST times the slowest mode of the interior, below which it follows like a spring, to
 // that of one element. Then those between two of them are treated likewise, so that two levels are
 // a factor of 10 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
-static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
+static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1;
+
+// The last level stands for infinity: there the error is only checked.
+static const double BEYOND_LIMIT = 1e6;
 
 // K and C are isotropic, so the static response at a viscosity depends on the quotients of A's
 // areal and shear moduli alone, of all regions. At a viscosity v each is its elastic value times
@@ -23,7 +26,7 @@ static const double VISCOSITY_RATIO = 2;
 static const double MESH_SHARE = 2.5;
 
 // Errors of S below this are its rounding.
-static const double ERROR_LEAST = 1e-10;
+static const double ERROR_LIMIT = 1e-10;
 
 // Where regions differ in eta/E, C may be far softer or stiffer than K: slower and faster modes.
 static void widen(const Materials *materials, double unit, double *slowest, double *element_inertia)
@@ -42,7 +45,7 @@ static void list_levels(double slowest, double element_inertia, ReductionErrors 
     int32_t steps = (int32_t)fmin(ceil(parts), (REDUCTION_LEVELS_MAX - 2) / 2);
     for (int32_t k = 0; k <= 2 * steps; k++)
         errors->inertia[k] = lowest * pow(element_inertia / lowest, k / (2.0 * steps));
-    errors->inertia[2 * steps + 1] = LEVEL_BEYOND * element_inertia;
+    errors->inertia[2 * steps + 1] = BEYOND_LIMIT * element_inertia;
     errors->count = 2 * steps + 2;
 }
 
@@ -86,7 +89,7 @@ double parameter_error_allowed(const TrainingPoints *training, ParameterPoint po
                                double tolerance)
 {
     double share = point.inertia / training->element_inertia;
-    return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
+    return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LIMIT);
 }
 
 OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales)

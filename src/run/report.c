@@ -101,7 +101,7 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_integer(json, "elements", model->elements);
     json_integer(json, "full_dofs", model->full_dofs);
     json_integer(json, "reduced_dofs", model->system.dof_count);
-    json_boolean(json, "by_halves", model->reduced.symmetry != NULL);
+    json_boolean(json, "by_halves", model->reduced.part_count > 1);
     json_text(json, "mesh_by", mesh_maker(model));
     json_boolean(json, "from_cache", model->from_cache);
     write_expected(json, model);

@@ -74,7 +74,7 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     char note[96], written[96];
     add_phase(summary, "mesh", model->seconds_mesh, model->elements, mesh_note(model, fields));
     snprintf(note, sizeof note, "unknowns for %d%s%s", model->full_dofs,
-             model->reduced.symmetry ? ", by halves" : "",
+             model->reduced.part_count > 1 ? ", by halves" : "",
              cached    ? ", from the cache"
              : reduced ? ""
                        : ": not reduced");

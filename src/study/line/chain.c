@@ -90,18 +90,22 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
     int64_t count = interface->count;
     *reduced = (ReducedBulk){.interface_count = interface->count,
                              .count = interface->count,
+                             .part_count = 1,
                              .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
-    reduced->mass = NEW_ARRAY(double, count *count, err);
-    reduced->damping = NEW_ARRAY(double, count *count, err);
-    reduced->stiffness = NEW_ARRAY(double, count *count, err);
+    ReducedPart *part = &reduced->part[0];
+    part->border_count = part->count = interface->count;
+    part->border = (Transform){.size = interface->count, .count = interface->count};
+    part->mass = NEW_ARRAY(double, count *count, err);
+    part->damping = NEW_ARRAY(double, count *count, err);
+    part->stiffness = NEW_ARRAY(double, count *count, err);
     reduced->load = NEW_ARRAY(double, count, err);
     if (!error_is_clean(err)) return false;
-    fill_matrix(model, interface, model->elastic_x, model->elastic_shear, reduced->stiffness);
-    fill_matrix(model, interface, model->viscous_x, model->viscous_shear, reduced->damping);
+    fill_matrix(model, interface, model->elastic_x, model->elastic_shear, part->stiffness);
+    fill_matrix(model, interface, model->viscous_x, model->viscous_shear, part->damping);
     for (int32_t i = 0; i < interface->contact_count; i++) {
         double mass = model->density * model->alpha * model->height * interface->weight[i];
-        reduced->mass[interface_tangent(interface, i) * (count + 1)] = mass;
-        reduced->mass[interface_normal(interface, i) * (count + 1)] = mass;
+        part->mass[interface_tangent(interface, i) * (count + 1)] = mass;
+        part->mass[interface_normal(interface, i) * (count + 1)] = mass;
         reduced->load[interface_normal(interface, i)] = -node_load(model, interface, i);
     }
     return true;

@@ -259,6 +259,8 @@ static void test_nothing(void **state)
     dense_multiply(none, full, 1, 0, c);
     dense_multiply(thin, none, 1, 0, c);
     dense_multiply(full, thin, 1, 0, c);
+    dense_multiply_by_transposed(thin, thin, c);
+    dense_multiply_by_transposed(none, full, c);
     dense_multiply_transposed_rows(thin, full, 1, 0, c, 2);
     dense_multiply_transposed_rows(full, thin, 1, 0, c, 2);
     dense_multiply_transposed_rows(none, none, 1, 0, c, 2);

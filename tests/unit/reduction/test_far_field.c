@@ -32,16 +32,17 @@ static void check_response(const BlockDef *shape, int32_t patches, double kept)
 {
     Error err = {0};
     ReducedBlock block;
-    FarBlock replaced;
-    FarField far = {.block = &replaced};
+    FarField far;
     Random random = {.state = 5};
     reduced_block_build(shape, &MATERIAL, LOAD, 0, &block);
     int32_t m = block.interface_count;
     FarFieldDef def = far_def(&block);
-    if (!far_block_create(&block.bulk, block.dofs, m, &def, &replaced, &err) ||
-        !far_field_create(&block.bulk, block.dofs, m, MATERIAL.young, &far, &err))
+    if (!far_field_create(&block.bulk, block.dofs, m, &def, &far, &err))
         fail_msg("%s", err.message);
-    assert_int_equal(replaced.patch_count, patches);
+    assert_true(far.used);
+    int32_t replaced = 0;   // blocks of many unknowns
+    for (int32_t b = 0; b < far.modes.block_count; b++) replaced += far.modes.blocks[b].size > 1;
+    assert_int_equal(replaced, patches);
     if (far.bulk.dof_count > kept * block.bulk.dof_count)
         fail_msg("%d of %d unknowns are left", far.bulk.dof_count, block.bulk.dof_count);
     for (int32_t k = 0; k < 8; k++) {
@@ -57,7 +58,6 @@ static void check_response(const BlockDef *shape, int32_t patches, double kept)
         free(wanted), free(left);
     }
     far_field_destroy(&far);
-    far_block_destroy(&replaced);
     reduced_block_destroy(&block);
 }
 
@@ -120,14 +120,14 @@ static void test_nothing_far(void **state)
     (void)state;
     Error err = {0};
     ReducedBlock block;
-    FarBlock replaced;
+    FarField far;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 30, .length = 1, .height = 1};
     reduced_block_build(&shape, &MATERIAL, LOAD, 0, &block);
     FarFieldDef def = far_def(&block);
     int32_t m = block.interface_count;
-    assert_true(far_block_create(&block.bulk, block.dofs, m, &def, &replaced, &err));
-    assert_int_equal(replaced.patch_count, 0);
-    far_block_destroy(&replaced);
+    assert_true(far_field_create(&block.bulk, block.dofs, m, &def, &far, &err));
+    assert_false(far.used);
+    far_field_destroy(&far);
     reduced_block_destroy(&block);
 }
 
@@ -142,18 +142,14 @@ static void test_memory_faults(void **state)
     bool done = false;
     for (int32_t k = 0; !done; k += 1 + k / 40) {   // later ones are alike, motion by motion
         Error err = {0};
-        FarBlock replaced = {0};
-        FarField far = {.block = &replaced};
+        FarField far;
         int32_t m = block.interface_count;
         memory_fail_after(k);
-        done = far_block_create(&block.bulk, block.dofs, m, &def, &replaced, &err) &&
-               far_field_create(&block.bulk, block.dofs, m, MATERIAL.young, &far, &err) &&
-               far_field_measure(&far, &replaced, &err);
+        done = far_field_create(&block.bulk, block.dofs, m, &def, &far, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        assert_int_equal(replaced.patch_count > 0 || !done, 1);
+        assert_int_equal(far.used || !done, 1);
         far_field_destroy(&far);
-        far_block_destroy(&replaced);
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 3000);
     }

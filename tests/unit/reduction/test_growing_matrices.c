@@ -18,7 +18,7 @@ typedef struct Rig {
     ReducedBlock block;   // not reduced
     BulkOperator mesh;
     GrowingBasis basis;
-    ReducedBulk reduced;   // what the basis becomes at the end
+    ReducedPart reduced;   // what the basis becomes at the end
 } Rig;
 
 // The static modes, and the static response to the load.
@@ -43,7 +43,7 @@ static void end(Rig *rig)
 {
     basis_destroy(&rig->basis);
     bulk_operator_destroy(&rig->mesh);
-    reduced_bulk_destroy(&rig->reduced);
+    reduced_part_destroy(&rig->reduced);
     reduced_block_destroy(&rig->block);
 }
 
@@ -86,9 +86,9 @@ static double product(const Rig *rig, BulkTerm term, const double *x, const doub
 }
 
 // K of the reduced bulk as its header draws it.
-static double stiffness_of(const ReducedBulk *reduced, int32_t i, int32_t j)
+static double stiffness_of(const ReducedPart *reduced, int32_t i, int32_t j)
 {
-    int32_t m = reduced->interface_count;
+    int32_t m = reduced->border_count;
     if (i < m && j < m) return reduced->stiffness[j * m + i];
     return i == j;
 }
@@ -97,9 +97,9 @@ static double stiffness_of(const ReducedBulk *reduced, int32_t i, int32_t j)
 static void assert_matrices(Rig *rig, double tolerance)
 {
     Error err = {0};
-    const ReducedBulk *reduced = &rig->reduced;
+    const ReducedPart *reduced = &rig->reduced;
     if (!basis_finish(&rig->basis, true, &rig->reduced, &err)) fail_msg("%s", err.message);
-    int32_t m = reduced->interface_count, count = reduced->count, dofs = reduced->full_dofs;
+    int32_t m = reduced->border_count, count = reduced->count, dofs = reduced->full_dofs;
     for (int32_t j = 0; j < count; j++) {
         const double *z = reduced->modes + j * dofs;
         double load = 0;

@@ -20,7 +20,7 @@ static const BlockDef SHAPES[] = {
 enum { SHAPE_COUNT = sizeof SHAPES / sizeof *SHAPES };
 
 // V' A V / scale
-static double *project(const ReducedBulk *reduced, const double *a, double scale)
+static double *project(const ReducedPart *reduced, const double *a, double scale)
 {
     int32_t n = reduced->full_dofs, count = reduced->count;
     double *out = hand_matrix(count, count), *image = hand_matrix(n, 1);
@@ -55,7 +55,7 @@ static void assert_definite(const char *what, const double *a, int32_t n, int32_
 
 static void check_modes(const ReducedBlock *block, const double *stiffness)
 {
-    const ReducedBulk *reduced = &block->reduced;
+    const ReducedPart *reduced = &block->reduced.part[0];
     int32_t n = reduced->full_dofs, m = block->interface_count;
     double *force = hand_matrix(n, 1);
     for (int32_t j = 0; j < reduced->count; j++) {
@@ -79,8 +79,8 @@ static void test_blocks(void **state)
         ReducedBlock block;
         double tolerance = s < 2 ? 1e-6 : 1e-2;
         reduced_block_build(&SHAPES[s], &MATERIAL, LOAD, tolerance, &block);
-        const ReducedBulk *reduced = &block.reduced;
-        int32_t count = reduced->count, m = reduced->interface_count;
+        const ReducedPart *reduced = &block.reduced.part[0];
+        int32_t count = reduced->count, m = reduced->border_count;
         assert_int_equal(count, m + reduced->interior_count);
         assert_true(reduced->interior_count > 5 && count <= block.bulk.dof_count);
         double *k = dense_matrix(&block.bulk, block.bulk.stiffness);
@@ -199,8 +199,8 @@ static void test_memory_faults(void **state)
         double turn[64] = {0};
         memory_fail_after(k);
         InterfaceOperator *rung = NULL;
-        done = reduction_build(&block.bulk, block.dofs, block.interface_count, &block.def,
-                               &block.reduced, &err) &&
+        done = symmetry_reduction_build(&block.bulk, block.dofs, block.interface_count, &block.def,
+                                        &block.reduced, &err) &&
                bulk_operator_reduce(&block.reduced, turn, 1, &system, &err) &&
                (rung = interface_operator_create(
                     &system, (OperatorTerms){.mass = 1, .damping = 1, .stiffness = 1}, &err));

@@ -56,7 +56,7 @@ static void check_error_of(const BlockDef *shape, const Materials *materials, do
     ReducedBlock block;
     const Material *material = &materials->list[0];
     reduced_block_build_of(shape, *materials, layer, 0.003, tolerance, &block);
-    const ReductionErrors *errors = &block.reduced.errors;
+    const ReductionErrors *errors = &block.reduced.part[0].errors;
     double element = errors->inertia[errors->count - 2], lowest = errors->inertia[0];
     double worst = 0;
     for (int32_t k = 0; k < 30; k++) {
@@ -150,7 +150,7 @@ static void test_error_of_many_nodes(void **state)
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 48, .nz = 4, .length = 1, .height = 0.1};
     ReducedBlock block;
     reduced_block_build(&shape, &MATERIAL, 0.003, 2e-2, &block);
-    const ReductionErrors *errors = &block.reduced.errors;
+    const ReductionErrors *errors = &block.reduced.part[0].errors;
     double closest = INFINITY;
     for (int32_t level = 1; level < errors->count - 1; level++) {
         OperatorTerms terms = parameter_terms(&block.def.scales, 1, errors->inertia[level]);
@@ -169,7 +169,7 @@ static void test_shortest_steps(void **state)
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 12, .nz = 12, .length = 1, .height = 0.5};
     ReducedBlock block;
     reduced_block_build(&shape, &MATERIAL, 0.003, 2e-2, &block);
-    const ReductionErrors *errors = &block.reduced.errors;
+    const ReductionErrors *errors = &block.reduced.part[0].errors;
     double element = errors->inertia[errors->count - 2];
     for (double inertia = 2 * element; inertia < 1e8 * element; inertia *= 20) {
         double error =
@@ -203,8 +203,8 @@ static void test_units(void **state)
     shape.length = sqrt(3e9 * 1200) * 0.1 / 1e5;
     shape.height = shape.length / 2;
     reduced_block_build(&shape, &own, 0.01, 1e-3, &block[1]);
-    const ReducedBulk *a = &block[0].reduced, *b = &block[1].reduced;
-    int32_t count = a->count, m = a->interface_count;
+    const ReducedPart *a = &block[0].reduced.part[0], *b = &block[1].reduced.part[0];
+    int32_t count = a->count, m = a->border_count;
     assert_int_equal(count, b->count);
     assert_all_near("S_K", a->stiffness, b->stiffness, m * m, 1e-10);
     const double *both[][2] = {{a->mass, b->mass}, {a->damping, b->damping}};
@@ -223,8 +223,8 @@ static void test_units(void **state)
     double turn = 1e5 / 3e9;   // eta/E
     for (int32_t k = 0; k < 4; k++) {
         double dt = pow(10, 2 - 2 * k);
-        double *left = reduced_schur(a, step_terms(turn * dt));
-        double *right = reduced_schur(b, step_terms(dt));
+        double *left = reduced_schur(&block[0].reduced, step_terms(turn * dt));
+        double *right = reduced_schur(&block[1].reduced, step_terms(dt));
         for (int32_t e = 0; e < m * m; e++) left[e] /= 1e5;   // over eta
         assert_all_near("S", left, right, m * m, 1e-8);
         free(left);

@@ -4,6 +4,7 @@
 // without interior coordinates. The load pushes to one side, and the rod is on one: only the block
 // is its own mirror image.
 #include "base/memory.h"
+#include "reduction/mirror.h"
 #include "reduction/mirror_nodes.h"
 #include "reduction/symmetry_reduction.h"
 #include "unit/reduction/reduced_checks.h"
@@ -20,7 +21,8 @@ static const BlockDef SHAPES[] = {
 };
 enum { SHAPE_COUNT = sizeof SHAPES / sizeof *SHAPES };
 
-static void find_mirror(const ReducedBlock *block, Mirror *mirror)
+// [nodes], NULL: some have none.
+static int32_t *node_images(const ReducedBlock *block)
 {
     Error err = {0};
     bool paired;
@@ -28,12 +30,29 @@ static void find_mirror(const ReducedBlock *block, Mirror *mirror)
     double *position = hand_matrix(2 * nodes, 1);
     int32_t *image = calloc((size_t)nodes, sizeof *image);
     memcpy(position, block->mesh.position, 2 * (size_t)nodes * sizeof *position);
-    *mirror = (Mirror){0};
     assert_true(mirror_nodes_find(2, position, nodes, image, &paired, &err));
-    if (paired)
+    free(position);
+    if (paired) return image;
+    free(image);
+    return NULL;
+}
+
+static void find_mirror(const ReducedBlock *block, Mirror *mirror)
+{
+    Error err = {0};
+    int32_t *image = node_images(block);
+    *mirror = (Mirror){0};
+    if (image)
         assert_true(
             mirror_find(&block->bulk, image, block->dofs, block->interface_count, mirror, &err));
-    free(position), free(image);
+    free(image);
+}
+
+static bool reduce(ReducedBlock *block, const int32_t *image, Error *err)
+{
+    block->def.node_image = image;
+    return symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
+                                    &block->reduced, err);
 }
 
 // `block` with its reduced bulk in two parts.
@@ -48,10 +67,11 @@ static void build(const BlockDef *shape, ReducedBlock *block)
     assert_int_equal(mirror.mirrored, 1);   // of the rod node's x
     assert_int_equal(mirror.part[0].bulk.dof_count + mirror.part[1].bulk.dof_count,
                      block->bulk.dof_count);
-    if (!symmetry_reduction_build(&mirror, block->interface_count, &block->def, &block->reduced,
-                                  &err))
-        fail_msg("%s", err.message);
     mirror_destroy(&mirror);
+    int32_t *image = node_images(block);
+    if (!reduce(block, image, &err)) fail_msg("%s", err.message);
+    assert_int_equal(block->reduced.part_count, 2);
+    free(image);
 }
 
 static void test_response(void **state)
@@ -161,8 +181,10 @@ static void test_mirrored(void **state)
         assert_true(mirror_is_likely(&block.bulk, block.mesh.position, block.dofs,
                                      block.interface_count, &likely, &err));
         assert_true(likely);
-        assert_true(symmetry_reduction_build(&mirror, block.interface_count, &block.def,
-                                             &block.reduced, &err));
+        int32_t *image = node_images(&block);
+        assert_true(reduce(&block, image, &err));
+        assert_int_equal(block.reduced.part_count, 2);
+        free(image);
         OperatorTerms terms = {.stiffness = 1, .mass = 3};
         double least, largest, *full = full_schur(&block, terms);
         double *reduced = reduced_schur(&block.reduced, terms);
@@ -187,18 +209,16 @@ static void test_memory_faults(void **state)
     ReducedBlock block;
     reduced_block_build(&SHAPES[1], &MATERIAL, LOAD, 0, &block);
     block.def.tolerance = 1e-1;
+    int32_t *image = node_images(&block);
     int64_t live = memory_counters().live;
     bool done = false;
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         BulkOperator system = {0};
         double turn[64] = {0};
-        Mirror mirror;
         InterfaceOperator *rung = NULL;
-        find_mirror(&block, &mirror);
         memory_fail_after(k);
-        done = symmetry_reduction_build(&mirror, block.interface_count, &block.def, &block.reduced,
-                                        &err) &&
+        done = reduce(&block, image, &err) &&
                bulk_operator_reduce(&block.reduced, turn, 1, &system, &err) &&
                (rung = interface_operator_create(
                     &system, (OperatorTerms){.mass = 1, .damping = 1, .stiffness = 1}, &err));
@@ -207,10 +227,10 @@ static void test_memory_faults(void **state)
         interface_operator_destroy(rung);
         bulk_operator_destroy(&system);
         reduced_bulk_destroy(&block.reduced);
-        mirror_destroy(&mirror);
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 4000);
     }
+    free(image);
     reduced_block_destroy(&block);
 }
 

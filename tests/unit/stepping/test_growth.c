@@ -5,7 +5,7 @@
 
 #include "base/dense.h"
 #include "block_mesh.h"
-#include "reduction/reduction.h"
+#include "reduction/symmetry_reduction.h"
 #include "dense_by_hand.h"
 
 #include <complex.h>
@@ -261,9 +261,9 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
     case_build_block(&test, &def, &SOFT);
     if (reduced) {
         double *rotation = hand_matrix(test.interface.count, 1);
-        ReductionDef how = {1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false};
-        assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
-                                    &test.reduced, &err));
+        ReductionDef how = {1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false, NULL};
+        assert_true(symmetry_reduction_build(&test.bulk, test.interface.dofs, test.interface.count,
+                                             &how, &test.reduced, &err));
         assert_true(bulk_operator_reduce(&test.reduced, rotation, 1, &test.system, &err));
         free(rotation);
     }
