@@ -48,7 +48,8 @@ namespace
 {
 
 // Runs `work`, and turns what it throws into an error.
-template <typename Work> bool guarded(Error *err, const Work &work)
+template <typename Work>
+bool guarded(Error *err, const Work &work)
 {
     try {
         work();

@@ -15,8 +15,7 @@ bool designs_create(const Study *study, Designs *designs, Error *err)
     *designs = (Designs){.study = study, .conditions = 1};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
-    TRY(designs->points =
-            NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->conditions, err));
+    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->conditions, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -30,7 +29,7 @@ void designs_destroy(Designs *designs)
 
 static void number_text(const SearchKey *key, double value, char text[NUMBER_SIZE])
 {
-    snprintf(text, NUMBER_SIZE, key->scale == SEARCH_WHOLE ? "%.0f" : "%.4g", value);
+    snprintf(text, NUMBER_SIZE, key->scale == SEARCH_WHOLE ? "%.0f" : "%.3g", value);
 }
 
 // So that a value can be quoted; an end of the range is met exactly.
@@ -138,6 +137,9 @@ void designs_judge(Designs *designs, int32_t d)
     const DesignPoint *points = &designs->points[(int64_t)d * designs->conditions];
     design->value = design->bar = NAN;
     design->deciding = 0;
+    design->has_bar = true;
+    for (int32_t c = 0; c < designs->conditions; c++)
+        design->has_bar = design->has_bar && points[c].has_bar;
     for (int32_t c = 0; c < designs->conditions; c++)
         if (!points[c].is_known || isnan(points[c].value)) return;
     (designs->study->search.mean ? judge_mean : judge_worst)(designs, points, design);
@@ -151,4 +153,11 @@ int32_t designs_best(const Designs *designs)
             (best < 0 || design_is_better(designs, &designs->list[d], &designs->list[best])))
             best = d;
     return best;
+}
+
+bool designs_may_equal(const Designs *designs, int32_t best, int32_t d)
+{
+    const Design *one = &designs->list[d], *top = &designs->list[best];
+    if (d == best || isnan(one->value)) return false;
+    return !(fabs(top->value - one->value) > one->bar + top->bar);
 }

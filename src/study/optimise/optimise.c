@@ -50,7 +50,8 @@ static void take_point(const SweepView *view, void *context)
     const SweepOptions *options = search->options;
     DesignPoint *point = &search->designs.points[view->point];
     bool told = point->is_known && view->reused;
-    *point = (DesignPoint){true, view->value, isnan(view->bar) ? view->known_to : view->bar, ""};
+    bool has_bar = !isnan(view->bar);
+    *point = (DesignPoint){true, has_bar, view->value, has_bar ? view->bar : view->known_to, ""};
     if (view->run) snprintf(point->run, sizeof point->run, "%s", view->run);
     search->computed += !view->reused;
     if (told || !options->on_point) return;
@@ -99,8 +100,7 @@ static bool is_allowed(Search *search, const double *x, bool *allowed, Error *er
         double value = 0;
         const char *formula = strchr(yaml_text(study->file, limit->formula), '=') + 1;
         if (!formula_value(formula, scene_number, search->scene, &value, err)) {
-            error_context(err, "%s:%d: where", study->path,
-                          yaml_line(study->file, limit->formula));
+            error_context(err, "%s:%d: where", study->path, yaml_line(study->file, limit->formula));
             goto cleanup;
         }
         *allowed = value >= limit->least && value <= limit->most;
@@ -110,7 +110,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The scene with `set`, at the first point of `vary`, if all that is searched has a value there within its range.
+// The scene with `set`, at the first point of `vary`, if all that is searched has a value there
+// within its range.
 static bool add_start(Search *search, Error *err)
 {
     const StudySearch *keys = &search->study.search;
@@ -225,13 +226,6 @@ cleanup:
 
 // --- deciding -----------------------------------------------------------------------------------
 
-bool search_is_open(const Search *search, int32_t best, int32_t d)
-{
-    const Design *one = &search->designs.list[d], *top = &search->designs.list[best];
-    if (d == best || isnan(one->value)) return false;
-    return !(fabs(top->value - one->value) > one->bar + top->bar);
-}
-
 // Half the error that was asked for or, where that is smaller, of the one that came out. false: it
 // is as small as it may get.
 static bool next_accuracy(const Search *search, Design *design)
@@ -251,7 +245,7 @@ static int32_t next_leader(const Search *search, int32_t best, const bool *taken
     int32_t leader = -1;
     for (int32_t d = 0; d < search->designs.count; d++) {
         const Design *one = &search->designs.list[d];
-        if (taken[d] || (d != best && !search_is_open(search, best, d))) continue;
+        if (taken[d] || (d != best && !designs_may_equal(&search->designs, best, d))) continue;
         double reach = sign * one->value + one->bar;
         if (reach > top) top = reach, leader = d;
     }
@@ -291,7 +285,7 @@ static bool decide(Search *search, Error *err)
         int32_t best = designs_best(&search->designs);
         bool open = false;
         for (int32_t d = 0; d < search->designs.count; d++)
-            open = open || search_is_open(search, best, d);
+            open = open || designs_may_equal(&search->designs, best, d);
         again = false;
         if (open) TRY(decide_round(search, best, &again, err));
     }
@@ -388,7 +382,7 @@ static void summarise(const Search *search, OptimiseSummary *summary)
     design_words(&search->study, top, summary->best);
     for (int32_t d = 0; d < designs->count; d++) {
         summary->designs += !isnan(designs->list[d].value);
-        if (search_is_open(search, best, d)) summary->decided = false;
+        if (designs_may_equal(&search->designs, best, d)) summary->decided = false;
     }
     if (search->start < 0) return;
     summary->start_value = designs->list[search->start].value;

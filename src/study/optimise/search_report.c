@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/optimise/search_report.h"
 
-#include "amontons_words.h"
 #include "base/memory.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -28,24 +27,30 @@ static bool is_on_section(const Search *search, int32_t best, int32_t k, int32_t
 
 // --- words --------------------------------------------------------------------------------------
 
-static void print_estimate(FILE *out, double value, double bar)
+// Without an error bar in the digits that are known.
+static void print_estimate(const Search *search, const Design *design)
 {
     char text[ESTIMATE_SIZE];
-    amontons_estimate(value, bar, bar, text);
-    fprintf(out, "%s", text);
+    double bar = design->has_bar ? design->bar : (double)NAN;
+    amontons_estimate(design->value, bar, design->bar, text);
+    fprintf(search->options->out, "%s", text);
 }
 
-static void print_gain(const Search *search, const OptimiseSummary *summary)
+static void print_gain(const Search *search, const OptimiseSummary *summary, int32_t best)
 {
     FILE *out = search->options->out;
     char words[OPTIMISE_WORDS_SIZE];
     if (isnan(summary->start_value)) return;
+    if (best == search->start) {
+        fprintf(out, "  this is the scene as it is\n");
+        return;
+    }
     double ratio = summary->value / summary->start_value;
-    double error = fabs(ratio) * hypot(summary->bar / summary->value,
-                                       summary->start_bar / summary->start_value);
+    double error = fabs(ratio) *
+                   hypot(summary->bar / summary->value, summary->start_bar / summary->start_value);
     design_words(&search->study, &search->designs.list[search->start], words);
     fprintf(out, "  the scene as it is, %s: ", words);
-    print_estimate(out, summary->start_value, summary->start_bar);
+    print_estimate(search, &search->designs.list[search->start]);
     fprintf(out, "; the best differs by %+.1f %% +- %.1f %%\n", 100 * (ratio - 1), 100 * error);
 }
 
@@ -55,19 +60,20 @@ static void print_open(const Search *search, int32_t best)
     int32_t open = 0;
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
-        if (!search_is_open(search, best, d) || open++ >= OTHERS_SHOWN) continue;
+        if (!designs_may_equal(&search->designs, best, d) || open++ >= OTHERS_SHOWN) continue;
         design_words(&search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
                 words);
-        print_estimate(out, search->designs.list[d].value, search->designs.list[d].bar);
+        print_estimate(search, &search->designs.list[d]);
         fprintf(out, "\n");
     }
     if (open > OTHERS_SHOWN) fprintf(out, "    ... and %d more\n", open - OTHERS_SHOWN);
     if (open == 0) fprintf(out, "  better than every other design, with the bars of both\n");
     if (open == 0) return;
     if (search->study.rank.refine > 0)
-        fprintf(out, "  telling them apart needs a smaller `refine` than %g %% (half the error "
-                     "takes two to four times as long), or does not matter\n",
+        fprintf(out,
+                "  telling them apart needs a smaller `refine` than %g %% (half the error "
+                "takes two to four times as long), or does not matter\n",
                 100 * search->study.rank.refine);
     else
         fprintf(out, "  `rank: {refine: 1%%}` with `set: {accuracy.mu: 4%%}` computes them again "
@@ -89,7 +95,7 @@ static void print_section(const Search *search, int32_t best, int32_t k)
                 next = d;
         if (next < 0) break;
         fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
-        print_estimate(out, designs->list[next].value, designs->list[next].bar);
+        print_estimate(search, &designs->list[next]);
         last = designs->list[next].x[k];
     }
     bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
@@ -108,9 +114,9 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
         fprintf(out, ", %s of %d points each", search->study.search.mean ? "mean" : "worst",
                 designs->conditions);
     fprintf(out, ":\n  %s: ", summary->best);
-    print_estimate(out, summary->value, summary->bar);
+    print_estimate(search, &designs->list[best]);
     fprintf(out, "\n");
-    print_gain(search, summary);
+    print_gain(search, summary, best);
     print_open(search, best);
     for (int32_t k = 0; k < search->study.search.key_count; k++) print_section(search, best, k);
     if (*run) fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", run);
@@ -128,9 +134,8 @@ static void write_y(Figure *figure, const Search *search)
 static bool draw_course(const Search *search, Error *err)
 {
     const Designs *designs = &search->designs;
-    Figure figure = {.folder = search->options->folder,
-                     .name = "course",
-                     .title = search->study.title};
+    Figure figure = {
+        .folder = search->options->folder, .name = "course", .title = search->study.title};
     int32_t count = designs->count;
     double *numbers = NEW_ARRAY(double, 4 * (int64_t)count, err);
     TRY(numbers);
@@ -146,10 +151,21 @@ static bool draw_course(const Search *search, Error *err)
     figure_write_axis(&figure, "x", &(QuantityLabel){.words = "design"}, "linear");
     write_y(&figure, search);
     json_begin_list(figure.json, "series");
-    Curve all = {.label = "designs", .line = "none", .marker = "circle", .color = COLOR_DESIGNS,
-                 .count = count, .filled = true, .x = x, .y = y, .error = error};
-    Curve line = {.label = "best so far", .line = "solid", .color = COLOR_SO_FAR, .count = count,
-                  .x = x, .y = so_far};
+    Curve all = {.label = "designs",
+                 .line = "none",
+                 .marker = "circle",
+                 .color = COLOR_DESIGNS,
+                 .count = count,
+                 .filled = true,
+                 .x = x,
+                 .y = y,
+                 .error = error};
+    Curve line = {.label = "best so far",
+                  .line = "solid",
+                  .color = COLOR_SO_FAR,
+                  .count = count,
+                  .x = x,
+                  .y = so_far};
     figure_write_curve(&figure, &all, err);
     if (error_is_clean(err)) figure_write_curve(&figure, &line, err);
     json_end(figure.json);
@@ -165,8 +181,7 @@ static bool draw_section(const Search *search, int32_t best, int32_t k, Error *e
     const SearchKey *key = &search->study.search.keys[k];
     char name[60];
     snprintf(name, sizeof name, "along_%.50s", label_last_word(key->key));
-    Figure figure = {.folder = search->options->folder, .name = name,
-                     .title = search->study.title};
+    Figure figure = {.folder = search->options->folder, .name = name, .title = search->study.title};
     int32_t count = 0;
     double *numbers = NEW_ARRAY(double, 3 * (int64_t)designs->count, err);
     TRY(numbers);
@@ -181,12 +196,24 @@ static bool draw_section(const Search *search, int32_t best, int32_t k, Error *e
     figure_write_axis(&figure, "x", &label, key->scale == SEARCH_LOG ? "log" : "linear");
     write_y(&figure, search);
     json_begin_list(figure.json, "series");
-    Curve others = {.label = "others as in the best", .line = "none", .marker = "circle",
-                    .color = COLOR_DESIGNS, .count = count, .filled = true,
-                    .x = x, .y = y, .error = error};
+    Curve others = {.label = "others as in the best",
+                    .line = "none",
+                    .marker = "circle",
+                    .color = COLOR_DESIGNS,
+                    .count = count,
+                    .filled = true,
+                    .x = x,
+                    .y = y,
+                    .error = error};
     const Design *top = &designs->list[best];
-    Curve mark = {.label = "the best", .line = "none", .marker = "square", .color = COLOR_BEST,
-                  .count = 1, .filled = true, .x = &top->x[k], .y = &top->value};
+    Curve mark = {.label = "the best",
+                  .line = "none",
+                  .marker = "square",
+                  .color = COLOR_BEST,
+                  .count = 1,
+                  .filled = true,
+                  .x = &top->x[k],
+                  .y = &top->value};
     figure_write_curve(&figure, &others, err);
     if (error_is_clean(err)) figure_write_curve(&figure, &mark, err);
     json_end(figure.json);

@@ -20,7 +20,4 @@ typedef struct Search {
     double started;   // wall clock, s
 } Search;
 
-// Whether design `d` may be as good as `best`, with the bars of both.
-bool search_is_open(const Search *search, int32_t best, int32_t d);
-
 #endif

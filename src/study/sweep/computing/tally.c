@@ -31,7 +31,8 @@ static void read_quantity(const Study *study, const char *report, SweepView *vie
 static void report_point(Sweep *sweep, int32_t k, const char *report)
 {
     const SweepPoint *point = &sweep->points[k];
-    char path[POINT_PATH_SIZE + 16], words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "", warning[8];
+    char path[POINT_PATH_SIZE + 16], words[POINT_WORDS_SIZE] = "";
+    char message[ERROR_MESSAGE_SIZE] = "", warning[8];
     Error ignored = {0};
     Scene *scene = NULL;
     sweep->finished++;

@@ -12,8 +12,9 @@
 #include <string.h>
 
 #define KEYS(X)                                                                                    \
-    X("title") X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot")  \
-    X("search") X("where") X("best")
+    X("title")                                                                                     \
+    X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot") X("search") \
+        X("where") X("best")
 
 // A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)

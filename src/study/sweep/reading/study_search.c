@@ -35,7 +35,8 @@ static bool read_key(Study *study, YamlNode item, Error *err)
     if (!good || !(key->least < key->most) || (key->scale == SEARCH_LOG && key->least <= 0))
         return yaml_refuse(study->file, range, key->key,
                            "two numbers, the smaller one first (of log: above 0)", err);
-    if (key->scale == SEARCH_WHOLE && (key->least != floor(key->least) || key->most != floor(key->most)))
+    if (key->scale == SEARCH_WHOLE &&
+        (key->least != floor(key->least) || key->most != floor(key->most)))
         return yaml_refuse(study->file, range, key->key, "two whole numbers", err);
     search->key_count++;
     if (study_is_chosen(study, key->key)) {
