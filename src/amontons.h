@@ -212,16 +212,16 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
 // --- sweeps -------------------------------------------------------------------------------------
 // One point that ended, or was found finished.
 typedef struct SweepView {
-    const char *words;   // "load.pressure=0.003 ...": what tells it from the others
+    int32_t point;   // from 0, in the order of the table
+    const char *words;   // "load.pressure=0.003 ..."
     const char *message;   // why it failed; NULL: it did not
+    const char *run;   // its run.json; NULL: it left none (`keep: table`)
     double mu_M, mu_M_error;   // NaN: none
     const char *quantity;   // what the study ranks by, "mu_hold"; else "mu_M"
     double value, bar, known_to;   // of it; bar: with the mesh's part; NaN: none
-    bool warned;   // its run.json has warnings
-    double seconds;   // of this point
-    double seconds_left;   // for the whole sweep, estimated; NaN: not yet
+    bool warned, reused;   // its run.json has warnings; it is from an earlier sweep
+    double seconds, seconds_left;   // of this point; for the whole, estimated (NaN: not yet)
     int32_t finished, failed, points;   // so far, among them, and in all
-    bool reused;   // from an earlier sweep
 } SweepView;
 typedef void (*SweepCallback)(const SweepView *view, void *context);
 

@@ -185,6 +185,28 @@ def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, j
     return read_table(Path(folder) / "sweep.csv")
 
 
+def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
+             slurm: str | None = None, progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
+    """The best design of a study that searches: `amontons optimise`. A dict: "best" ({key: value}), "value" and "bar" of what
+    the study ranks by, "decided" (no other design may be better, with the bars of both), "start_value" and "start_bar" (of the
+    scene as it is; nan: it is no design of the search), "designs", "computed" (points), "seconds". The table of all points is
+    in `folder` (read_table); None: a folder that is removed. The rest as for `sweep`."""
+    if folder is None:
+        with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
+            return optimise(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
+    stop = ctypes.c_int(0)
+    summary = c.OptimiseSummary()
+    overrides, count = setting_words(settings)
+    options = c.SweepOptions(folder=c_text_or_none(folder), overrides=overrides, override_count=count, jobs=jobs,
+                             slurm=c_text_or_none(slurm), retry=retry,
+                             on_point=_callback(c.SweepCallback, progress, stop), stop=ctypes.pointer(stop))
+    call_stoppable(lib.amontons_optimise, stop, c_text(study), ctypes.byref(options), ctypes.byref(summary))
+    pairs = (word.rpartition("=") for word in summary.best.decode().split())
+    return {"best": {key: float(value) for key, _, value in pairs}, "value": summary.value, "bar": summary.bar,
+            "decided": bool(summary.decided), "start_value": summary.start_value, "start_bar": summary.start_bar,
+            "designs": summary.designs, "computed": summary.computed, "seconds": summary.seconds}
+
+
 def _picture_style(style: dict[str, Any]) -> Any:
     given = {**style, "format": c_text(style.get("format", "png"))}
     return c.PictureStyle(**given)

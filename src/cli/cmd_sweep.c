@@ -3,15 +3,13 @@
 // hidden option --element it is one of its own jobs on a cluster.
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/progress.h"
+#include "cli/point_lines.h"
 #include "cli/say.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
-
-enum { FAILURES_SHOWN = 10 };
 
 static const CommandText text = {
     .name = "sweep",
@@ -75,13 +73,6 @@ typedef struct SweepWords {
     bool has_slurm, is_element, retry, fresh, quiet, trusted;
 } SweepWords;
 
-// What show_point keeps from call to call.
-typedef struct SweepDisplay {
-    bool quiet, bar;   // a terminal: the last line is written over
-    int32_t failures;
-    char failed[FAILURES_SHOWN][500];
-} SweepDisplay;
-
 static int read_words(int argc, char **argv, SweepWords *words)
 {
     const Option options[] = {
@@ -128,33 +119,8 @@ static int check_words(const SweepWords *words, SweepOptions *options)
     return words->jobs ? option_count("-j", words->jobs, 1, 1024, &options->jobs) : 0;
 }
 
-// A line a point; on a terminal a last line with the progress of the whole.
-static void show_point(const SweepView *view, void *context)
-{
-    SweepDisplay *display = context;
-    char left[32], what[ESTIMATE_SIZE + 128], value[ESTIMATE_SIZE];
-    if (view->message && display->failures < FAILURES_SHOWN)
-        snprintf(display->failed[display->failures++], sizeof display->failed[0], "%.190s: %.290s",
-                 view->words, view->message);
-    if (display->quiet) return;
-    progress_format_left(view->seconds_left, left, sizeof left);
-    if (display->bar) tell_over("", 0);
-    amontons_estimate(view->value, view->bar, view->known_to, value);
-    snprintf(what, sizeof what, "%.99s %s%s", view->quantity, value,
-             view->warned ? "  warned" : "");
-    if (view->message) snprintf(what, sizeof what, "FAILED");
-    if (!view->reused)
-        tell("%*d/%d  %s  %s  %.1f s  (%s left)\n", view->points < 100 ? 2 : 4, view->finished,
-             view->points, view->words, what, view->seconds, left);
-    if (display->bar) {
-        tell("%d of %d points, %d failed, %s left", view->finished, view->points, view->failed,
-             left);
-        fflush(stderr);
-    }
-}
-
 // Failed points are no error of the sweep, but its exit status shows them. ranked: text or NULL.
-static int close_sweep(const SweepDisplay *display, const char *folder, const char *ranked,
+static int close_sweep(const PointLines *display, const char *folder, const char *ranked,
                        const SweepSummary *summary)
 {
     char points[AMONTONS_PATH_SIZE + 8];
@@ -171,10 +137,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
     }
     if (summary->failed == 0) return 0;
     fflush(stdout);
-    tell("amontons: %d of %d points failed (--retry computes them again):\n", summary->failed,
-         summary->points);
-    for (int32_t k = 0; k < display->failures; k++) tell("  %s\n", display->failed[k]);
-    if (summary->failed > display->failures) tell("  ... and more, in %s/sweep.csv\n", folder);
+    point_lines_failed(display, summary->failed, summary->points, folder);
     return amontons_error_exit_status(ERROR_COMPUTE);
 }
 
@@ -183,7 +146,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
 int command_sweep(int argc, char **argv)
 {
     SweepWords words = {0};
-    SweepOptions options = {.on_point = show_point};
+    SweepOptions options = {.on_point = point_line};
     SweepSummary summary;
     Error err = {0};
     char folder[256];
@@ -200,7 +163,7 @@ int command_sweep(int argc, char **argv)
     options.override_count = words.settings.count;
     options.retry = words.retry;
     options.fresh = words.fresh;
-    SweepDisplay display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
+    PointLines display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
     options.context = &display;
     char *ranked = NULL;   // shown below the line that is written over
     size_t size = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // study read -> every scene checked and hashed -> finished points found -> the rest computed ->
 // table, and what the study wants shown of it.
+#include "study/sweep/sweep.h"
+
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
@@ -14,6 +16,7 @@
 #include "study/sweep/computing/tally.h"
 #include "study/sweep/reading/study_point.h"
 #include "study/sweep/reading/study_read.h"
+#include "study/sweep/reading/study_vary.h"
 #include "study/sweep/refine.h"
 #include "study/sweep/showing/figure_plot.h"
 #include "study/sweep/showing/figure_ranking.h"
@@ -192,9 +195,9 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
         TRY(ranking_make(sweep, &table, &ranking, err));
         TRY(ranking_write(sweep, &table, &ranking, err));
         if (whole) TRY(ranking_print(sweep, &table, &ranking, err));
-        if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
+        if (whole && sweep->pictures) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
-    for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
+    for (int32_t k = 0; whole && sweep->pictures && k < sweep->study.plot_count; k++)
         TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
     if (sweep->options->out && table.no_bar)
@@ -238,19 +241,45 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A stopped sweep still leaves its table, with what is not done marked as pending.
+// cases: NULL: those of the study.
+static bool read_study(Sweep *sweep, const char *path, const char *cases, Error *err)
+{
+    const SweepOptions *options = sweep->options;
+    Study *study = &sweep->study;
+    TRY(study_read(path, options->overrides, options->override_count, study, err));
+    bool searches = study->search.node != YAML_NO_NODE;
+    if (searches && !cases) {
+        yaml_key_error(study->file, study->search.node, err,
+                       "search: designs are chosen by `amontons optimise`, not by a sweep");
+        goto cleanup;
+    }
+    if (!cases) goto cleanup;
+    study->rank.refine = 0;
+    TRY(study_set_cases(study, cases, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err)
+{
+    return sweep_cases(path, NULL, true, options, summary, err);
+}
+
+// A stopped sweep still leaves its table, with what is not done marked as pending.
+bool sweep_cases(const char *path, const char *cases, bool pictures, const SweepOptions *options,
+                 SweepSummary *summary, Error *err)
 {
     *summary = (SweepSummary){0};
     Error stopped = {0};
     Sweep *sweep = NEW_ARRAY(Sweep, 1, err);
     TRY(sweep);
     sweep->options = options;
+    sweep->pictures = pictures;
     sweep->lock = -1;
     sweep->started = clock_seconds();
     dense_use_one_thread();   // before forking
-    TRY(study_read(path, options->overrides, options->override_count, &sweep->study, err));
+    TRY(read_study(sweep, path, cases, err));
     TRY(plan_points(sweep, err));
     sweep->planned = sweep->study.point_count;
     TRY(take_folder(sweep, err));

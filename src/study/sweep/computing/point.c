@@ -127,7 +127,7 @@ static void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PA
 }
 
 // The file whose presence makes a point finished.
-static void report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
+void point_report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
 {
     point_folder(sweep, point, path);
     strcat(path, "/run.json");
@@ -141,7 +141,7 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
         return first->place.size > 0 ? reports_read(&sweep->reports, first->place, err) : NULL;
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
     int32_t size = 0;
-    report_path(sweep, point, path);
+    point_report_path(sweep, point, path);
     if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
     return bytes;
 }
@@ -177,7 +177,7 @@ void point_remove(Sweep *sweep, int32_t point, bool anew)
     sweep->points[point].place = (ReportPlace){0};
     if (sweep->reports.open) return;
     char path[POINT_PATH_SIZE + 16];
-    report_path(sweep, point, path);
+    point_report_path(sweep, point, path);
     unlink(path);   // the rest is the next run's to overwrite
     if (!anew) return;
     checkpoint_path(sweep, point, path);
@@ -252,7 +252,7 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
     TRY(point_scene(sweep, point, scene, err));
     point_folder(sweep, point, folder);
     if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
-    report_path(sweep, point, path);
+    point_report_path(sweep, point, path);
     TRY((json = json_create(table ? NULL : path, err)));
     json_begin_object(json, NULL);
     json_text(json, "status", "failed");

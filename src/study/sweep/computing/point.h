@@ -44,6 +44,7 @@ typedef struct Sweep {
     int lock;   // file descriptor; -1: none
     SweepPoint *points;   // [study.point_count]; owned
     double started;   // wall clock, s
+    bool pictures;   // are drawn at the end
     bool checked;   // what the study records is in run.json
     int32_t planned;   // points to compute or to find: all, and those computed again
     int32_t computed, failed, finished;
@@ -83,6 +84,7 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
 void point_remove(Sweep *sweep, int32_t point, bool anew);
+void point_report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16]);
 // In this process. *report: with `keep: table` what run.json would hold, but for the scene and the
 // list of events, on one line (memory_free); else NULL.
 bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err);

@@ -31,7 +31,8 @@ static void read_quantity(const Study *study, const char *report, SweepView *vie
 static void report_point(Sweep *sweep, int32_t k, const char *report)
 {
     const SweepPoint *point = &sweep->points[k];
-    char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "", warning[8];
+    char path[POINT_PATH_SIZE + 16], words[POINT_WORDS_SIZE] = "";
+    char message[ERROR_MESSAGE_SIZE] = "", warning[8];
     Error ignored = {0};
     Scene *scene = NULL;
     sweep->finished++;
@@ -40,7 +41,10 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     scene = NEW_ARRAY(Scene, 1, &ignored);
     if (scene && point_scene(sweep, k, scene, &ignored)) point_words(sweep, scene, words);
     memory_free(scene);
-    SweepView view = {.words = words,
+    point_report_path(sweep, k, path);
+    SweepView view = {.point = k,
+                      .words = words,
+                      .run = sweep->reports.open ? NULL : path,
                       .mu_M = NAN,
                       .mu_M_error = NAN,
                       .value = NAN,

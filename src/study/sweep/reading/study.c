@@ -49,11 +49,12 @@ bool study_is_chosen(const Study *study, const char *key)
     for (int32_t k = 0; k < study->axis_count; k++)
         if (sets(study->axes[k].key, key)) return true;
     if (study->cases == YAML_NO_NODE) return false;
-    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
-         one = yaml_next(study->file, one))
-        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
-             item = yaml_next(study->file, item))
-            if (sets(yaml_key(study->file, item), key)) return true;
+    const YamlDocument *document = study->case_document;
+    for (YamlNode one = yaml_first(document, study->cases); one != YAML_NO_NODE;
+         one = yaml_next(document, one))
+        for (YamlNode item = yaml_first(document, one); item != YAML_NO_NODE;
+             item = yaml_next(document, item))
+            if (sets(yaml_key(document, item), key)) return true;
     return false;
 }
 

@@ -14,6 +14,13 @@
 //     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
 //
+// One that searches (study/optimise) has `search`, and `where` and `best` where they are wanted, in
+// place of `cases`: designs, each computed at all points of `vary`.
+//
+//     search: {mesh.set.n: {whole: [1, 12]}, mesh.set.pad_height: {log: [0.01, 0.2]}}
+//     where: [{value: = mesh.set.n * mesh.set.pad_height, most: 0.6}]
+//     best: {over: worst, designs: 40, seed: 1}
+//
 // A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
 // every sweep sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas. What varies may be
@@ -34,6 +41,9 @@ enum {
     STUDY_RANGE_MAX = 10000,   // points of a range
     STUDY_POINTS_MAX = 1000000,
     STUDY_PLOTS_MAX = 8,
+    STUDY_SEARCH_MAX = 12,   // keys that are searched
+    STUDY_LIMITS_MAX = 16,
+    STUDY_DESIGNS_MAX = 1000,
 };
 
 // A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
@@ -68,6 +78,30 @@ typedef struct StudyRank {
     double refine;   // smallest accuracy.mu that points without a decided rank may get; 0: none
 } StudyRank;
 
+typedef enum SearchScale { SEARCH_LINEAR, SEARCH_LOG, SEARCH_WHOLE } SearchScale;
+
+typedef struct SearchKey {
+    char key[STUDY_NAME_SIZE];
+    SearchScale scale;
+    double least, most;
+} SearchKey;
+
+// Of `where`: a design is computed only if the formula's value is between.
+typedef struct SearchLimit {
+    YamlNode formula;
+    double least, most;   // infinite: no limit
+} SearchLimit;
+
+typedef struct StudySearch {
+    YamlNode node;   // of `search`; YAML_NO_NODE: the study does not search
+    int32_t key_count, limit_count;
+    SearchKey keys[STUDY_SEARCH_MAX];
+    SearchLimit limits[STUDY_LIMITS_MAX];
+    bool mean;   // over the points of `vary`; else the worst of them counts
+    int32_t designs;   // that are chosen by the search
+    uint32_t seed;
+} StudySearch;
+
 typedef struct Study {
     char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
     char scene[SCENE_TEXT_SIZE];   // path of the base scene
@@ -80,6 +114,7 @@ typedef struct Study {
     char override_keys[STUDY_SETTINGS_MAX][STUDY_NAME_SIZE];
     int32_t override_count;
     YamlNode set, cases;   // YAML_NO_NODE: none
+    const YamlDocument *case_document;   // of `cases`; not owned: the study's, or one of `made`
     int32_t case_count;   // at least 1
     YamlNode *case_list;   // [case_count] of `cases`; NULL: none; owned
     int32_t axis_count;
@@ -91,6 +126,7 @@ typedef struct Study {
     int32_t point_count;
     bool keep_table;   // `keep: table`: points leave no folders
     StudyRank rank;
+    StudySearch search;
     int32_t plot_count;
     StudyPlot plots[STUDY_PLOTS_MAX];
 } Study;

@@ -99,7 +99,8 @@ static bool gather(const Study *study, int32_t point, YamlNode changes, PointSet
     drop_replaced(study, settings);
     for (int32_t k = 0; k < study->override_count; k++)
         TRY(add(settings, &study->overrides[k], err));
-    if (study->case_list) TRY(add_map(settings, study->file, study->case_list[point], err));
+    if (study->case_list)
+        TRY(add_map(settings, study->case_document, study->case_list[point], err));
     for (int32_t k = 0; k < study->axis_count; k++) {
         const StudyAxis *axis = &study->axes[k];
         SceneSetting setting = {

@@ -4,6 +4,7 @@
 #include "study/sweep/reading/study_read.h"
 
 #include "base/text.h"
+#include "study/sweep/reading/study_search.h"
 #include "study/sweep/reading/study_vary.h"
 #include "study/sweep/reading/study_wanted.h"
 
@@ -11,7 +12,9 @@
 #include <string.h>
 
 #define KEYS(X)                                                                                    \
-    X("title") X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot")
+    X("title")                                                                                     \
+    X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot") X("search") \
+        X("where") X("best")
 
 // A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)
@@ -36,7 +39,7 @@ static bool check_keys(const Study *study, Error *err)
         else
             yaml_key_error(study->file, item, err,
                            "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record, keep, rank, plot",
+                           "vary, record, keep, rank, plot, search, where, best",
                            key);
         return false;
     }
@@ -105,6 +108,7 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
     TRY(read_text(study, "title", study->title, err));
     TRY(read_scene_path(study, err));
     TRY(study_read_vary(study, overrides, override_count, err));
+    TRY(study_read_search(study, err));
     TRY(study_read_wanted(study, err));
     TRY(read_keep(study, err));
     TRY(scene_source_open(study->scene, &study->source, err));

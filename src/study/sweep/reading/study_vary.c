@@ -33,22 +33,21 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
 // Whether the key can be set is known here; whether its value is right when a scene is made.
-static bool check_key(const Study *study, YamlNode item, Error *err)
+bool study_check_key(const YamlDocument *document, YamlNode item, Error *err)
 {
-    const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key), *part;
+    const char *key = yaml_key(document, item), *nearest = scene_key_nearest(key), *part;
     bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
                     scene_key_above(key, &part) >= 0;
     if (strlen(key) >= STUDY_NAME_SIZE)
-        yaml_key_error(study->file, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
+        yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
     else if (!is_known && nearest)
-        yaml_key_error(study->file, item, err,
+        yaml_key_error(document, item, err,
                        "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists "
                        "them all)",
                        key, nearest);
     else if (!is_known)
-        yaml_key_error(study->file, item, err,
+        yaml_key_error(document, item, err,
                        "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
     return error_is_clean(err);
 }
@@ -62,7 +61,7 @@ static bool read_set(Study *study, Error *err)
         return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
     for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
-        TRY(check_key(study, item, err));
+        TRY(study_check_key(study->file, item, err));
         if (scene_is_formula(study->file, item))
             TRY(study_add_column(study, yaml_key(study->file, item), err));
     }
@@ -71,24 +70,24 @@ cleanup:
 }
 
 // Every key of any case is a column; a case without it has the base scene's value there.
-static bool read_cases(Study *study, Error *err)
+static bool read_cases(Study *study, const YamlDocument *document, YamlNode cases, Error *err)
 {
     study->case_count = 1;
-    study->cases = yaml_look_up(study->file, "cases");
-    if (study->cases == YAML_NO_NODE) return true;
-    study->case_count = yaml_count(study->file, study->cases);
-    if (yaml_kind(study->file, study->cases) != YAML_LIST || study->case_count == 0)
-        return yaml_refuse(study->file, study->cases, "cases", "a list of maps of the scene's keys",
-                           err);
-    TRY(study_list(study->file, study->cases, &study->case_list, err));
-    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
-         one = yaml_next(study->file, one)) {
-        if (yaml_kind(study->file, one) != YAML_MAP)
-            return yaml_refuse(study->file, one, "cases", "a map of the scene's keys", err);
-        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
-             item = yaml_next(study->file, item)) {
-            TRY(check_key(study, item, err));
-            TRY(add_columns(study, yaml_key(study->file, item), study->file, item, err));
+    study->case_document = document;
+    study->cases = cases;
+    if (cases == YAML_NO_NODE) return true;
+    study->case_count = yaml_count(document, cases);
+    if (yaml_kind(document, cases) != YAML_LIST || study->case_count == 0)
+        return yaml_refuse(document, cases, "cases", "a list of maps of the scene's keys", err);
+    TRY(study_list(document, cases, &study->case_list, err));
+    for (YamlNode one = yaml_first(document, cases); one != YAML_NO_NODE;
+         one = yaml_next(document, one)) {
+        if (yaml_kind(document, one) != YAML_MAP)
+            return yaml_refuse(document, one, "cases", "a map of the scene's keys", err);
+        for (YamlNode item = yaml_first(document, one); item != YAML_NO_NODE;
+             item = yaml_next(document, item)) {
+            TRY(study_check_key(document, item, err));
+            TRY(add_columns(study, yaml_key(document, item), document, item, err));
         }
     }
 cleanup:
@@ -181,7 +180,7 @@ cleanup:
 static bool read_axis(Study *study, YamlNode item, Error *err)
 {
     StudyAxis *axis = &study->axes[study->axis_count];
-    TRY(check_key(study, item, err));
+    TRY(study_check_key(study->file, item, err));
     snprintf(axis->key, sizeof axis->key, "%s", yaml_key(study->file, item));
     axis->document = study->file;
     axis->list = item;
@@ -323,11 +322,26 @@ bool study_read_vary(Study *study, const char *const *overrides, int32_t overrid
     if (override_count > STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1)
         FAIL(err, ERROR_INPUT, "more than %d settings by --set",
              STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1);
-    TRY(read_cases(study, err));
+    TRY(read_cases(study, study->file, yaml_look_up(study->file, "cases"), err));
     TRY(read_vary(study, err));
     for (int32_t k = 0; k < override_count; k++) TRY(read_override(study, overrides[k], err));
     TRY(read_set(study, err));
     TRY(check_twice(study, err));
+    TRY(count_points(study, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool study_set_cases(Study *study, const char *text, Error *err)
+{
+    memory_free(study->case_list);
+    study->case_list = NULL;
+    if (study->case_document != study->file) yaml_destroy(study->made[--study->made_count]);
+    study->case_document = study->file;
+    YamlDocument **document = &study->made[study->made_count];
+    TRY(yaml_parse("designs of the search", text, 0, document, err));
+    study->made_count++;
+    TRY(read_cases(study, *document, YAML_ROOT, err));
     TRY(count_points(study, err));
 cleanup:
     return error_is_clean(err);

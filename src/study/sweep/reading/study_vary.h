@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a study changes in its base scene: `cases`, `vary` with its ranges, --set and `set`. Called
-// by study_read.
+// by study_read and study_search.
 #ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_VARY_H
 #define AMONTONS_STUDY_SWEEP_READING_STUDY_VARY_H
 
@@ -9,5 +9,9 @@
 // Fills columns, cases, axes, overrides, `set` and point_count. overrides: [override_count].
 bool study_read_vary(Study *study, const char *const *overrides, int32_t override_count,
                      Error *err);
+// Replaces `cases` by the list of maps in `text`.
+bool study_set_cases(Study *study, const char *text, Error *err);
+// A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
+bool study_check_key(const YamlDocument *document, YamlNode item, Error *err);
 
 #endif

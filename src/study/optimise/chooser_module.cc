@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// dlib's global_function_search behind four C functions, which catch every exception.
+extern "C" {
+#include "study/optimise/chooser.h"
+}
+
+#include <dlib/global_optimization/global_function_search.h>
+
+#include <exception>
+#include <map>
+
+namespace
+{
+
+using Vector = dlib::matrix<double, 0, 1>;
+
+// Error bars are some 5 % of what designs differ by.
+constexpr double relative_noise = 0.05;
+
+Vector vector_of(const double *values, int32_t count)
+{
+    Vector x(count);
+    for (int32_t k = 0; k < count; k++) x(k) = values[k];
+    return x;
+}
+
+dlib::function_spec space_of(const ChooserSpace &space)
+{
+    return dlib::function_spec(vector_of(space.least, space.count),
+                               vector_of(space.most, space.count),
+                               std::vector<bool>(space.whole, space.whole + space.count));
+}
+
+}   // namespace
+
+struct Chooser {
+    dlib::global_function_search search;
+    std::map<int32_t, dlib::function_evaluation_request> waiting;
+    int32_t chosen = 0;
+    explicit Chooser(const ChooserSpace &space) : search(space_of(space))
+    {
+        search.set_seed(space.seed);
+        search.set_relative_noise_magnitude(relative_noise);
+    }
+};
+
+namespace
+{
+
+// Runs `work`, and turns what it throws into an error.
+template <typename Work>
+bool guarded(Error *err, const Work &work)
+{
+    try {
+        work();
+        return true;
+    } catch (const std::exception &thrown) {
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "dlib: %s", thrown.what());
+    }
+    return false;
+}
+
+Chooser *create(const ChooserSpace *space, Error *err)
+{
+    Chooser *chooser = nullptr;
+    guarded(err, [&] { chooser = new Chooser(*space); });
+    return chooser;
+}
+
+bool choose(Chooser *chooser, double *x, int32_t *number, Error *err)
+{
+    return guarded(err, [&] {
+        auto request = chooser->search.get_next_x();
+        for (int32_t k = 0; k < request.x().size(); k++) x[k] = request.x()(k);
+        *number = chooser->chosen++;
+        chooser->waiting.emplace(*number, std::move(request));
+    });
+}
+
+bool tell(Chooser *chooser, int32_t number, double value, Error *err)
+{
+    return guarded(err, [&] {
+        chooser->waiting.at(number).set(value);
+        chooser->waiting.erase(number);
+    });
+}
+
+void destroy(Chooser *chooser)
+{
+    delete chooser;
+}
+
+const ChooserModule module = {create, choose, tell, destroy};
+
+}   // namespace
+
+extern "C" const ChooserModule *amontons_chooser_module(void);
+const ChooserModule *amontons_chooser_module(void)
+{
+    return &module;
+}

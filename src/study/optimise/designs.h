@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Designs of a search, and their values. Called by optimise, leaders and search_report.
+#ifndef AMONTONS_STUDY_OPTIMISE_DESIGNS_H
+#define AMONTONS_STUDY_OPTIMISE_DESIGNS_H
+
+#include "amontons_optimise.h"
+#include "study/sweep/reading/study.h"
+
+enum { DESIGNS_MAX = STUDY_DESIGNS_MAX + 200 };   // with the start and those along keys
+
+typedef struct Design {
+    double x[STUDY_SEARCH_MAX];   // values of the keys that are searched
+    int32_t choice;   // number of the chooser's; -1: not chosen by it
+    double accuracy;   // accuracy.mu; 0: the study's
+    bool settled;   // a smaller accuracy is of no use
+    double value, bar;   // what is searched for, NaN: none; what is known of its error
+    bool has_bar;   // an error bar, with the mesh's part; else what is usual of such a mesh
+    int32_t deciding;   // point of `vary` whose value it is; of a mean 0
+} Design;
+
+// What a point came to.
+typedef struct DesignPoint {
+    bool is_known, has_bar;
+    double value, bar;   // NaN: none; bar: or what is usual of the mesh
+    char run[AMONTONS_PATH_SIZE];   // its run.json
+} DesignPoint;
+
+typedef struct Designs {
+    const Study *study;   // not owned
+    int32_t count, conditions;   // points of `vary`, for each design
+    Design *list;   // [DESIGNS_MAX] owned
+    DesignPoint *points;   // [DESIGNS_MAX * conditions] owned
+} Designs;
+
+bool designs_create(const Study *study, Designs *designs, Error *err);
+void designs_destroy(Designs *designs);   // zeroed is fine
+
+// Adds one; its index. x: as from the chooser or a section, rounded here to what is written.
+int32_t designs_add(Designs *designs, const double *x, int32_t choice);
+int32_t designs_find(const Designs *designs, const double *x);   // with the same values; -1: none
+void designs_round(const Study *study, double *x);   // whole numbers, three digits
+// "[{mesh.set.n: 4, ...}, ...]" of [count] designs (memory_free).
+char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err);
+void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
+
+// value and bar of a design from its points: of the worst, or the mean; NaN where a point has none.
+void designs_judge(Designs *designs, int32_t design);
+int32_t designs_best(const Designs *designs);   // -1: none has a value
+// Whether a is better than b, by values alone.
+bool design_is_better(const Designs *designs, const Design *a, const Design *b);
+// Whether design `d` may be as good as `best`, with the bars of both.
+bool designs_may_equal(const Designs *designs, int32_t best, int32_t d);
+
+#endif

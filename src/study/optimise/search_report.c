@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/optimise/search_report.h"
+
+#include "base/memory.h"
+#include "study/sweep/showing/figure_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OTHERS_SHOWN = 5, COLOR_BEST = 1, COLOR_DESIGNS = 0, COLOR_SO_FAR = 7 };
+
+static const char *quantity(const Search *search)
+{
+    return search->study.records[search->study.rank.record].name;
+}
+
+static bool is_on_section(const Search *search, int32_t best, int32_t k, int32_t d)
+{
+    const Design *one = &search->designs.list[d], *top = &search->designs.list[best];
+    if (isnan(one->value)) return false;
+    for (int32_t i = 0; i < search->study.search.key_count; i++)
+        if (i != k && one->x[i] != top->x[i]) return false;
+    return true;
+}
+
+// --- words --------------------------------------------------------------------------------------
+
+// Without an error bar in the digits that are known.
+static void print_estimate(const Search *search, const Design *design)
+{
+    char text[ESTIMATE_SIZE];
+    double bar = design->has_bar ? design->bar : (double)NAN;
+    amontons_estimate(design->value, bar, design->bar, text);
+    fprintf(search->options->out, "%s", text);
+}
+
+static void print_gain(const Search *search, const OptimiseSummary *summary, int32_t best)
+{
+    FILE *out = search->options->out;
+    char words[OPTIMISE_WORDS_SIZE];
+    if (isnan(summary->start_value)) return;
+    if (best == search->start) {
+        fprintf(out, "  this is the scene as it is\n");
+        return;
+    }
+    double ratio = summary->value / summary->start_value;
+    double error = fabs(ratio) *
+                   hypot(summary->bar / summary->value, summary->start_bar / summary->start_value);
+    design_words(&search->study, &search->designs.list[search->start], words);
+    fprintf(out, "  the scene as it is, %s: ", words);
+    print_estimate(search, &search->designs.list[search->start]);
+    fprintf(out, "; the best differs by %+.1f %% +- %.1f %%\n", 100 * (ratio - 1), 100 * error);
+}
+
+static void print_open(const Search *search, int32_t best)
+{
+    FILE *out = search->options->out;
+    int32_t open = 0;
+    for (int32_t d = 0; d < search->designs.count; d++) {
+        char words[OPTIMISE_WORDS_SIZE];
+        if (!designs_may_equal(&search->designs, best, d) || open++ >= OTHERS_SHOWN) continue;
+        design_words(&search->study, &search->designs.list[d], words);
+        fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
+                words);
+        print_estimate(search, &search->designs.list[d]);
+        fprintf(out, "\n");
+    }
+    if (open > OTHERS_SHOWN) fprintf(out, "    ... and %d more\n", open - OTHERS_SHOWN);
+    if (open == 0) fprintf(out, "  better than every other design, with the bars of both\n");
+    if (open == 0) return;
+    if (search->study.rank.refine > 0)
+        fprintf(out,
+                "  telling them apart needs a smaller `refine` than %g %% (half the error "
+                "takes two to four times as long), or does not matter\n",
+                100 * search->study.rank.refine);
+    else
+        fprintf(out, "  `rank: {refine: 1%%}` with `set: {accuracy.mu: 4%%}` computes them again "
+                     "until they are told apart\n");
+}
+
+static void print_section(const Search *search, int32_t best, int32_t k)
+{
+    const SearchKey *key = &search->study.search.keys[k];
+    const Designs *designs = &search->designs;
+    FILE *out = search->options->out;
+    double last = -INFINITY;
+    fprintf(out, "  along %s:", key->key);
+    for (;;) {   // by value: the next larger one each time
+        int32_t next = -1;
+        for (int32_t d = 0; d < designs->count; d++)
+            if (is_on_section(search, best, k, d) && designs->list[d].x[k] > last &&
+                (next < 0 || designs->list[d].x[k] < designs->list[next].x[k]))
+                next = d;
+        if (next < 0) break;
+        fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
+        print_estimate(search, &designs->list[next]);
+        last = designs->list[next].x[k];
+    }
+    bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
+    fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
+}
+
+static void print_answer(const Search *search, const OptimiseSummary *summary, int32_t best)
+{
+    const Designs *designs = &search->designs;
+    FILE *out = search->options->out;
+    const char *run =
+        designs->points[(int64_t)best * designs->conditions + designs->list[best].deciding].run;
+    fprintf(out, "%s, %s of %d designs", quantity(search),
+            search->study.rank.lowest ? "the lowest" : "the highest", summary->designs);
+    if (designs->conditions > 1)
+        fprintf(out, ", %s of %d points each", search->study.search.mean ? "mean" : "worst",
+                designs->conditions);
+    fprintf(out, ":\n  %s: ", summary->best);
+    print_estimate(search, &designs->list[best]);
+    fprintf(out, "\n");
+    print_gain(search, summary, best);
+    print_open(search, best);
+    for (int32_t k = 0; k < search->study.search.key_count; k++) print_section(search, best, k);
+    if (*run) fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", run);
+}
+
+// --- figures ------------------------------------------------------------------------------------
+
+static void write_y(Figure *figure, const Search *search)
+{
+    QuantityLabel label = label_of_record(quantity(search));
+    figure_write_axis(figure, "y", &label, "linear");
+}
+
+// Every design in the order of its choice, and the best so far.
+static bool draw_course(const Search *search, Error *err)
+{
+    const Designs *designs = &search->designs;
+    Figure figure = {
+        .folder = search->options->folder, .name = "course", .title = search->study.title};
+    int32_t count = designs->count;
+    double *numbers = NEW_ARRAY(double, 4 * (int64_t)count, err);
+    TRY(numbers);
+    double *x = numbers, *y = x + count, *error = y + count, *so_far = error + count;
+    const Design *best = NULL;
+    for (int32_t d = 0; d < count; d++) {
+        const Design *one = &designs->list[d];
+        if (!isnan(one->value) && (!best || design_is_better(designs, one, best))) best = one;
+        x[d] = d + 1, y[d] = one->value, error[d] = one->bar;
+        so_far[d] = best ? best->value : (double)NAN;
+    }
+    TRY(figure_begin(&figure, err));
+    figure_write_axis(&figure, "x", &(QuantityLabel){.words = "design"}, "linear");
+    write_y(&figure, search);
+    json_begin_list(figure.json, "series");
+    Curve all = {.label = "designs",
+                 .line = "none",
+                 .marker = "circle",
+                 .color = COLOR_DESIGNS,
+                 .count = count,
+                 .filled = true,
+                 .x = x,
+                 .y = y,
+                 .error = error};
+    Curve line = {.label = "best so far",
+                  .line = "solid",
+                  .color = COLOR_SO_FAR,
+                  .count = count,
+                  .x = x,
+                  .y = so_far};
+    figure_write_curve(&figure, &all, err);
+    if (error_is_clean(err)) figure_write_curve(&figure, &line, err);
+    json_end(figure.json);
+    figure_end(&figure, err);
+cleanup:
+    memory_free(numbers);
+    return error_is_clean(err);
+}
+
+static bool draw_section(const Search *search, int32_t best, int32_t k, Error *err)
+{
+    const Designs *designs = &search->designs;
+    const SearchKey *key = &search->study.search.keys[k];
+    char name[60];
+    snprintf(name, sizeof name, "along_%.50s", label_last_word(key->key));
+    Figure figure = {.folder = search->options->folder, .name = name, .title = search->study.title};
+    int32_t count = 0;
+    double *numbers = NEW_ARRAY(double, 3 * (int64_t)designs->count, err);
+    TRY(numbers);
+    double *x = numbers, *y = x + designs->count, *error = y + designs->count;
+    for (int32_t d = 0; d < designs->count; d++) {
+        if (!is_on_section(search, best, k, d)) continue;
+        x[count] = designs->list[d].x[k], y[count] = designs->list[d].value;
+        error[count++] = designs->list[d].bar;
+    }
+    QuantityLabel label = label_of_key(key->key, search->scene->units == UNITS_SI);
+    TRY(figure_begin(&figure, err));
+    figure_write_axis(&figure, "x", &label, key->scale == SEARCH_LOG ? "log" : "linear");
+    write_y(&figure, search);
+    json_begin_list(figure.json, "series");
+    Curve others = {.label = "others as in the best",
+                    .line = "none",
+                    .marker = "circle",
+                    .color = COLOR_DESIGNS,
+                    .count = count,
+                    .filled = true,
+                    .x = x,
+                    .y = y,
+                    .error = error};
+    const Design *top = &designs->list[best];
+    Curve mark = {.label = "the best",
+                  .line = "none",
+                  .marker = "square",
+                  .color = COLOR_BEST,
+                  .count = 1,
+                  .filled = true,
+                  .x = &top->x[k],
+                  .y = &top->value};
+    figure_write_curve(&figure, &others, err);
+    if (error_is_clean(err)) figure_write_curve(&figure, &mark, err);
+    json_end(figure.json);
+    figure_end(&figure, err);
+cleanup:
+    memory_free(numbers);
+    return error_is_clean(err);
+}
+
+bool search_report(const Search *search, const OptimiseSummary *summary, Error *err)
+{
+    int32_t best = designs_best(&search->designs);
+    if (search->options->out) print_answer(search, summary, best);
+    TRY(draw_course(search, err));
+    for (int32_t k = 0; k < search->study.search.key_count; k++)
+        TRY(draw_section(search, best, k, err));
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/sweep/reading/study_search.h"
+
+#include "scene/formulas.h"
+#include "study/sweep/reading/study_vary.h"
+#include "study/sweep/reading/wanted_keys.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { DESIGNS_FEWEST = 20, DESIGNS_A_KEY = 10 };   // without `best: {designs: ...}`
+
+static const char KEY_ALLOWED[] = "{linear: [least, most]}, {log: [least, most]} or "
+                                  "{whole: [least, most]}";
+
+// {log: [0.01, 0.2]}
+static bool read_key(Study *study, YamlNode item, Error *err)
+{
+    static const char *const scales[] = {"linear", "log", "whole"};
+    StudySearch *search = &study->search;
+    SearchKey *key = &search->keys[search->key_count];
+    YamlNode range = yaml_first(study->file, item);
+    TRY(study_check_key(study->file, item, err));
+    snprintf(key->key, sizeof key->key, "%s", yaml_key(study->file, item));
+    int32_t scale = 0;
+    bool good = yaml_kind(study->file, item) == YAML_MAP && yaml_count(study->file, item) == 1;
+    while (good && scale < 3 && strcmp(yaml_key(study->file, range), scales[scale]) != 0) scale++;
+    if (!good || scale == 3) return yaml_refuse(study->file, item, key->key, KEY_ALLOWED, err);
+    YamlNode least = yaml_first(study->file, range);
+    key->scale = (SearchScale)scale;
+    good = yaml_kind(study->file, range) == YAML_LIST && yaml_count(study->file, range) == 2 &&
+           study_plain_number(study, least, &key->least) &&
+           study_plain_number(study, yaml_next(study->file, least), &key->most);
+    if (!good || !(key->least < key->most) || (key->scale == SEARCH_LOG && key->least <= 0))
+        return yaml_refuse(study->file, range, key->key,
+                           "two numbers, the smaller one first (of log: above 0)", err);
+    if (key->scale == SEARCH_WHOLE &&
+        (key->least != floor(key->least) || key->most != floor(key->most)))
+        return yaml_refuse(study->file, range, key->key, "two whole numbers", err);
+    search->key_count++;
+    if (study_is_chosen(study, key->key)) {
+        yaml_key_error(study->file, item, err, "%s: searched, and given by `vary` as well",
+                       key->key);
+        return false;
+    }
+    TRY(study_add_column(study, key->key, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// {value: = mesh.set.n * mesh.set.pad_height, least: 0.1, most: 0.6}
+static bool read_limit(Study *study, YamlNode item, Error *err)
+{
+    WantedKey keys[] = {{.name = "value"}, {.name = "least"}, {.name = "most"}};
+    SearchLimit *limit = &study->search.limits[study->search.limit_count++];
+    *limit = (SearchLimit){YAML_NO_NODE, -INFINITY, INFINITY};
+    TRY(wanted_find(study->file, item, "where", keys, 3, err));
+    limit->formula = keys[0].node;
+    if (limit->formula == YAML_NO_NODE || !scene_is_formula(study->file, limit->formula))
+        return yaml_refuse(study->file, item, "where",
+                           "{value: = a formula, least: number, most: number}", err);
+    for (int32_t k = 1; k < 3; k++)
+        if (keys[k].node != YAML_NO_NODE &&
+            !study_plain_number(study, keys[k].node, k == 1 ? &limit->least : &limit->most))
+            return yaml_refuse(study->file, keys[k].node, keys[k].name, "a number", err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_where(Study *study, Error *err)
+{
+    YamlNode where = yaml_look_up(study->file, "where");
+    if (where == YAML_NO_NODE) return true;
+    if (yaml_kind(study->file, where) != YAML_LIST ||
+        yaml_count(study->file, where) > STUDY_LIMITS_MAX)
+        return yaml_refuse(study->file, where, "where", "a list of at most 16 limits", err);
+    for (YamlNode item = yaml_first(study->file, where); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item))
+        TRY(read_limit(study, item, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_whole(const Study *study, const WantedKey *key, int32_t most, double *value,
+                       Error *err)
+{
+    if (key->node == YAML_NO_NODE) return true;
+    if (study_plain_number(study, key->node, value) && *value == floor(*value) && *value >= 1 &&
+        *value <= most)
+        return true;
+    char allowed[60];
+    snprintf(allowed, sizeof allowed, "a whole number from 1 to %d", most);
+    return yaml_refuse(study->file, key->node, key->name, allowed, err);
+}
+
+static bool read_best(Study *study, Error *err)
+{
+    static const char *const over[] = {"worst", "mean"};
+    WantedKey keys[] = {{.name = "over"}, {.name = "designs"}, {.name = "seed"}};
+    StudySearch *search = &study->search;
+    double designs = DESIGNS_FEWEST + DESIGNS_A_KEY * search->key_count, seed = 1;
+    YamlNode best = yaml_look_up(study->file, "best");
+    int32_t choice = 0;
+    if (best != YAML_NO_NODE) {
+        TRY(wanted_find(study->file, best, "best", keys, 3, err));
+        TRY(wanted_choice(study->file, &keys[0], over, 2, &choice, err));
+        TRY(read_whole(study, &keys[1], STUDY_DESIGNS_MAX, &designs, err));
+        TRY(read_whole(study, &keys[2], INT32_MAX, &seed, err));
+    }
+    search->mean = choice == 1;
+    search->designs = (int32_t)designs;
+    search->seed = (uint32_t)seed;
+cleanup:
+    return error_is_clean(err);
+}
+
+// What only a search has is refused where there is none.
+static bool refuse_rest(const Study *study, Error *err)
+{
+    static const char *const rest[] = {"where", "best"};
+    for (int32_t k = 0; k < 2; k++) {
+        YamlNode node = yaml_look_up(study->file, rest[k]);
+        if (node == YAML_NO_NODE) continue;
+        yaml_key_error(study->file, node, err, "%s: only of a study with `search`", rest[k]);
+        return false;
+    }
+    return true;
+}
+
+bool study_read_search(Study *study, Error *err)
+{
+    StudySearch *search = &study->search;
+    search->node = yaml_look_up(study->file, "search");
+    if (search->node == YAML_NO_NODE) return refuse_rest(study, err);
+    int32_t count = yaml_count(study->file, search->node);
+    if (yaml_kind(study->file, search->node) != YAML_MAP || count < 1 || count > STUDY_SEARCH_MAX)
+        return yaml_refuse(study->file, search->node, "search",
+                           "a map of 1 to 12 keys of the scene", err);
+    if (study->cases != YAML_NO_NODE) {
+        yaml_error(study->file, study->cases, err,
+                   "cases: a study with `search` makes its own; conditions go under `vary`");
+        return false;
+    }
+    for (YamlNode item = yaml_first(study->file, search->node); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item))
+        TRY(read_key(study, item, err));
+    TRY(read_where(study, err));
+    TRY(read_best(study, err));
+cleanup:
+    return error_is_clean(err);
+}

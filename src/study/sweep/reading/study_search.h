@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a study searches: `search`, `where` and `best`. Called by study_read.
+#ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_SEARCH_H
+#define AMONTONS_STUDY_SWEEP_READING_STUDY_SEARCH_H
+
+#include "study/sweep/reading/study.h"
+
+// Fills study->search. ERROR_INPUT also where `cases` or `vary` gives a key that is searched.
+bool study_read_search(Study *study, Error *err);
+
+#endif

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`amontons optimise`: a search against all designs computed by a sweep, limits that are kept, a search that is gone on with,
+errors that name the place."""
+import csv
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
+# Runs of some 20 ms. The largest mu falls with pressure and with the block's length; the limit keeps out the best corner.
+HEAD = f"""scene: {SOURCE}/validation/paper/fig1.yaml
+set: {{mesh.set.nx: 8, mesh.set.nz: 8, rod.height: = 0.1 * mesh.set.length, time.until.U: 0.02}}
+rank: {{by: mu_max}}
+"""
+SEARCH = HEAD + """search: {mesh.set.length: {whole: [1, 4]}, load.pressure: {log: [0.003, 0.012]}}
+where: [{value: = load.pressure * mesh.set.length, least: 0.008}]
+best: {designs: 30, seed: SEED}
+"""
+
+
+class Optimise(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons-optimise-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.place = {**os.environ, "AMONTONS_CACHE": str(self.folder / "cache")}
+
+    def call(self, command, text, *words, status=0):
+        study = self.folder / "study.yaml"
+        study.write_text(text)
+        done = subprocess.run([PROGRAM, command, study, *words], capture_output=True, text=True, timeout=200, env=self.place,
+                              cwd=self.folder)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def table(self, out):
+        with open(self.folder / out / "sweep.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_finds_what_a_grid_has(self):
+        """Of 4 x 13 designs, those outside the limit left out, none is better by more than a step of the grid; three seeds."""
+        self.call("sweep", HEAD + "vary: {mesh.set.length: [1, 2, 3, 4], load.pressure: {log: [0.003, 0.012], points: 13}}\n",
+                  "-q", "-o", "grid")
+        grid = {(float(row["mesh.set.length"]), float(row["load.pressure"])): float(row["mu_max"]) for row in self.table("grid")}
+        allowed = {key: mu for key, mu in grid.items() if key[0] * key[1] >= 0.008 * (1 - 1e-9)}
+        self.assertLess(max(allowed.values()), max(grid.values()))     # the limit matters
+        beside = sorted(allowed.values())[-1] - sorted(allowed.values())[-3]
+        for seed in (1, 2, 3):
+            said = self.call("optimise", SEARCH.replace("SEED", str(seed)), "-j", "2", "-o", f"out{seed}").stdout
+            rows = self.table(f"out{seed}")
+            self.assertGreaterEqual(len(rows), 30)
+            self.assertTrue(all(float(row["mesh.set.length"]) * float(row["load.pressure"]) >= 0.008 for row in rows))
+            best = max(rows, key=lambda row: float(row["mu_max"]))
+            self.assertGreater(float(best["mu_max"]), max(allowed.values()) - beside)
+            length, pressure = float(best["mesh.set.length"]), float(best["load.pressure"])
+            self.assertIn(f"the highest of {len(rows)} designs:\n  mesh.set.length={length:g} load.pressure={pressure:g}: ", said)
+
+    def test_goes_on(self):
+        """The same command finds all it computed; more designs are added to them."""
+        text = SEARCH.replace("SEED", "1")
+        self.call("optimise", text.replace("30", "6"), "-q", "-j", "2", "-o", "out")
+        first = self.table("out")
+        again = self.call("optimise", text.replace("30", "6"), "-j", "2", "-o", "out")
+        self.assertIn("\n0 points computed", again.stdout)
+        self.assertEqual(self.table("out"), first)
+        more = self.call("optimise", text.replace("30", "10"), "-j", "2", "-o", "out").stdout
+        self.assertLess(int(re.search(r"(\d+) points computed", more)[1]), len(self.table("out")))
+        self.assertTrue((self.folder / "out/figures/course.png").stat().st_size > 10000)
+        self.assertTrue((self.folder / "out/figures/along_pressure.png").exists())
+
+    def test_over_points_of_vary(self):
+        """A design is worth what its worst point is; the table has a row for each."""
+        text = HEAD + """search: {load.pressure: {log: [0.003, 0.012]}}
+vary: {mesh.set.length: [1, 2]}
+best: {designs: 4}
+"""
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        worst = {}
+        for row in self.table("out"):
+            worst.setdefault(row["load.pressure"], []).append(float(row["mu_max"]))
+        self.assertTrue(all(len(found) == 2 for found in worst.values()))
+        best = max(worst, key=lambda key: min(worst[key]))
+        said, value = re.search(r"worst of 2 points each:\n  load.pressure=(\S+): (\S+)", said).groups()
+        self.assertEqual(float(said), float(best))
+        self.assertAlmostEqual(float(value), min(worst[best]), delta=0.5 * 10.0**-len(value.partition(".")[2]))
+
+    def test_decides(self):
+        """With `refine` the leaders are computed again with half the error."""
+        text = HEAD.replace("by: mu_max", "by: mu_M, refine: 2%").replace("time.until.U: 0.02", "accuracy.mu: 5%") + \
+            "search: {load.pressure: {log: [0.003, 0.004]}}\nbest: {designs: 3}\n"
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        rows = self.table("out")
+        found = {float(row["accuracy.mu"]) for row in rows}
+        self.assertIn(0.05, found | {0.05})
+        self.assertLess(min(found), 0.05)
+        self.assertRegex(said, r"may be as good, within the bars of both|better than every other design, with the bars of both")
+
+    def test_mistakes(self):
+        for text, wanted in (
+                (SEARCH.replace("whole: [1, 4]", "whole: [1, 4.5]"), r"study.yaml:4:\d+: mesh.set.length: .*two whole numbers"),
+                (SEARCH.replace("log: [0.003", "log: [0"), "load.pressure: .*of log: above 0"),
+                (SEARCH.replace("log:", "lag:"), r"\{linear: \[least, most\]\}"),
+                (SEARCH.replace("mesh.set.length: {whole", "mesh.lenght: {whole"), "unknown key of a scene"),
+                (SEARCH.replace("SEED", "0"), "seed: found `0`; allowed: a whole number from 1"),
+                (SEARCH + "vary: {load.pressure: [1, 2]}\n", "load.pressure: searched, and given by `vary` as well"),
+                (SEARCH + "cases: [{rod.kind: push}]\n", "cases: a study with `search` makes its own"),
+                (SEARCH.replace("= load.pressure *", "= load.presure *"), r"study.yaml:5: where: .*load.presure"),
+                (HEAD, "nothing to search"),
+                (HEAD + "best: {designs: 3}\n", "best: only of a study with `search`"),
+                (SEARCH.replace("rank: {by: mu_max}\n", ""), "what is best"),
+                (SEARCH.replace("by: mu_max", "by: mu_M, refine: 1%"), "halves accuracy.mu")):
+            said = self.call("optimise", text.replace("SEED", "1"), "-o", "out", status=2).stderr
+            self.assertRegex(said, wanted)
+        said = self.call("sweep", SEARCH.replace("SEED", "1"), "-o", "out", status=2).stderr
+        self.assertIn("search: designs are chosen by `amontons optimise`, not by a sweep", said)
+        self.assertFalse((self.folder / "out").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

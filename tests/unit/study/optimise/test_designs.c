@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a design comes to from its points, by hand; and how designs are written and found.
+#include "study/optimise/designs.h"
+
+#include "base/memory.h"
+#include "near.h"
+
+#include <string.h>
+
+static Study study = {
+    .axis_count = 1,
+    .axes = {{.count = 2}},
+    .search = {.key_count = 2,
+               .keys = {{"mesh.set.n", SEARCH_WHOLE, 1, 12}, {"rod.height", SEARCH_LOG, 0.01, 1}}}};
+
+static int begin(void **state)
+{
+    static Designs designs;
+    Error err = {0};
+    study.rank.lowest = study.search.mean = false;
+    assert_true(designs_create(&study, &designs, &err));
+    *state = &designs;
+    return 0;
+}
+
+static int end(void **state)
+{
+    designs_destroy(*state);
+    return 0;
+}
+
+static void give(Designs *designs, int32_t design, double a, double b)
+{
+    DesignPoint *points = &designs->points[2 * design];
+    points[0] = (DesignPoint){.is_known = true, .value = a, .bar = 0.01};
+    points[1] = (DesignPoint){.is_known = true, .value = b, .bar = 0.03};
+    designs_judge(designs, design);
+}
+
+// 0.30 +- 0.01 and 0.31 +- 0.03: the lower may be as low as 0.28 and is at most 0.31.
+static void test_the_worst(void **state)
+{
+    Designs *designs = *state;
+    double x[] = {4, 0.1};
+    int32_t d = designs_add(designs, x, 0);
+    assert_true(isnan(designs->list[d].value) && designs_best(designs) == -1);
+    give(designs, d, 0.30, 0.31);
+    assert_near("value", designs->list[d].value, 0.30, 1e-15);
+    assert_near("bar", designs->list[d].bar, 0.02, 1e-15);
+    assert_int_equal(designs->list[d].deciding, 0);
+    study.rank.lowest = true;   // the worst of lowest values is the highest
+    designs_judge(designs, d);
+    assert_near("value", designs->list[d].value, 0.31, 1e-15);
+    assert_near("bar", designs->list[d].bar, 0.03, 1e-15);
+    assert_int_equal(designs->list[d].deciding, 1);
+    designs->points[2 * d].value = NAN;   // one has none: the design has none
+    designs_judge(designs, d);
+    assert_true(isnan(designs->list[d].value));
+}
+
+static void test_the_mean(void **state)
+{
+    Designs *designs = *state;
+    double x[] = {4, 0.1};
+    study.search.mean = true;
+    give(designs, designs_add(designs, x, 0), 0.30, 0.32);
+    assert_near("value", designs->list[0].value, 0.31, 1e-15);
+    assert_near("bar", designs->list[0].bar, hypot(0.01, 0.03) / 2, 1e-15);
+}
+
+static void test_the_best(void **state)
+{
+    Designs *designs = *state;
+    double x[][2] = {{1, 0.1}, {2, 0.1}, {3, 0.1}};
+    for (int32_t k = 0; k < 3; k++) designs_add(designs, x[k], k);
+    give(designs, 0, 0.30, 0.40);
+    give(designs, 1, 0.35, 0.36);
+    assert_int_equal(designs_best(designs), 1);   // by its worst
+    study.rank.lowest = true;
+    for (int32_t k = 0; k < 2; k++) designs_judge(designs, k);
+    assert_int_equal(designs_best(designs), 1);
+    study.search.mean = true;
+    for (int32_t k = 0; k < 2; k++) designs_judge(designs, k);
+    assert_int_equal(designs_best(designs), 0);
+    assert_int_equal(designs_find(designs, x[2]), 2);
+    x[2][1] = 0.2;
+    assert_int_equal(designs_find(designs, x[2]), -1);
+}
+
+static void test_written(void **state)
+{
+    Designs *designs = *state;
+    Error err = {0};
+    double x[] = {3.7, 0.0123456}, outside[] = {12.4, 1.0000001};
+    char words[OPTIMISE_WORDS_SIZE];
+    designs_round(&study, x);
+    assert_near("whole", x[0], 4, 0);
+    assert_near("three digits", x[1], 0.0123, 0);
+    designs_round(&study, outside);
+    assert_true(outside[0] == 12 && outside[1] == 1);
+    designs_add(designs, x, 0);
+    designs_add(designs, outside, 1);
+    designs->list[1].accuracy = 0.015;
+    char *text = designs_text(designs, designs->list, 2, &err);
+    assert_string_equal(text, "[{mesh.set.n: 4, rod.height: 0.0123}, "
+                              "{mesh.set.n: 12, rod.height: 1, accuracy.mu: 0.015}]");
+    memory_free(text);
+    design_words(&study, &designs->list[0], words);
+    assert_string_equal(words, "mesh.set.n=4 rod.height=0.0123");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_the_worst, begin, end),
+        cmocka_unit_test_setup_teardown(test_the_mean, begin, end),
+        cmocka_unit_test_setup_teardown(test_the_best, begin, end),
+        cmocka_unit_test_setup_teardown(test_written, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
