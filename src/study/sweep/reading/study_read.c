@@ -11,19 +11,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define KEYS(X)                                                                                    \
-    X("title")                                                                                     \
-    X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot") X("search") \
-        X("where") X("best")
-
 // A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)
 {
-    static const char *const known[] = {
-#define X(name) name,
-        KEYS(X)
-#undef X
-    };
+    static const char *const known[] = {"title", "scene", "set",    "cases", "vary", "record",
+                                        "keep",  "rank",  "search", "where", "best", "plot"};
     enum { COUNT = sizeof known / sizeof known[0] };
     for (YamlNode item = yaml_first(study->file, YAML_ROOT); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
