@@ -194,9 +194,10 @@ static int32_t next_rung(StepControl *control, int32_t k, double error, bool ret
     double expected = error * exp2(estimate_order(control));
     bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
     int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
-    if (next >= resolving || control->certified || may_skip_waves(control, &control->now))
-        return next;
-    return resolving;
+    // What a step longer than the waves led to was asked already.
+    bool free = k < resolving || next >= resolving || control->certified ||
+                may_skip_waves(control, &control->now);
+    return free ? next : resolving;
 }
 
 // The coarsest built rung that does not overshoot; the chosen one when none is, or one is made.
