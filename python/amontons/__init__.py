@@ -5,13 +5,13 @@
     result = amontons.run("scene.yaml", {"load.pressure": 0.006})
     print(result.mu_M, result.history.mu.max())
 
-run, forecast, static, stability, model1d, sweep, render, film, info, cache are the commands of the program `amontons`;
+run, forecast, static, stability, model1d, sweep, optimise, render, film, info, cache are the commands of the program `amontons`;
 Simulation steps one simulation; errors are AmontonsError and what is derived from it. docs/python.md shows all of it.
 """
 from ._library import AmontonsError, ComputeError, FileError, InputError, LibraryError
 from ._structs import NODE_OPEN, NODE_SLIPS, NODE_STICKS, NODE_WEAKENS
 from .commands import (cache, clean_cache, data_folder, film, forecast, info, kernels, keys, model1d,
-                       open_result, read_table, render, render_plot, render_sweep, run, stability, static, sweep,
+                       open_result, optimise, read_table, render, render_plot, render_sweep, run, stability, static, sweep,
                        version)
 from .results import Answer, Field, History, Result
 from .simulation import Simulation
@@ -20,4 +20,4 @@ __version__ = version()
 __all__ = ["AmontonsError", "Answer", "ComputeError", "Field", "FileError", "History", "InputError", "LibraryError",
            "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "Result", "Simulation", "cache", "clean_cache",
            "data_folder", "film", "forecast", "info", "kernels", "keys", "model1d", "open_result",
-           "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static", "sweep", "version"]
+           "optimise", "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static", "sweep", "version"]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The Python module against the program: the same numbers, to the bit; its structs against the compiler's; views without
 copies; errors with file, line and key; Ctrl-C; pictures and tables."""
+import csv
 import ctypes
 import gc
 import importlib.util
@@ -31,7 +32,7 @@ from amontons import _structs           # noqa: E402
 
 FIG1 = SOURCE / "validation" / "paper" / "fig1.yaml"
 SMALL = {"mesh.set.nx": 8, "mesh.set.nz": 8, "time.until": {"U": 0.004}, "output.fields": None, "output.figures": []}
-HEADERS = ["amontons_simulation.h", "amontons_stability.h", "amontons_model1d.h", "amontons_cache.h"]
+HEADERS = ["amontons_simulation.h", "amontons_stability.h", "amontons_model1d.h", "amontons_optimise.h", "amontons_cache.h"]
 
 
 def has(module):
@@ -351,6 +352,19 @@ class Commands(InFolder):
         self.assertIn(answer.l_c, list(report["results"].values()))
         self.assertEqual(len(answer.points), answer.as_dict()["points"])
         self.assertTrue((np.diff(answer.points["front"]) >= 0).all())
+
+    def test_optimise(self):
+        """The best is the row of the table with the largest value."""
+        study = self.folder / "study.yaml"
+        study.write_text(f"scene: {FIG1}\nset: {{mesh.set.nx: 8, mesh.set.nz: 8, time.until.U: 0.02}}\nrank: {{by: mu_max}}\n"
+                         "search: {load.pressure: {log: [0.003, 0.006]}}\nbest: {designs: 3}\n")
+        seen = []
+        found = amontons.optimise(study, folder=self.folder / "best", progress=lambda view: seen.append(view.words))
+        rows = list(csv.DictReader(open(self.folder / "best/sweep.csv", newline="")))
+        best = max(rows, key=lambda row: float(row["mu_max"]))
+        self.assertEqual(found["best"], {"load.pressure": float(best["load.pressure"])})
+        self.assertAlmostEqual(found["value"], float(best["mu_max"]), places=9)
+        self.assertEqual((found["designs"], found["computed"]), (len(rows), len(seen)))
 
     def test_model1d(self):
         answer = amontons.model1d(FIG1, theory_only=True, folder=self.folder / "line")
