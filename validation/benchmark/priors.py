@@ -174,7 +174,7 @@ Problems with a reference: {counts}. `cells`: those that slip where slow slip tu
 
 {scatter_text(families)}
 
-From 0 to 32 cells that slip a mesh is off by as much, times these cells, within a factor of two, on blocks as on pads. So one number serves all.
+From 0 to 32 cells that slip a mesh is off by as much, times these cells, within a factor of three, on blocks as on pads. So one number serves all.
 
 ### Digits of a run without a bar
 
