@@ -238,15 +238,16 @@ static bool next_accuracy(const Search *search, Design *design)
     return true;
 }
 
-// The open design that comes nearest to the best, of those not in `taken`.
+// Of those not in `taken` the design that may be the highest, if it may be above the value of the
+// best: one below may still be as good, by the bar of the best, but computing it does not tell.
 static int32_t next_leader(const Search *search, int32_t best, const bool *taken)
 {
     double sign = search->study.rank.lowest ? -1 : 1, top = -INFINITY;
     int32_t leader = -1;
     for (int32_t d = 0; d < search->designs.count; d++) {
         const Design *one = &search->designs.list[d];
-        if (taken[d] || (d != best && !designs_may_equal(&search->designs, best, d))) continue;
         double reach = sign * one->value + one->bar;
+        if (taken[d] || !(reach >= sign * search->designs.list[best].value)) continue;
         if (reach > top) top = reach, leader = d;
     }
     return leader;
