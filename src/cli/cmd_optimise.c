@@ -2,14 +2,13 @@
 // `amontons optimise`: a line a point on standard error, the answer on standard output.
 #include "amontons_optimise.h"
 #include "cli/commands.h"
-#include "cli/options.h"
-#include "cli/point_lines.h"
 #include "cli/say.h"
+#include "cli/study_run.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
+static const char ENDING[] = "-best";
 static const CommandText text = {
     .name = "optimise",
     .argument = "STUDY",
@@ -46,80 +45,25 @@ static const CommandText text = {
         "Example:\n\n"
         "  amontons optimise docs/examples/best_pads.yaml -o best-pads"};
 
-typedef struct OptimiseWords {
-    const char *study, *folder, *jobs, *slurm;
-    OptionWords settings;
-    bool has_slurm, retry, fresh, quiet, trusted;
-} OptimiseWords;
-
-static int read_words(int argc, char **argv, OptimiseWords *words)
-{
-    const Option options[] = {
-        {"output", 'o', "DIR",
-         "Folder for the table and the points (default: the study's name with -best, in the "
-         "current folder)",
-         .word = &words->folder},
-        {"jobs", 'j', "N", "Points computed at a time (default: as many as there are cores)",
-         .word = &words->jobs},
-        {"slurm", 0, "WORDS",
-         "Compute the points as Slurm job arrays, with these words for sbatch if any; -j N: at "
-         "most N at a time",
-         .flag = &words->has_slurm, .word = &words->slurm},
-        {"set", 0, "KEY=VALUE", "Use this value for every point; may be given several times",
-         .words = &words->settings},
-        {"retry", 0, NULL, "Compute points again that failed before", .flag = &words->retry},
-        {"fresh", 0, NULL, "Compute all points again", .flag = &words->fresh},
-        {"quiet", 'q', NULL, "Print nothing but errors", .flag = &words->quiet},
-        option_trust(&words->trusted),
-        {0}};
-    int status = options_read(&text, options, argc, argv, &words->study);
-    if (words->trusted) trust_meshes();
-    return status;
-}
-
-static int check_words(const OptimiseWords *words, SweepOptions *options)
-{
-    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
-    return words->jobs ? option_count("-j", words->jobs, 1, 1024, &options->jobs) : 0;
-}
-
-// The answer is gathered in memory while points are reported, and printed when the last line of
-// those has gone.
 int command_optimise(int argc, char **argv)
 {
-    OptimiseWords words = {0};
-    SweepOptions options = {.on_point = point_line};
+    StudyWords words = {0};
+    StudyRun run;
     OptimiseSummary summary;
     Error err = {0};
-    char folder[256];
-    int status = read_words(argc, argv, &words);
-    if (status == 0) status = check_words(&words, &options);
+    int status = study_words_read(&text, ENDING, false, argc, argv, &words);
+    if (status == 0) status = study_run_begin(&words, ENDING, &run);
     if (status != 0) return status;
-    options.stop = stop_on_signals();
-    stop_in_order();   // points are processes of their own
-    options.slurm = words.slurm;
-    default_folder(words.study, "-best", folder, sizeof folder);
-    options.folder = words.folder ? words.folder : folder;
-    options.overrides = words.settings.list;
-    options.override_count = words.settings.count;
-    options.retry = words.retry;
-    options.fresh = words.fresh;
-    PointLines display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
-    options.context = &display;
-    char *answer = NULL;
-    size_t size = 0;
-    if (!words.quiet) options.out = open_memstream(&answer, &size);
-    bool done = amontons_optimise(words.study, &options, &summary, &err);
-    if (options.out) fclose(options.out);
-    if (display.bar && !display.quiet) tell_over("", 0);
-    if (done && !words.quiet)
-        say("%s%d points computed in %.1f s; table in %s: sweep.csv; figures/course.png\n", answer,
-            summary.computed, summary.seconds, options.folder);
-    if (done && display.failures > 0) {
+    bool done = amontons_optimise(words.study, &run.options, &summary, &err);
+    study_run_end(&run);
+    if (done && !run.quiet)
+        say("%s%d points computed in %.1f s; table in %s: sweep.csv; figures/course.png\n",
+            run.answer, summary.computed, summary.seconds, run.options.folder);
+    if (done && run.failures > 0) {
         fflush(stdout);
-        tell("amontons: points failed, the first of them:\n  %s\n", display.failed[0]);
+        tell("amontons: points failed, the first of them:\n  %s\n", run.failed[0]);
     }
-    free(answer);
+    free(run.answer);
     if (!done) return report_error(&err);
-    return display.failures > 0 ? amontons_error_exit_status(ERROR_COMPUTE) : 0;
+    return run.failures > 0 ? amontons_error_exit_status(ERROR_COMPUTE) : 0;
 }

@@ -2,15 +2,15 @@
 // `amontons sweep`: a line a point on standard error, the ranked table on standard output. With the
 // hidden option --element it is one of its own jobs on a cluster.
 #include "cli/commands.h"
-#include "cli/options.h"
-#include "cli/point_lines.h"
 #include "cli/say.h"
+#include "cli/study_run.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
+static const char ENDING[] = "-sweep";
 static const CommandText text = {
     .name = "sweep",
     .argument = "STUDY",
@@ -67,38 +67,6 @@ static const CommandText text = {
         "2 the study is wrong. Example:\n\n"
         "  amontons sweep validation/paper/fig2a.yaml -j 2 -o fig2a"};
 
-typedef struct SweepWords {
-    const char *study, *folder, *jobs, *slurm;
-    OptionWords settings;
-    bool has_slurm, is_element, retry, fresh, quiet, trusted;
-} SweepWords;
-
-static int read_words(int argc, char **argv, SweepWords *words)
-{
-    const Option options[] = {
-        {"output", 'o', "DIR",
-         "Folder for the table and the points (default: the study's name with -sweep, in the "
-         "current folder)",
-         .word = &words->folder},
-        {"jobs", 'j', "N", "Points computed at a time (default: as many as there are cores)",
-         .word = &words->jobs},
-        {"slurm", 0, "WORDS",
-         "Compute the points as Slurm job arrays, with these words for sbatch if any; -j N: at "
-         "most N at a time",
-         .flag = &words->has_slurm, .word = &words->slurm},
-        {"element", 0, NULL, NULL, .flag = &words->is_element},
-        {"set", 0, "KEY=VALUE", "Use this value for every point; may be given several times",
-         .words = &words->settings},
-        {"retry", 0, NULL, "Compute points again that failed before", .flag = &words->retry},
-        {"fresh", 0, NULL, "Compute all points again", .flag = &words->fresh},
-        {"quiet", 'q', NULL, "Print nothing but errors", .flag = &words->quiet},
-        option_trust(&words->trusted),
-        {0}};
-    int status = options_read(&text, options, argc, argv, &words->study);
-    if (words->trusted) trust_meshes();
-    return status;
-}
-
 // One point, in a job of a Slurm array. list: the file that the sweep wrote for the array; Slurm
 // puts into the environment which element this process is, and keeps its exit status.
 static int run_element(const char *list)
@@ -112,19 +80,12 @@ static int run_element(const char *list)
     return amontons_sweep_element(list, (int32_t)element, &err) ? 0 : report_error(&err);
 }
 
-// Checks the options; the library checks the study. The exit status.
-static int check_words(const SweepWords *words, SweepOptions *options)
-{
-    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
-    return words->jobs ? option_count("-j", words->jobs, 1, 1024, &options->jobs) : 0;
-}
-
-// Failed points are no error of the sweep, but its exit status shows them. ranked: text or NULL.
-static int close_sweep(const PointLines *display, const char *folder, const char *ranked,
-                       const SweepSummary *summary)
+// Failed points are no error of the sweep, but its exit status shows them.
+static int close_sweep(const StudyRun *run, const SweepSummary *summary)
 {
     char points[AMONTONS_PATH_SIZE + 8];
-    if (!display->quiet) {
+    const char *folder = run->options.folder;
+    if (!run->quiet) {
         say("%d points: %d computed in %.1f s", summary->points, summary->computed,
             summary->seconds);
         if (summary->refined) say(" (%d again, to decide ranks)", summary->refined);
@@ -133,45 +94,30 @@ static int close_sweep(const PointLines *display, const char *folder, const char
         snprintf(points, sizeof points, "%s/points", folder);
         say("\nTable in %s: sweep.csv and sweep.h5%s\n", folder,
             access(points, F_OK) == 0 ? "; each point's run.json in points/" : "");
-        if (ranked) say("%s", ranked);
+        if (run->answer) say("%s", run->answer);
     }
     if (summary->failed == 0) return 0;
     fflush(stdout);
-    point_lines_failed(display, summary->failed, summary->points, folder);
+    tell("amontons: %d of %d points failed (--retry computes them again):\n", summary->failed,
+         summary->points);
+    for (int32_t k = 0; k < run->failures; k++) tell("  %s\n", run->failed[k]);
+    if (summary->failed > run->failures) tell("  ... and more, in %s/sweep.csv\n", folder);
     return amontons_error_exit_status(ERROR_COMPUTE);
 }
 
-// The ranking is gathered in memory while points are reported on standard error, and printed when
-// the last line of those has gone.
 int command_sweep(int argc, char **argv)
 {
-    SweepWords words = {0};
-    SweepOptions options = {.on_point = point_line};
+    StudyWords words = {0};
+    StudyRun run;
     SweepSummary summary;
     Error err = {0};
-    char folder[256];
-    int status = read_words(argc, argv, &words);
+    int status = study_words_read(&text, ENDING, true, argc, argv, &words);
     if (status == 0 && words.is_element) return run_element(words.study);   // a signal ends it
-    if (status == 0) status = check_words(&words, &options);
+    if (status == 0) status = study_run_begin(&words, ENDING, &run);
     if (status != 0) return status;
-    options.stop = stop_on_signals();
-    stop_in_order();   // its points are processes of their own
-    options.slurm = words.slurm;
-    default_folder(words.study, "-sweep", folder, sizeof folder);
-    options.folder = words.folder ? words.folder : folder;
-    options.overrides = words.settings.list;
-    options.override_count = words.settings.count;
-    options.retry = words.retry;
-    options.fresh = words.fresh;
-    PointLines display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
-    options.context = &display;
-    char *ranked = NULL;   // shown below the line that is written over
-    size_t size = 0;
-    if (!words.quiet) options.out = open_memstream(&ranked, &size);
-    bool done = amontons_sweep(words.study, &options, &summary, &err);
-    if (options.out) fclose(options.out);
-    if (display.bar && !display.quiet) tell_over("", 0);
-    status = done ? close_sweep(&display, options.folder, ranked, &summary) : report_error(&err);
-    free(ranked);
+    bool done = amontons_sweep(words.study, &run.options, &summary, &err);
+    study_run_end(&run);
+    status = done ? close_sweep(&run, &summary) : report_error(&err);
+    free(run.answer);
     return status;
 }
