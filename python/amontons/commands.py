@@ -163,6 +163,16 @@ def read_table(path: Any) -> Any:
         return {name: np.array([_number(row[k]) for row in rows[1:]]) for k, name in enumerate(rows[0])}
 
 
+def _compute_study(function: Any, summary: Any, study: Any, settings: Settings | None,
+                   progress: Callable[[c.SweepView], object] | None, **options: Any) -> None:
+    """A function of the library that computes a study's points, until Ctrl-C stops it. options: of SweepOptions."""
+    stop = ctypes.c_int(0)
+    overrides, count = setting_words(settings)
+    given = c.SweepOptions(overrides=overrides, override_count=count, on_point=_callback(c.SweepCallback, progress, stop),
+                           stop=ctypes.pointer(stop), **options)
+    call_stoppable(function, stop, c_text(study), ctypes.byref(given), ctypes.byref(summary))
+
+
 def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
           fresh: bool = False, slurm: str | None = None,
           progress: Callable[[c.SweepView], object] | None = None) -> Any:
@@ -175,13 +185,8 @@ def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, j
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
             return sweep(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
-    stop = ctypes.c_int(0)
-    summary = c.SweepSummary()
-    overrides, count = setting_words(settings)
-    options = c.SweepOptions(folder=c_text_or_none(folder), overrides=overrides, override_count=count, jobs=jobs,
-                             slurm=c_text_or_none(slurm), retry=retry, fresh=fresh,
-                             on_point=_callback(c.SweepCallback, progress, stop), stop=ctypes.pointer(stop))
-    call_stoppable(lib.amontons_sweep, stop, c_text(study), ctypes.byref(options), ctypes.byref(summary))
+    _compute_study(lib.amontons_sweep, c.SweepSummary(), study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
+                   slurm=c_text_or_none(slurm), retry=retry, fresh=fresh)
     return read_table(Path(folder) / "sweep.csv")
 
 
@@ -194,13 +199,9 @@ def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
             return optimise(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
-    stop = ctypes.c_int(0)
     summary = c.OptimiseSummary()
-    overrides, count = setting_words(settings)
-    options = c.SweepOptions(folder=c_text_or_none(folder), overrides=overrides, override_count=count, jobs=jobs,
-                             slurm=c_text_or_none(slurm), retry=retry,
-                             on_point=_callback(c.SweepCallback, progress, stop), stop=ctypes.pointer(stop))
-    call_stoppable(lib.amontons_optimise, stop, c_text(study), ctypes.byref(options), ctypes.byref(summary))
+    _compute_study(lib.amontons_optimise, summary, study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
+                   slurm=c_text_or_none(slurm), retry=retry)
     pairs = (word.rpartition("=") for word in summary.best.decode().split())
     return {"best": {key: float(value) for key, _, value in pairs}, "value": summary.value, "bar": summary.bar,
             "decided": bool(summary.decided), "start_value": summary.start_value, "start_bar": summary.start_bar,
