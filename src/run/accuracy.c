@@ -69,7 +69,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of cell size to the next level: from the third on one that resolves slip, by what the last tells.
+// Of cell size to the next level: from the third on one that resolves slip, by what all tell.
 static double next_step(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;

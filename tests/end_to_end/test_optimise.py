@@ -69,8 +69,10 @@ class Optimise(unittest.TestCase):
         self.assertEqual(self.table("out"), first)
         more = self.call("optimise", text.replace("30", "10"), "-j", "2", "-o", "out").stdout
         self.assertLess(int(re.search(r"(\d+) points computed", more)[1]), len(self.table("out")))
+        anew = self.call("optimise", text.replace("30", "6"), "-j", "2", "-o", "out", "--fresh").stdout
+        self.assertEqual(int(re.search(r"(\d+) points computed", anew)[1]), len(self.table("out")))     # each, and once
         self.assertTrue((self.folder / "out/figures/course.png").stat().st_size > 10000)
-        self.assertTrue((self.folder / "out/figures/along_pressure.png").exists())
+        self.assertTrue((self.folder / "out/figures/along_load.pressure.png").exists())
 
     def test_over_points_of_vary(self):
         """A design is worth what its worst point is; the table has a row for each."""

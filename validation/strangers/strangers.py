@@ -85,7 +85,7 @@ def ask(one, scene):
     with tempfile.TemporaryDirectory() as cache:        # what a user pays who tries this shape for the first time
         ended = run(scene, QUIET, ASK_LIMIT, cache=cache, words=["--to", str(one.wanted), "--within", f"{WITHIN}s"])
     results, found = ended.report.get("results", {}), ended.report.get("accuracy") or {}
-    keep = ("refine", "contact_nodes", "undamped", "slip_cells", "cells", "end_wait", "runs", "seconds")
+    keep = ("refine", "contact_nodes", "undamped", "slip_cells", "end_wait", "runs", "seconds")
     return {"version": commit(), "status": ended.status, "said": ended.said[-600:], "seconds": ended.seconds,
             "wall": time.monotonic() - began, "wanted": one.wanted,
             **{key: results.get(key) for name in judge.ANSWERS for key in (name, f"{name}_error", f"{name}_error_parts")},

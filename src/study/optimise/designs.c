@@ -15,7 +15,9 @@ bool designs_create(const Study *study, Designs *designs, Error *err)
     *designs = (Designs){.study = study, .conditions = 1};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
-    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->conditions, err));
+    int64_t points = (int64_t)DESIGNS_MAX * designs->conditions;
+    TRY(designs->points = NEW_ARRAY(DesignPoint, points, err));
+    TRY(designs->known = NEW_ARRAY(bool, points, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -24,6 +26,7 @@ void designs_destroy(Designs *designs)
 {
     memory_free(designs->list);
     memory_free(designs->points);
+    memory_free(designs->known);
     *designs = (Designs){0};
 }
 
@@ -131,17 +134,23 @@ static void judge_mean(const Designs *designs, const DesignPoint *points, Design
     design->bar = sqrt(square) / designs->conditions;
 }
 
+int64_t designs_point(const Designs *designs, int32_t design)
+{
+    return (int64_t)design * designs->conditions;
+}
+
 void designs_judge(Designs *designs, int32_t d)
 {
     Design *design = &designs->list[d];
-    const DesignPoint *points = &designs->points[(int64_t)d * designs->conditions];
+    const DesignPoint *points = &designs->points[designs_point(designs, d)];
+    const bool *known = &designs->known[designs_point(designs, d)];
     design->value = design->bar = NAN;
     design->deciding = 0;
     design->has_bar = true;
     for (int32_t c = 0; c < designs->conditions; c++)
         design->has_bar = design->has_bar && points[c].has_bar;
     for (int32_t c = 0; c < designs->conditions; c++)
-        if (!points[c].is_known || isnan(points[c].value)) return;
+        if (!known[c] || isnan(points[c].value)) return;
     (designs->study->search.mean ? judge_mean : judge_worst)(designs, points, design);
 }
 

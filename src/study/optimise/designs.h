@@ -20,16 +20,16 @@ typedef struct Design {
 
 // What a point came to.
 typedef struct DesignPoint {
-    bool is_known, has_bar;
     double value, bar;   // NaN: none; bar: or what is usual of the mesh
-    char run[AMONTONS_PATH_SIZE];   // its run.json
+    bool has_bar;
 } DesignPoint;
 
 typedef struct Designs {
     const Study *study;   // not owned
     int32_t count, conditions;   // points of `vary`, for each design
     Design *list;   // [DESIGNS_MAX] owned
-    DesignPoint *points;   // [DESIGNS_MAX * conditions] owned
+    DesignPoint *points;   // [DESIGNS_MAX * conditions] owned, as the next
+    bool *known;   // points that ended, or were found, since their design has its accuracy
 } Designs;
 
 bool designs_create(const Study *study, Designs *designs, Error *err);
@@ -43,6 +43,7 @@ void designs_round(const Study *study, double *x);   // whole numbers, three dig
 char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err);
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
+int64_t designs_point(const Designs *designs, int32_t design);   // the first of its points
 // value and bar of a design from its points: of the worst, or the mean; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
 int32_t designs_best(const Designs *designs);   // -1: none has a value

@@ -5,12 +5,10 @@
 // A round is an ordinary sweep over all designs so far: what is finished is found again, so that a
 // search that was stopped makes the same choices from the same values and goes on.
 #include "base/clock.h"
+#include "base/formula.h"
 #include "base/memory.h"
 #include "base/module.h"
 #include "scene/formulas.h"
-#include "base/formula.h"
-#include "study/optimise/chooser.h"
-#include "study/optimise/search_state.h"
 #include "study/optimise/search_report.h"
 #include "study/sweep/reading/study_point.h"
 #include "study/sweep/reading/study_read.h"
@@ -48,11 +46,12 @@ static void take_point(const SweepView *view, void *context)
 {
     Search *search = context;
     const SweepOptions *options = search->options;
-    DesignPoint *point = &search->designs.points[view->point];
-    bool told = point->is_known && view->reused;
-    bool has_bar = !isnan(view->bar);
-    *point = (DesignPoint){true, has_bar, view->value, has_bar ? view->bar : view->known_to, ""};
-    if (view->run) snprintf(point->run, sizeof point->run, "%s", view->run);
+    bool told = search->designs.known[view->point] && view->reused, has_bar = !isnan(view->bar);
+    search->designs.known[view->point] = true;
+    search->designs.points[view->point] =
+        (DesignPoint){view->value, has_bar ? view->bar : view->known_to, has_bar};
+    if (view->run && view->point == search->told_of)
+        snprintf(search->run, sizeof search->run, "%s", view->run);
     search->computed += !view->reused;
     if (told || !options->on_point) return;
     SweepView shown = *view;
@@ -74,8 +73,9 @@ static bool compute(Search *search, bool pictures, Error *err)
     options.on_point = take_point;
     options.context = search;
     options.out = NULL;
-    options.fresh = options.fresh && search->told == 0;
-    TRY(sweep_cases(search->study.path, text, pictures, &options, &summary, err));
+    SweepCases cases = {text, search->begun ? designs->known : NULL, pictures};
+    search->begun = true;
+    TRY(sweep_cases(search->study.path, &cases, &options, &summary, err));
     for (int32_t d = 0; d < designs->count; d++) designs_judge(designs, d);
 cleanup:
     memory_free(text);
@@ -226,15 +226,24 @@ cleanup:
 
 // --- deciding -----------------------------------------------------------------------------------
 
+// With another accuracy its points are others.
+static void forget(Search *search, const Design *design)
+{
+    Designs *designs = &search->designs;
+    bool *known = &designs->known[designs_point(designs, (int32_t)(design - designs->list))];
+    memset(known, 0, (size_t)designs->conditions * sizeof *known);
+}
+
 // Half the error that was asked for or, where that is smaller, of the one that came out. false: it
 // is as small as it may get.
-static bool next_accuracy(const Search *search, Design *design)
+static bool next_accuracy(Search *search, Design *design)
 {
     double limit = search->study.rank.refine, came_out = design->bar / fabs(design->value);
     double asked = design->accuracy > 0 ? design->accuracy : search->accuracy;
     double next = fmax(fmin(asked, came_out) / 2, limit);
     if (design->settled || !(limit > 0) || asked <= limit) return false;
     design->accuracy = next;
+    forget(search, design);
     return true;
 }
 
@@ -349,10 +358,6 @@ static bool open_search(Search *search, const char *path, Error *err)
     TRY(designs_create(study, &search->designs, err));
     TRY(open_chooser(search, err));
     TRY(add_start(search, err));
-    double x[STUDY_SEARCH_MAX];
-    bool ignored;
-    for (int32_t k = 0; k < study->search.key_count; k++) x[k] = study->search.keys[k].least;
-    TRY(is_allowed(search, x, &ignored, err));
     search->accuracy = search->scene->accuracy.mu;
     if (study->rank.refine > 0 && !(search->accuracy > 0))
         FAIL(err, ERROR_INPUT,
@@ -383,7 +388,7 @@ static void summarise(const Search *search, OptimiseSummary *summary)
     design_words(&search->study, top, summary->best);
     for (int32_t d = 0; d < designs->count; d++) {
         summary->designs += !isnan(designs->list[d].value);
-        if (designs_may_equal(&search->designs, best, d)) summary->decided = false;
+        if (designs_may_equal(designs, best, d)) summary->decided = false;
     }
     if (search->start < 0) return;
     summary->start_value = designs->list[search->start].value;
@@ -399,9 +404,12 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     search->options = options;
     search->started = clock_seconds();
     search->start = -1;
+    search->told_of = -1;
     TRY(open_search(search, path, err));
     TRY(search_designs(search, err));
     TRY(finish_search(search, err));
+    int32_t best = designs_best(&search->designs);
+    search->told_of = designs_point(&search->designs, best) + search->designs.list[best].deciding;
     TRY(compute(search, true, err));
     summarise(search, summary);
     TRY(search_report(search, summary, err));

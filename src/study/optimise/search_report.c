@@ -106,8 +106,6 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
 {
     const Designs *designs = &search->designs;
     FILE *out = search->options->out;
-    const char *run =
-        designs->points[(int64_t)best * designs->conditions + designs->list[best].deciding].run;
     fprintf(out, "%s, %s of %d designs", quantity(search),
             search->study.rank.lowest ? "the lowest" : "the highest", summary->designs);
     if (designs->conditions > 1)
@@ -119,27 +117,55 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
     print_gain(search, summary, best);
     print_open(search, best);
     for (int32_t k = 0; k < search->study.search.key_count; k++) print_section(search, best, k);
-    if (*run) fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", run);
+    if (*search->run)
+        fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", search->run);
 }
 
 // --- figures ------------------------------------------------------------------------------------
 
-static void write_y(Figure *figure, const Search *search)
+typedef struct Frame {
+    const char *name, *scale;   // of the file; of x
+    QuantityLabel x;
+} Frame;
+
+static Curve dots_of(const char *label, int32_t count, const double *x, const double *y)
 {
-    QuantityLabel label = label_of_record(quantity(search));
-    figure_write_axis(figure, "y", &label, "linear");
+    return (Curve){.label = label,
+                   .line = "none",
+                   .marker = "circle",
+                   .color = COLOR_DESIGNS,
+                   .count = count,
+                   .filled = true,
+                   .x = x,
+                   .y = y};
+}
+
+// What is ranked by over x: two curves, the second over the first.
+static bool draw(const Search *search, const Frame *frame, const Curve curves[2], Error *err)
+{
+    Figure figure = {
+        .folder = search->options->folder, .name = frame->name, .title = search->study.title};
+    QuantityLabel y = label_of_record(quantity(search));
+    TRY(figure_begin(&figure, err));
+    figure_write_axis(&figure, "x", &frame->x, frame->scale);
+    figure_write_axis(&figure, "y", &y, "linear");
+    json_begin_list(figure.json, "series");
+    for (int32_t k = 0; k < 2 && error_is_clean(err); k++)
+        figure_write_curve(&figure, &curves[k], err);
+    json_end(figure.json);
+    figure_end(&figure, err);
+cleanup:
+    return error_is_clean(err);
 }
 
 // Every design in the order of its choice, and the best so far.
 static bool draw_course(const Search *search, Error *err)
 {
     const Designs *designs = &search->designs;
-    Figure figure = {
-        .folder = search->options->folder, .name = "course", .title = search->study.title};
     int32_t count = designs->count;
-    double *numbers = NEW_ARRAY(double, 4 * (int64_t)count, err);
-    TRY(numbers);
-    double *x = numbers, *y = x + count, *error = y + count, *so_far = error + count;
+    double *x = NEW_ARRAY(double, 4 * (int64_t)count, err);
+    TRY(x);
+    double *y = x + count, *error = y + count, *so_far = error + count;
     const Design *best = NULL;
     for (int32_t d = 0; d < count; d++) {
         const Design *one = &designs->list[d];
@@ -147,31 +173,17 @@ static bool draw_course(const Search *search, Error *err)
         x[d] = d + 1, y[d] = one->value, error[d] = one->bar;
         so_far[d] = best ? best->value : (double)NAN;
     }
-    TRY(figure_begin(&figure, err));
-    figure_write_axis(&figure, "x", &(QuantityLabel){.words = "design"}, "linear");
-    write_y(&figure, search);
-    json_begin_list(figure.json, "series");
-    Curve all = {.label = "designs",
-                 .line = "none",
-                 .marker = "circle",
-                 .color = COLOR_DESIGNS,
-                 .count = count,
-                 .filled = true,
-                 .x = x,
-                 .y = y,
-                 .error = error};
-    Curve line = {.label = "best so far",
-                  .line = "solid",
-                  .color = COLOR_SO_FAR,
-                  .count = count,
-                  .x = x,
-                  .y = so_far};
-    figure_write_curve(&figure, &all, err);
-    if (error_is_clean(err)) figure_write_curve(&figure, &line, err);
-    json_end(figure.json);
-    figure_end(&figure, err);
+    Curve curves[] = {dots_of("designs", count, x, y),
+                      {.label = "best so far",
+                       .line = "solid",
+                       .color = COLOR_SO_FAR,
+                       .count = count,
+                       .x = x,
+                       .y = so_far}};
+    curves[0].error = error;
+    TRY(draw(search, &(Frame){"course", "linear", {.words = "design"}}, curves, err));
 cleanup:
-    memory_free(numbers);
+    memory_free(x);
     return error_is_clean(err);
 }
 
@@ -179,47 +191,28 @@ static bool draw_section(const Search *search, int32_t best, int32_t k, Error *e
 {
     const Designs *designs = &search->designs;
     const SearchKey *key = &search->study.search.keys[k];
-    char name[60];
-    snprintf(name, sizeof name, "along_%.50s", label_last_word(key->key));
-    Figure figure = {.folder = search->options->folder, .name = name, .title = search->study.title};
+    const Design *top = &designs->list[best];
+    char name[STUDY_NAME_SIZE + 8];
     int32_t count = 0;
-    double *numbers = NEW_ARRAY(double, 3 * (int64_t)designs->count, err);
-    TRY(numbers);
-    double *x = numbers, *y = x + designs->count, *error = y + designs->count;
+    double *x = NEW_ARRAY(double, 3 * (int64_t)designs->count, err);
+    TRY(x);
+    double *y = x + designs->count, *error = y + designs->count;
     for (int32_t d = 0; d < designs->count; d++) {
         if (!is_on_section(search, best, k, d)) continue;
         x[count] = designs->list[d].x[k], y[count] = designs->list[d].value;
         error[count++] = designs->list[d].bar;
     }
-    QuantityLabel label = label_of_key(key->key, search->scene->units == UNITS_SI);
-    TRY(figure_begin(&figure, err));
-    figure_write_axis(&figure, "x", &label, key->scale == SEARCH_LOG ? "log" : "linear");
-    write_y(&figure, search);
-    json_begin_list(figure.json, "series");
-    Curve others = {.label = "others as in the best",
-                    .line = "none",
-                    .marker = "circle",
-                    .color = COLOR_DESIGNS,
-                    .count = count,
-                    .filled = true,
-                    .x = x,
-                    .y = y,
-                    .error = error};
-    const Design *top = &designs->list[best];
-    Curve mark = {.label = "the best",
-                  .line = "none",
-                  .marker = "square",
-                  .color = COLOR_BEST,
-                  .count = 1,
-                  .filled = true,
-                  .x = &top->x[k],
-                  .y = &top->value};
-    figure_write_curve(&figure, &others, err);
-    if (error_is_clean(err)) figure_write_curve(&figure, &mark, err);
-    json_end(figure.json);
-    figure_end(&figure, err);
+    snprintf(name, sizeof name, "along_%s", key->key);
+    Frame frame = {name, key->scale == SEARCH_LOG ? "log" : "linear",
+                   label_of_key(key->key, search->scene->units == UNITS_SI)};
+    Curve curves[] = {dots_of("others as in the best", count, x, y),
+                      dots_of("the best", 1, &top->x[k], &top->value)};
+    curves[0].error = error;
+    curves[1].marker = "square";
+    curves[1].color = COLOR_BEST;
+    TRY(draw(search, &frame, curves, err));
 cleanup:
-    memory_free(numbers);
+    memory_free(x);
     return error_is_clean(err);
 }
 

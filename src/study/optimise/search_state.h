@@ -18,6 +18,9 @@ typedef struct Search {
     int32_t side_by_side;   // designs of a round
     int32_t planned, told, computed;   // points: expected, shown, computed
     double started;   // wall clock, s
+    bool begun;   // a round was computed
+    int64_t told_of;   // point that decides for the best; -1: not yet known
+    char run[AMONTONS_PATH_SIZE];   // run.json of that; "": it left none
 } Search;
 
 #endif

@@ -113,7 +113,7 @@ static bool open_reports(Sweep *sweep, Error *err)
     PointsByHash points = {0};
     if (!sweep->study.keep_table) return true;
     snprintf(path, sizeof path, "%s/reports", sweep->folder);
-    TRY(reports_open(&sweep->reports, path, sweep->options->fresh, err));
+    TRY(reports_open(&sweep->reports, path, sweep->options->fresh && !sweep->known, err));
     TRY(points_sort(sweep, &points, err));
     TRY(reports_list(&sweep->reports, points_note_place, &points, err));
     TRY(share_take_all(sweep, points_note_place, &points, err));
@@ -263,11 +263,11 @@ cleanup:
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err)
 {
-    return sweep_cases(path, NULL, true, options, summary, err);
+    return sweep_cases(path, &(SweepCases){.pictures = true}, options, summary, err);
 }
 
 // A stopped sweep still leaves its table, with what is not done marked as pending.
-bool sweep_cases(const char *path, const char *cases, bool pictures, const SweepOptions *options,
+bool sweep_cases(const char *path, const SweepCases *cases, const SweepOptions *options,
                  SweepSummary *summary, Error *err)
 {
     *summary = (SweepSummary){0};
@@ -275,11 +275,12 @@ bool sweep_cases(const char *path, const char *cases, bool pictures, const Sweep
     Sweep *sweep = NEW_ARRAY(Sweep, 1, err);
     TRY(sweep);
     sweep->options = options;
-    sweep->pictures = pictures;
+    sweep->pictures = cases->pictures;
+    sweep->known = cases->known;
     sweep->lock = -1;
     sweep->started = clock_seconds();
     dense_use_one_thread();   // before forking
-    TRY(read_study(sweep, path, cases, err));
+    TRY(read_study(sweep, path, cases->text, err));
     TRY(plan_points(sweep, err));
     sweep->planned = sweep->study.point_count;
     TRY(take_folder(sweep, err));

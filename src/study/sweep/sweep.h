@@ -6,10 +6,17 @@
 #include "amontons.h"
 #include "base/error.h"
 
-// As amontons_sweep, of the study `path` with the cases in `cases`, a list of maps in YAML. Points
-// count through the cases, each with all of `vary`. A ranking is written, and nothing computed
-// again for it. pictures: whether they are drawn.
-bool sweep_cases(const char *path, const char *cases, bool pictures, const SweepOptions *options,
+typedef struct SweepCases {
+    const char *text;   // a list of maps in YAML; NULL: those of the study
+    const bool
+        *known;   // points of a sweep before that `retry` and `fresh` leave as they are; NULL:
+        // there was none
+    bool pictures;   // are drawn at the end
+} SweepCases;
+
+// As amontons_sweep, of the study `path` with these cases. Points count through them, each with all
+// of `vary`. A ranking is written, and nothing computed again for it.
+bool sweep_cases(const char *path, const SweepCases *cases, const SweepOptions *options,
                  SweepSummary *summary, Error *err);
 
 #endif

@@ -45,6 +45,8 @@ typedef struct Sweep {
     SweepPoint *points;   // [study.point_count]; owned
     double started;   // wall clock, s
     bool pictures;   // are drawn at the end
+    const bool *known;   // [point_count] found or computed by a sweep before, which `retry` and
+        // `fresh` leave as they are; not owned; NULL: there was none
     bool checked;   // what the study records is in run.json
     int32_t planned;   // points to compute or to find: all, and those computed again
     int32_t computed, failed, finished;

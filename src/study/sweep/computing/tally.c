@@ -89,14 +89,16 @@ bool sweep_take_finished(Sweep *sweep, Error *err)
         char *report = point_report(sweep, k, err);
         TRY(error_is_clean(err));
         point->status = point_status(report);
-        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
+        bool again = !sweep->known || !sweep->known[k];
+        if (again &&
+            (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED)))
             point->status = POINT_PENDING;
         point->reused = point->status != POINT_PENDING;
         if (point->reused) {
             report_point(sweep, k, report);
             check_records(sweep, k, report, err);
         } else {
-            point_remove(sweep, k, sweep->options->fresh);
+            point_remove(sweep, k, again && sweep->options->fresh);
         }
         memory_free(report);
         TRY(error_is_clean(err));

@@ -32,8 +32,9 @@ static int end(void **state)
 static void give(Designs *designs, int32_t design, double a, double b)
 {
     DesignPoint *points = &designs->points[2 * design];
-    points[0] = (DesignPoint){.is_known = true, .value = a, .bar = 0.01};
-    points[1] = (DesignPoint){.is_known = true, .value = b, .bar = 0.03};
+    points[0] = (DesignPoint){.value = a, .bar = 0.01};
+    points[1] = (DesignPoint){.value = b, .bar = 0.03};
+    designs->known[2 * design] = designs->known[2 * design + 1] = true;
     designs_judge(designs, design);
 }
 
