@@ -247,6 +247,8 @@ static Dual apply(Operation operation, Dual a, Dual b)
         return (Dual){root, chain(1 - root * root, a.slope)};
     case STEP_ABS:
         return (Dual){fabs(a.value), a.value < 0 ? -a.slope : a.slope};
+    case STEP_ROUND:
+        return (Dual){round(a.value), 0};
     case STEP_MIN:
         return b.value < a.value ? b : a;
     case STEP_MAX:

@@ -6,7 +6,7 @@
 //     sum = product {(+|-) product}     product = power {(*|/) power}
 //     power = - power | unit [^ power]
 //     unit = number | name | function(sum {, sum}) | (sum)
-//     function = sqrt, exp, log, tanh, abs; of two or more: min, max
+//     function = sqrt, exp, log, tanh, abs, round (to a whole number); of two or more: min, max
 //     points(x, x_1, y_1, x_2, y_2, ...): lines through points of ascending x, level beyond; the
 //     same x twice is a jump
 #ifndef AMONTONS_BASE_FORMULA_H
@@ -43,7 +43,7 @@ typedef struct Formula {
 bool formula_read(const char *text, const FormulaNames *names, Formula *formula, Error *err);
 
 // The value at x, and through *slope its derivative: exact but for rounding. Where abs, min or max
-// have a kink it is that of one side.
+// have a kink it is that of one side; where round jumps, 0.
 double formula_at(const Formula *formula, double x, double *slope);
 
 // Between which values it stays while the variable is between x[0] and x[1], rounding aside, or

@@ -96,6 +96,8 @@ static Range apply_range(Operation operation, Range a, Range b)
     case STEP_ABS:
         return (Range){has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high)),
                        fmax(fabs(a.low), fabs(a.high))};
+    case STEP_ROUND:
+        return (Range){round(a.low), round(a.high)};
     case STEP_MIN:
         return (Range){fmin(a.low, b.low), fmin(a.high, b.high)};
     case STEP_MAX:

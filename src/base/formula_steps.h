@@ -14,6 +14,7 @@ enum { MANY = -1 };
     X(STEP_LOG, "log", 1)                                                                          \
     X(STEP_TANH, "tanh", 1)                                                                        \
     X(STEP_ABS, "abs", 1)                                                                          \
+    X(STEP_ROUND, "round", 1)                                                                      \
     X(STEP_MIN, "min", 2)                                                                          \
     X(STEP_MAX, "max", 2)                                                                          \
     X(STEP_POINTS, "points", MANY)

@@ -100,10 +100,10 @@ static const SceneKey keys[] = {
      .choices = interpolation_choices},
     {"friction.formula", KEY_TEXT, offsetof(Scene, own_friction.formula), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence =
-         "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
-         "log, tanh, abs, min, max, points, and mu_static, mu_kinetic, critical_velocity where "
-         "they are given."},
+     .sentence = "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
+                 "log, tanh, abs, round, min, max, points, and mu_static, mu_kinetic, "
+                 "critical_velocity where "
+                 "they are given."},
     {"friction.file", KEY_TEXT, offsetof(Scene, own_friction.file), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "Law `plugin`: a shared object with the functions of amontons_friction.h, "

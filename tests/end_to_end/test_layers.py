@@ -21,7 +21,7 @@ BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_optimise.h", "amontons_simulation.h", "amontons_stability.h")
 CAIRO = r"render/canvas/(canvas|drawing|text)\.[ch]"
 NEIGHBOURS = {"contact", "reduction"}
-STUDIES = ["study/stability", "study/line", "study/sweep", "study/optimise"]
+STUDIES = ["study/stability", "study/line", "study/sweep", "study/search"]
 # A room includes itself and the rows above it; rooms of a row do not know each other. What is in none includes all.
 ROOMS = {
     "io": ["files", "text hdf5 video cache", "mesh", "fields"],
@@ -76,7 +76,7 @@ def allowed(folder, include):
         return True
     target, *inner = include.split("/")[:-1]
     if target == layer == "study" and inner[:1] != folder.split("/")[1:2]:
-        return folder == "study/optimise" and inner[0] == "sweep"   # a search is sweeps; else one kind of study knows no other
+        return folder == "study/search" and inner[0] == "sweep"   # a search is sweeps; else one kind of study knows no other
     if {target, layer} == NEIGHBOURS:
         return False
     return target in LAYERS and LAYERS.index(target) <= LAYERS.index(layer)

@@ -101,6 +101,29 @@ best: {designs: 4}
         self.assertLess(min(found), 0.05)
         self.assertRegex(said, r"may be as good, within the bars of both|better than every other design, with the bars of both")
 
+    def test_designs_without_a_scene(self):
+        """mu_kinetic above mu_static is refused: such designs are passed over and counted. The base scene has no length, which a
+        formula of `set` takes from a searched key: there is no start, and a search."""
+        base = (SOURCE / "validation/paper/fig1.yaml").read_text()
+        scene = base.replace("../../meshes", f"{SOURCE}/meshes").replace("length: 1.0, ", "")
+        self.assertNotIn("length", scene)
+        (self.folder / "scene.yaml").write_text(scene)
+        text = HEAD.replace(f"{SOURCE}/validation/paper/fig1.yaml", "scene.yaml") + """search:
+  mesh.set.length: {linear: [1, 2]}
+  friction.mu_static: {linear: [0.2, 0.5]}
+  friction.mu_kinetic: {linear: [0.1, 0.4]}
+best: {designs: 8}
+"""
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        self.assertRegex(said, r"[1-9]\d* more have no scene, the first: .*mu_kinetic")
+        self.assertNotIn("scene as it is", said)
+        rows = self.table("out")
+        self.assertTrue(all(float(row["friction.mu_kinetic"]) <= float(row["friction.mu_static"]) for row in rows))
+        self.assertEqual({row["status"] for row in rows}, {"done"})
+        wrong = self.call("optimise", text.replace("time.until.U: 0.02", "time.until.U: -1"), "-o", "none", status=2).stderr
+        self.assertIn("time.until.U", wrong)
+        self.assertFalse((self.folder / "none").exists())
+
     def test_mistakes(self):
         for text, wanted in (
                 (SEARCH.replace("whole: [1, 4]", "whole: [1, 4.5]"), r"study.yaml:4:\d+: mesh.set.length: .*two whole numbers"),

@@ -106,14 +106,19 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Reports of an earlier sweep, also of points that the study no longer has.
 static bool open_reports(Sweep *sweep, Error *err)
 {
     char path[POINT_PATH_SIZE];
-    PointsByHash points = {0};
     if (!sweep->study.keep_table) return true;
     snprintf(path, sizeof path, "%s/reports", sweep->folder);
-    TRY(reports_open(&sweep->reports, path, sweep->options->fresh && !sweep->known, err));
+    return reports_open(&sweep->reports, path, sweep->options->fresh, err);
+}
+
+// Reports of an earlier sweep, also of points that the study no longer has, or not yet.
+static bool list_reports(Sweep *sweep, Error *err)
+{
+    PointsByHash points = {0};
+    if (!sweep->study.keep_table) return true;
     TRY(points_sort(sweep, &points, err));
     TRY(reports_list(&sweep->reports, points_note_place, &points, err));
     TRY(share_take_all(sweep, points_note_place, &points, err));
@@ -136,14 +141,15 @@ cleanup:
 }
 
 // ERROR_INPUT where no point at all has a baseline: the ranking would have no gains.
-static bool find_baselines(Sweep *sweep, PointMesh *mesh, Scene *scene, Error *err)
+static bool find_baselines(Sweep *sweep, Scene *scene, Error *err)
 {
     const Study *study = &sweep->study;
-    bool found = study->rank.against != AGAINST_KEYS;
-    PointsByHash sorted;
+    bool found = false;
+    PointsByHash sorted = {0};
+    if (study->rank.against != AGAINST_KEYS) return true;
     TRY(points_sort(sweep, &sorted, err));
     for (int32_t k = 0; k < study->point_count; k++) {
-        if (study->rank.against == AGAINST_KEYS) TRY(find_baseline(&sorted, k, mesh, scene, err));
+        TRY(find_baseline(&sorted, k, &sweep->mesh, scene, err));
         found = found || sweep->points[k].baseline >= 0;
     }
     if (!found)
@@ -154,39 +160,43 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Scenes and hashes of all points: what is wrong with any of them shows before the first is run.
+static bool plan_point(Sweep *sweep, int32_t k, Scene *scene, Error *err)
+{
+    TRY(point_scene(sweep, k, scene, err));
+    TRY(point_hash(scene, &sweep->mesh, sweep->points[k].hash, err));
+    TRY(block_counts_note(scene, &sweep->mesh, &sweep->blocks, err));
+    if (sweep->study.keep_table) TRY(check_table(sweep, scene, err));
+    if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
+             "`set: {accuracy.mu: 3%%}`",
+             sweep->study.path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Scenes and hashes of the points that the study has more than before: what is wrong with any of
+// them shows before the first is run.
 static bool plan_points(Sweep *sweep, Error *err)
 {
-    PointMesh mesh = {0};
-    BlockCounts counts = {0};
+    int32_t count = sweep->study.point_count;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
-    TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
-    TRY(block_counts_create(sweep->study.point_count, &counts, err));
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        SweepPoint *point = &sweep->points[k];
-        TRY(point_scene(sweep, k, scene, err));
-        TRY(point_hash(scene, &mesh, point->hash, err));
-        TRY(block_counts_note(scene, &mesh, &counts, err));
-        if (sweep->study.keep_table) TRY(check_table(sweep, scene, err));
-        if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
-            FAIL(err, ERROR_INPUT,
-                 "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
-                 "`set: {accuracy.mu: 3%%}`",
-                 sweep->study.path);
-    }
-    TRY(block_counts_set(&counts, sweep->points, err));
+    SweepPoint *points =
+        memory_resize(sweep->points, sweep->point_count, count, sizeof *points, err);
+    TRY(points);
+    sweep->points = points;
+    for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, scene, err));
+    TRY(block_counts_set(&sweep->blocks, sweep->points, err));
     TRY(points_find_same(sweep, err));
-    TRY(find_baselines(sweep, &mesh, scene, err));
+    TRY(find_baselines(sweep, scene, err));
+    sweep->point_count = sweep->planned = count;
 cleanup:
-    block_counts_destroy(&counts);
     memory_free(scene);
     return error_is_clean(err);
 }
 
-// The ranked table and the figures that the study asks for; those of a sweep that was stopped are
-// not drawn.
-static bool show_results(const Sweep *sweep, bool whole, Error *err)
+bool sweep_show(const Sweep *sweep, bool whole, Error *err)
 {
     SweepTable table = {0};
     Ranking ranking = {0};
@@ -195,9 +205,9 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
         TRY(ranking_make(sweep, &table, &ranking, err));
         TRY(ranking_write(sweep, &table, &ranking, err));
         if (whole) TRY(ranking_print(sweep, &table, &ranking, err));
-        if (whole && sweep->pictures) TRY(figure_of_ranking(sweep, &table, &ranking, err));
+        if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
-    for (int32_t k = 0; whole && sweep->pictures && k < sweep->study.plot_count; k++)
+    for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
         TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
     if (sweep->options->out && table.no_bar)
@@ -211,7 +221,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool compute_waiting(Sweep *sweep, Error *err)
+bool sweep_compute(Sweep *sweep, Error *err)
 {
     PoolDef pool = {.workers = sweep->options->jobs, .step = 1};
     bool whole = sweep->options->slurm ? slurm_run(sweep, err) : pool_run(sweep, &pool, err);
@@ -229,7 +239,7 @@ static bool decide_ranks(Sweep *sweep, Error *err)
         int32_t computed = sweep->computed;
         Error ended = {0};
         TRY(refine_begin(sweep, &before, &count, err));
-        compute_waiting(sweep, err);
+        sweep_compute(sweep, err);
         sweep->refined += sweep->computed - computed;
         if (!refine_end(sweep, before, &ended) && error_is_clean(err)) *err = ended;
         TRY(error_is_clean(err));
@@ -241,67 +251,77 @@ cleanup:
     return error_is_clean(err);
 }
 
-// cases: NULL: those of the study.
-static bool read_study(Sweep *sweep, const char *path, const char *cases, Error *err)
+// --- the whole ----------------------------------------------------------------------------------
+
+bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, Error *err)
 {
-    const SweepOptions *options = sweep->options;
-    Study *study = &sweep->study;
-    TRY(study_read(path, options->overrides, options->override_count, study, err));
-    bool searches = study->search.node != YAML_NO_NODE;
-    if (searches && !cases) {
-        yaml_key_error(study->file, study->search.node, err,
-                       "search: designs are chosen by `amontons optimise`, not by a sweep");
-        goto cleanup;
-    }
-    if (!cases) goto cleanup;
-    study->rank.refine = 0;
-    TRY(study_set_cases(study, cases, err));
+    Sweep *sweep = *opened = NEW_ARRAY(Sweep, 1, err);
+    TRY(sweep);
+    sweep->options = options;
+    sweep->lock = -1;
+    sweep->started = clock_seconds();
+    dense_use_one_thread();   // before forking
+    TRY(study_read(path, options->overrides, options->override_count, &sweep->study, err));
 cleanup:
     return error_is_clean(err);
 }
 
-bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
-                    Error *err)
+// The folder is made when the study has turned out to be right.
+bool sweep_plan(Sweep *sweep, Error *err)
 {
-    return sweep_cases(path, &(SweepCases){.pictures = true}, options, summary, err);
+    int32_t first = sweep->point_count;
+    TRY(plan_points(sweep, err));
+    if (sweep->lock < 0) {
+        TRY(take_folder(sweep, err));
+        TRY(slurm_end_leftovers(sweep, err));
+        TRY(open_reports(sweep, err));
+    }
+    TRY(list_reports(sweep, err));
+    TRY(sweep_take_finished(sweep, first, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sweep_add(Sweep *sweep, const char *designs, Error *err)
+{
+    return study_add_designs(&sweep->study, designs, err) && sweep_plan(sweep, err);
+}
+
+void sweep_close(Sweep *sweep)
+{
+    if (!sweep) return;
+    if (sweep->lock >= 0) close(sweep->lock);
+    reports_close(&sweep->reports);
+    block_counts_destroy(&sweep->blocks);
+    memory_free(sweep->points);
+    study_destroy(&sweep->study);
+    memory_free(sweep);
 }
 
 // A stopped sweep still leaves its table, with what is not done marked as pending.
-bool sweep_cases(const char *path, const SweepCases *cases, const SweepOptions *options,
-                 SweepSummary *summary, Error *err)
+bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
+                    Error *err)
 {
     *summary = (SweepSummary){0};
     Error stopped = {0};
-    Sweep *sweep = NEW_ARRAY(Sweep, 1, err);
-    TRY(sweep);
-    sweep->options = options;
-    sweep->pictures = cases->pictures;
-    sweep->known = cases->known;
-    sweep->lock = -1;
-    sweep->started = clock_seconds();
-    dense_use_one_thread();   // before forking
-    TRY(read_study(sweep, path, cases->text, err));
-    TRY(plan_points(sweep, err));
-    sweep->planned = sweep->study.point_count;
-    TRY(take_folder(sweep, err));
-    TRY(slurm_end_leftovers(sweep, err));
-    TRY(open_reports(sweep, err));
-    TRY(sweep_take_finished(sweep, err));
-    bool whole = compute_waiting(sweep, &stopped) && decide_ranks(sweep, &stopped);
+    Sweep *sweep = NULL;
+    TRY(sweep_open(path, options, &sweep, err));
+    if (sweep->study.search.node != YAML_NO_NODE) {
+        yaml_key_error(sweep->study.file, sweep->study.search.node, err,
+                       "search: designs are chosen by `amontons %s`, not by a sweep",
+                       sweep->study.search.fits ? "fit" : "optimise");
+        goto cleanup;
+    }
+    TRY(sweep_plan(sweep, err));
+    bool whole = sweep_compute(sweep, &stopped) && decide_ranks(sweep, &stopped);
     sweep_summarise(sweep, summary);
     if (!whole && stopped.code != ERROR_INTERRUPT) {
         *err = stopped;
         goto cleanup;
     }
-    TRY(show_results(sweep, whole, err));
+    TRY(sweep_show(sweep, whole, err));
     if (!whole) *err = stopped;
 cleanup:
-    if (sweep) {
-        if (sweep->lock >= 0) close(sweep->lock);
-        reports_close(&sweep->reports);
-        memory_free(sweep->points);
-        study_destroy(&sweep->study);
-    }
-    memory_free(sweep);
+    sweep_close(sweep);
     return error_is_clean(err);
 }

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A sweep whose cases the caller chooses. Called by study/optimise.
+// A sweep whose points come in rounds. Called by study/search; amontons_sweep is one of one round.
 #ifndef AMONTONS_STUDY_SWEEP_SWEEP_H
 #define AMONTONS_STUDY_SWEEP_SWEEP_H
 
-#include "amontons.h"
-#include "base/error.h"
+#include "study/sweep/computing/point.h"
 
-typedef struct SweepCases {
-    const char *text;   // a list of maps in YAML; NULL: those of the study
-    const bool
-        *known;   // points of a sweep before that `retry` and `fresh` leave as they are; NULL:
-        // there was none
-    bool pictures;   // are drawn at the end
-} SweepCases;
-
-// As amontons_sweep, of the study `path` with these cases. Points count through them, each with all
-// of `vary`. A ranking is written, and nothing computed again for it.
-bool sweep_cases(const char *path, const SweepCases *cases, const SweepOptions *options,
-                 SweepSummary *summary, Error *err);
+// Reads the study. options: used until sweep_close. Also of one half opened *sweep is the caller's
+// to close.
+bool sweep_open(const char *path, const SweepOptions *options, Sweep **sweep, Error *err);
+// Points that the study has more than before: what was finished earlier is found and reported.
+bool sweep_plan(Sweep *sweep, Error *err);
+// One more list of maps in YAML: each is a case, with all of `vary`. Its points follow those before.
+bool sweep_add(Sweep *sweep, const char *designs, Error *err);
+// ERROR_INTERRUPT: stopped; a point that failed is none.
+bool sweep_compute(Sweep *sweep, Error *err);
+// The ranked table, and the figures that the study asks for, where it was not stopped (`whole`).
+bool sweep_show(const Sweep *sweep, bool whole, Error *err);
+void sweep_close(Sweep *sweep);   // NULL is fine
 
 #endif

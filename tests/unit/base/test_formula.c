@@ -41,6 +41,7 @@ static void test_values(void **state)
                  {"exp(1) * log(2)", 2.718281828459045 * 0.6931471805599453},
                  {"tanh (0.5)", 0.46211715726000979},
                  {"abs(-3) + min(2, 1) * max(2, 1)", 5},
+                 {"round(2.4) + 10 * round(2.5) + 100 * round(-1.6)", -168},
                  {"min(4, 3, 1, 2) + 10 * max(4, 7, 1, 5)", 71},
                  {"points(1, 0, 5, 1, 5, 1, 3, 2, 4)", 5},   // a jump: the first value holds there
                  {"points(1.5, 0, 5, 1, 5, 1, 3, 2, 4) + points(0, 0, 1, 0, 2)", 4.5},
@@ -191,7 +192,8 @@ static void test_bounds(void **state)
                                            "exp(x * 300) / exp(x * 300)",
                                            "log(x)",
                                            "sqrt(x)",
-                                           "(-2) ^ 3 * x"};
+                                           "(-2) ^ 3 * x",
+                                           "round(x + 0.005) - x"};
     const FormulaNames names = {look_up_none, NULL, "x", "is unknown"};
     for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++) {
         Error err = {0};

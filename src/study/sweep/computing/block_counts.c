@@ -9,12 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool block_counts_create(int32_t points, BlockCounts *counts, Error *err)
-{
-    *counts = (BlockCounts){.blocks = NEW_ARRAY(Hash, points, err)};
-    return counts->blocks != NULL;
-}
-
 void block_counts_destroy(BlockCounts *counts)
 {
     memory_free(counts->blocks);
@@ -41,6 +35,9 @@ bool block_counts_note(const Scene *scene, const PointMesh *mesh, BlockCounts *c
     if (scene->load.traction_count > 0) hash_number(&hash, scene->load.pressure);
     hash_number(&hash, scene->time.accuracy);   // the reduction's, where it says none itself
     if (!scene_hash(scene, key_counts, &hash, err)) return false;
+    Hash *blocks = memory_grow(counts->blocks, counts->count, &counts->room, sizeof *blocks, err);
+    if (!blocks) return false;
+    counts->blocks = blocks;
     counts->blocks[counts->count++] = hash;
     return true;
 }

@@ -6,14 +6,7 @@
 
 #include "study/sweep/computing/point.h"
 
-// One for each point, in the study's order.
-typedef struct BlockCounts {
-    Hash *blocks;   // [point_count] what the basis of each point depends on; owned
-    int32_t count;   // noted so far
-} BlockCounts;
-
-bool block_counts_create(int32_t points, BlockCounts *counts, Error *err);
-void block_counts_destroy(BlockCounts *counts);
+void block_counts_destroy(BlockCounts *counts);   // zeroed is fine, here and below
 
 // The next point's scene; `mesh`: the hash of its file, as point_hash has left it.
 bool block_counts_note(const Scene *scene, const PointMesh *mesh, BlockCounts *counts, Error *err);

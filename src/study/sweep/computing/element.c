@@ -3,7 +3,7 @@
 // has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
-//      "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "runs": [2, 2],
+//      "design_count": 0, "designs": [], "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "runs": [2, 2],
 //      "hashes": ["97e1...", "62f1..."]}
 //
 // Element e computes points[e], with `keep: table` the share first + e. Its scene is made anew and
@@ -19,6 +19,7 @@
 #include "study/sweep/computing/share.h"
 #include "study/sweep/reading/study_point.h"
 #include "study/sweep/reading/study_read.h"
+#include "study/sweep/reading/study_vary.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -46,6 +47,11 @@ bool elements_write(const Sweep *sweep, const char *path, const int32_t *points,
     json_begin_list(json, "set");
     for (int32_t k = 0; k < options->override_count; k++)
         json_text(json, NULL, options->overrides[k]);
+    json_end(json);
+    json_integer(json, "design_count", sweep->study.design_count);
+    json_begin_list(json, "designs");
+    for (int32_t k = 0; k < sweep->study.design_count; k++)
+        json_text(json, NULL, sweep->study.designs[k]);
     json_end(json);
     json_integer(json, "first", first);
     points += first;
@@ -103,6 +109,28 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Cases that a search has added to the study, one text for each round.
+static bool read_designs(const char *text, Study *study, Error *err)
+{
+    double count = 0;
+    json_find_number(text, "design_count", &count);
+    for (int32_t k = 0; k < (int32_t)count; k++) {
+        char path[40], *design = NULL;
+        int32_t size = 0;
+        snprintf(path, sizeof path, "designs.%d", k);
+        bool found = json_find_raw(text, path, &size) != NULL;
+        if (found) design = memory_array((int64_t)size + 1, 1, err);
+        found = design && json_find_text(text, path, design, size + 1) &&
+                study_add_designs(study, design, err);
+        memory_free(design);
+        if (!found && error_is_clean(err))
+            FAIL(err, ERROR_INPUT, "the list of elements lacks design %d", k);
+        TRY(error_is_clean(err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // The sweep as far as an element needs it.
 static bool read_sweep(const char *text, Sweep *sweep, Error *err)
 {
@@ -117,6 +145,7 @@ static bool read_sweep(const char *text, Sweep *sweep, Error *err)
     if (chdir(directory) != 0)
         FAIL(err, ERROR_FILE, "cannot go to %s: %s", directory, strerror(errno));
     TRY(study_read(study, settings->list, settings->count, &sweep->study, err));
+    TRY(read_designs(text, &sweep->study, err));
 cleanup:
     memory_free(settings);
     return error_is_clean(err);

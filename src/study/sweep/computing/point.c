@@ -12,6 +12,7 @@
 #include "study/sweep/reading/study_point.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -144,6 +145,22 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
     point_report_path(sweep, point, path);
     if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
     return bytes;
+}
+
+PointValue point_value(const char *report, const char *path)
+{
+    PointValue found = {NAN, NAN, NAN};
+    char beside[STUDY_NAME_SIZE + 16];
+    double error = NAN;
+    if (!report) return found;
+    json_find_number(report, path, &found.value);
+    snprintf(beside, sizeof beside, "%s_error", path);
+    json_find_number(report, beside, &error);
+    snprintf(beside, sizeof beside, "%s_known_to", path);
+    if (!json_find_number(report, beside, &found.known_to))
+        found.known_to = isnan(error) ? 0 : error;
+    if (error == found.known_to) found.bar = error;
+    return found;
 }
 
 // An interrupted run is not finished, though it left a run.json.

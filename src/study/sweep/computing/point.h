@@ -36,6 +36,18 @@ typedef struct SweepPoint {
     double seconds;   // in this sweep
 } SweepPoint;
 
+// The mesh file hashed last: one shared by all points is read once. Begins zeroed.
+typedef struct PointMesh {
+    Hash hash;
+    char path[SCENE_TEXT_SIZE];
+} PointMesh;
+
+// What the basis of each point depends on, in the study's order (block_counts).
+typedef struct BlockCounts {
+    Hash *blocks;   // [room] owned
+    int32_t count, room;   // noted so far
+} BlockCounts;
+
 typedef struct Sweep {
     const SweepOptions *options;   // not owned
     Study study;   // owned
@@ -43,22 +55,18 @@ typedef struct Sweep {
     Reports reports;   // open: `keep: table`
     int lock;   // file descriptor; -1: none
     SweepPoint *points;   // [study.point_count]; owned
+    int32_t point_count;   // points so far: a search adds some in each round
+    PointMesh mesh;
+    BlockCounts blocks;   // owned
     double started;   // wall clock, s
-    bool pictures;   // are drawn at the end
-    const bool *known;   // [point_count] found or computed by a sweep before, which `retry` and
-        // `fresh` leave as they are; not owned; NULL: there was none
     bool checked;   // what the study records is in run.json
-    int32_t planned;   // points to compute or to find: all, and those computed again
+    int32_t planned;   // points to compute or to find: all, and those computed again; of a search
+        // those so far
     int32_t computed, failed, finished;
     int32_t refined;   // of those computed: again, for their rank
 } Sweep;
 
 enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
-// The mesh file hashed last: one shared by all points is read once. Begins zeroed.
-typedef struct PointMesh {
-    Hash hash;
-    char path[SCENE_TEXT_SIZE];
-} PointMesh;
 
 // The scene of a point as it is to be computed: the study's, with the point's accuracy and runs.
 bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
@@ -83,6 +91,12 @@ void points_note_place(void *points, const char *hash, ReportPlace place);
 bool points_find_same(Sweep *sweep, Error *err);
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
+// The number at `path` in a run.json, and its error: `bar` with the mesh's part, `known_to` with what
+// a mesh usually leaves where that is not known. NaN: none, also where `report` is NULL.
+typedef struct PointValue {
+    double value, bar, known_to;
+} PointValue;
+PointValue point_value(const char *report, const char *path);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
 void point_remove(Sweep *sweep, int32_t point, bool anew);

@@ -13,18 +13,11 @@
 static void read_quantity(const Study *study, const char *report, SweepView *view)
 {
     const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
-    const char *path = ranked ? ranked->path : "results.mu_M";
-    char beside[STUDY_NAME_SIZE + 16];
-    double error = NAN;
+    PointValue found = point_value(report, ranked ? ranked->path : "results.mu_M");
     view->quantity = ranked ? ranked->name : "mu_M";
-    if (!report) return;
-    json_find_number(report, path, &view->value);
-    snprintf(beside, sizeof beside, "%s_error", path);
-    json_find_number(report, beside, &error);
-    snprintf(beside, sizeof beside, "%s_known_to", path);
-    if (!json_find_number(report, beside, &view->known_to))
-        view->known_to = isnan(error) ? 0 : error;
-    if (error == view->known_to) view->bar = error;
+    view->value = found.value;
+    view->bar = found.bar;
+    view->known_to = found.known_to;
 }
 
 // Reports to the caller that point `k` has ended and left `report` (NULL: none).
@@ -81,24 +74,22 @@ static bool check_records(Sweep *sweep, int32_t point, const char *report, Error
 }
 
 // Points finished by an earlier sweep.
-bool sweep_take_finished(Sweep *sweep, Error *err)
+bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
 {
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+    for (int32_t k = first; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         if (point->same_as < k) continue;
         char *report = point_report(sweep, k, err);
         TRY(error_is_clean(err));
         point->status = point_status(report);
-        bool again = !sweep->known || !sweep->known[k];
-        if (again &&
-            (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED)))
+        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
             point->status = POINT_PENDING;
         point->reused = point->status != POINT_PENDING;
         if (point->reused) {
             report_point(sweep, k, report);
             check_records(sweep, k, report, err);
         } else {
-            point_remove(sweep, k, again && sweep->options->fresh);
+            point_remove(sweep, k, sweep->options->fresh);
         }
         memory_free(report);
         TRY(error_is_clean(err));

@@ -6,8 +6,9 @@
 
 #include "study/sweep/computing/point.h"
 
-// Points that an earlier sweep finished: computed again only where the options say so.
-bool sweep_take_finished(Sweep *sweep, Error *err);
+// Points from `first` on that an earlier sweep finished: computed again only where the options say
+// so.
+bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err);
 bool sweep_is_waiting(const Sweep *sweep, int32_t point);   // to be computed, by itself
 // ERROR_INTERRUPT once options->stop is set.
 bool sweep_check_stop(const Sweep *sweep, Error *err);

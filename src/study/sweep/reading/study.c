@@ -48,13 +48,12 @@ bool study_is_chosen(const Study *study, const char *key)
 {
     for (int32_t k = 0; k < study->axis_count; k++)
         if (sets(study->axes[k].key, key)) return true;
-    if (study->cases == YAML_NO_NODE) return false;
-    const YamlDocument *document = study->case_document;
-    for (YamlNode one = yaml_first(document, study->cases); one != YAML_NO_NODE;
-         one = yaml_next(document, one))
-        for (YamlNode item = yaml_first(document, one); item != YAML_NO_NODE;
+    for (int32_t k = 0; study->case_list && k < study->case_count; k++) {
+        const YamlDocument *document = study->case_list[k].document;
+        for (YamlNode item = yaml_first(document, study->case_list[k].map); item != YAML_NO_NODE;
              item = yaml_next(document, item))
             if (sets(yaml_key(document, item), key)) return true;
+    }
     return false;
 }
 
@@ -74,6 +73,12 @@ void study_destroy(Study *study)
 {
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
     for (int32_t k = 0; k < STUDY_AXES_MAX; k++) memory_free(study->axes[k].values);
+    for (int32_t k = 0; k < study->design_count; k++) {
+        memory_free(study->designs[k]);
+        yaml_destroy(study->design_files[k]);
+    }
+    memory_free(study->designs);
+    memory_free(study->design_files);
     memory_free(study->case_list);
     yaml_destroy(study->file);
     scene_source_close(study->source);

@@ -14,12 +14,16 @@
 //     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
 //
-// One that searches (study/optimise) has `search`, and `where` and `best` where they are wanted, in
+// One that searches (study/search) has `search`, and `where` and `best` where they are wanted, in
 // place of `cases`: designs, each computed at all points of `vary`.
 //
 //     search: {mesh.set.n: {whole: [1, 12]}, mesh.set.pad_height: {log: [0.01, 0.2]}}
 //     where: [{value: = mesh.set.n * mesh.set.pad_height, most: 0.6}]
 //     best: {over: worst, designs: 40, seed: 1}
+//
+// Or it fits measurements (study/search/fit):
+//
+//     fit: {measured: measured.csv, sure: 95%, designs: 40, seed: 1}
 //
 // A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
@@ -57,6 +61,11 @@ typedef struct StudyRecord {
     YamlNode node;   // where the study names it; YAML_NO_NODE: nowhere
     bool is_shown;   // ranked by or drawn
 } StudyRecord;
+
+typedef struct StudyCase {
+    const YamlDocument *document;   // not owned
+    YamlNode map;   // of the scene's keys
+} StudyCase;
 
 typedef struct StudyAxis {
     char key[STUDY_NAME_SIZE];
@@ -100,6 +109,9 @@ typedef struct StudySearch {
     bool mean;   // over the points of `vary`; else the worst of them counts
     int32_t designs;   // that are chosen by the search
     uint32_t seed;
+    bool fits;   // measurements: it has `fit`, not `best`
+    YamlNode measured;   // of `fit`: a path, or a list of them
+    double sure;   // of its regions: 0.95
 } StudySearch;
 
 typedef struct Study {
@@ -114,9 +126,13 @@ typedef struct Study {
     char override_keys[STUDY_SETTINGS_MAX][STUDY_NAME_SIZE];
     int32_t override_count;
     YamlNode set, cases;   // YAML_NO_NODE: none
-    const YamlDocument *case_document;   // of `cases`; not owned: the study's, or one of `made`
     int32_t case_count;   // at least 1
-    YamlNode *case_list;   // [case_count] of `cases`; NULL: none; owned
+    StudyCase *case_list;   // [case_count] NULL: none; owned
+    int32_t case_room;
+    char *
+        *designs;   // [design_count] of a search: texts of its cases, in the order they came; owned
+    YamlDocument **design_files;   // [design_count] what they say; owned
+    int32_t design_count, design_room, design_file_room;
     int32_t axis_count;
     StudyAxis axes[STUDY_AXES_MAX];
     int32_t column_count;   // scene keys that vary, in the order of the file

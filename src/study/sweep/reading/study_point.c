@@ -83,13 +83,18 @@ static void drop_replaced(const Study *study, PointSettings *settings)
     settings->formula_count = kept;
 }
 
-// changes: a map of the study's file that replaces what varies; YAML_NO_NODE: none.
-// Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`. Point p
-// counts through the axes with the last one fastest.
-static bool gather(const Study *study, int32_t point, YamlNode changes, PointSettings *settings,
+// What one scene differs by from the study's others.
+typedef struct PointChoice {
+    int32_t point;   // counts through cases, then the axes, the last one fastest
+    const StudyCase *in_place;   // of the case of `point`; NULL: none
+    YamlNode changes;   // a map of the study's file that replaces what varies; YAML_NO_NODE: none
+} PointChoice;
+
+// Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`.
+static bool gather(const Study *study, const PointChoice *choice, PointSettings *settings,
                    Error *err)
 {
-    int32_t index[STUDY_AXES_MAX];
+    int32_t index[STUDY_AXES_MAX], point = choice->point;
     for (int32_t k = study->axis_count - 1; k >= 0; k--) {
         index[k] = point % study->axes[k].count;
         point /= study->axes[k].count;
@@ -99,15 +104,17 @@ static bool gather(const Study *study, int32_t point, YamlNode changes, PointSet
     drop_replaced(study, settings);
     for (int32_t k = 0; k < study->override_count; k++)
         TRY(add(settings, &study->overrides[k], err));
-    if (study->case_list)
-        TRY(add_map(settings, study->case_document, study->case_list[point], err));
+    const StudyCase *one = choice->in_place   ? choice->in_place
+                           : study->case_list ? &study->case_list[point]
+                                              : NULL;
+    if (one) TRY(add_map(settings, one->document, one->map, err));
     for (int32_t k = 0; k < study->axis_count; k++) {
         const StudyAxis *axis = &study->axes[k];
         SceneSetting setting = {
             .key = axis->key, .document = axis->document, .node = axis->values[index[k]]};
         TRY(add(settings, &setting, err));
     }
-    TRY(add_map(settings, study->file, changes, err));
+    TRY(add_map(settings, study->file, choice->changes, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -131,12 +138,11 @@ cleanup:
 }
 
 // The scene is made anew after each formula: the next one may use its value.
-static bool make_scene(const Study *study, int32_t point, YamlNode changes, Scene *scene,
-                       Error *err)
+static bool make_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err)
 {
     PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
     TRY(settings);
-    TRY(gather(study, point, changes, settings, err));
+    TRY(gather(study, choice, settings, err));
     TRY(scene_source_begin(study->source, settings->list, settings->count, scene, err));
     for (int32_t k = 0; k < settings->formula_count; k++)
         TRY(work_out(study, settings, k, scene, err));
@@ -149,10 +155,16 @@ cleanup:
 
 bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err)
 {
-    return make_scene(study, point, YAML_NO_NODE, scene, err);
+    return make_scene(study, &(PointChoice){point, NULL, YAML_NO_NODE}, scene, err);
+}
+
+bool study_trial_scene(const Study *study, const StudyCase *trial, int32_t condition, Scene *scene,
+                       Error *err)
+{
+    return make_scene(study, &(PointChoice){condition, trial, YAML_NO_NODE}, scene, err);
 }
 
 bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err)
 {
-    return make_scene(study, point, study->rank.baseline, scene, err);
+    return make_scene(study, &(PointChoice){point, NULL, study->rank.baseline}, scene, err);
 }

@@ -7,6 +7,9 @@
 
 // The scene of `point`, 0 to point_count - 1: cases outermost, then the keys of `vary` in order.
 bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err);
+// The scene of a case that the study does not have, at the point `condition` of `vary`.
+bool study_trial_scene(const Study *study, const StudyCase *trial, int32_t condition, Scene *scene,
+                       Error *err);
 // The scene that is measured against: `point` with the keys of rank.baseline.
 bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err);
 

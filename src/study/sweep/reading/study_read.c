@@ -14,8 +14,9 @@
 // A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)
 {
-    static const char *const known[] = {"title", "scene", "set",    "cases", "vary", "record",
-                                        "keep",  "rank",  "search", "where", "best", "plot"};
+    static const char *const known[] = {"title",  "scene", "set",  "cases",  "vary",
+                                        "record", "keep",  "rank", "search", "where",
+                                        "best",   "fit",   "plot"};
     enum { COUNT = sizeof known / sizeof known[0] };
     for (YamlNode item = yaml_first(study->file, YAML_ROOT); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
@@ -31,7 +32,7 @@ static bool check_keys(const Study *study, Error *err)
         else
             yaml_key_error(study->file, item, err,
                            "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record, keep, rank, plot, search, where, best",
+                           "vary, record, keep, rank, plot, search, where, best, fit",
                            key);
         return false;
     }

@@ -94,32 +94,66 @@ static bool read_whole(const Study *study, const WantedKey *key, int32_t most, d
     return yaml_refuse(study->file, key->node, key->name, allowed, err);
 }
 
-static bool read_best(Study *study, Error *err)
+static bool read_sure(const Study *study, const WantedKey *key, double *sure, Error *err)
+{
+    static const char *const shares[] = {"95%", "68%", "90%", "99%"};
+    static const double values[] = {0.95, 0.68, 0.90, 0.99};
+    int32_t choice = 0;
+    TRY(wanted_choice(study->file, key, shares, 4, &choice, err));
+    *sure = values[choice];
+cleanup:
+    return error_is_clean(err);
+}
+
+// `best`, or `fit`, which has `measured` and `sure` in place of `over`.
+static bool read_goal(Study *study, Error *err)
 {
     static const char *const over[] = {"worst", "mean"};
-    WantedKey keys[] = {{.name = "over"}, {.name = "designs"}, {.name = "seed"}};
     StudySearch *search = &study->search;
+    WantedKey keys[] = {{.name = "designs"}, {.name = "seed"}, {.name = "over"}, {.name = "sure"}};
+    YamlNode goal = yaml_look_up(study->file, search->fits ? "fit" : "best");
     double designs = DESIGNS_FEWEST + DESIGNS_A_KEY * search->key_count, seed = 1;
-    YamlNode best = yaml_look_up(study->file, "best");
     int32_t choice = 0;
-    if (best != YAML_NO_NODE) {
-        TRY(wanted_find(study->file, best, "best", keys, 3, err));
-        TRY(wanted_choice(study->file, &keys[0], over, 2, &choice, err));
-        TRY(read_whole(study, &keys[1], STUDY_DESIGNS_MAX, &designs, err));
-        TRY(read_whole(study, &keys[2], INT32_MAX, &seed, err));
+    if (search->fits) keys[2].name = "measured";
+    if (goal != YAML_NO_NODE) {
+        TRY(wanted_find(study->file, goal, search->fits ? "fit" : "best", keys,
+                        search->fits ? 4 : 3, err));
+        TRY(read_whole(study, &keys[0], STUDY_DESIGNS_MAX, &designs, err));
+        TRY(read_whole(study, &keys[1], INT32_MAX, &seed, err));
+        if (!search->fits) TRY(wanted_choice(study->file, &keys[2], over, 2, &choice, err));
     }
     search->mean = choice == 1;
     search->designs = (int32_t)designs;
     search->seed = (uint32_t)seed;
+    if (!search->fits) goto cleanup;
+    search->measured = keys[2].node;
+    TRY(read_sure(study, &keys[3], &search->sure, err));
+    if (search->measured == YAML_NO_NODE)
+        yaml_error(study->file, goal, err,
+                   "fit: `measured` must be given: a table, as in {measured: measured.csv}");
 cleanup:
+    return error_is_clean(err);
+}
+
+// A study has one aim.
+static bool check_goal(Study *study, Error *err)
+{
+    YamlNode fit = yaml_look_up(study->file, "fit"), best = yaml_look_up(study->file, "best");
+    study->search.fits = fit != YAML_NO_NODE;
+    if (!study->search.fits) return true;
+    if (best != YAML_NO_NODE)
+        yaml_key_error(study->file, best, err, "best: not in a study with `fit`");
+    else if (study->axis_count > 0)
+        yaml_error(study->file, yaml_look_up(study->file, "vary"), err,
+                   "vary: in a study with `fit` conditions are columns of what was measured");
     return error_is_clean(err);
 }
 
 // What only a search has is refused where there is none.
 static bool refuse_rest(const Study *study, Error *err)
 {
-    static const char *const rest[] = {"where", "best"};
-    for (int32_t k = 0; k < 2; k++) {
+    static const char *const rest[] = {"where", "best", "fit"};
+    for (int32_t k = 0; k < 3; k++) {
         YamlNode node = yaml_look_up(study->file, rest[k]);
         if (node == YAML_NO_NODE) continue;
         yaml_key_error(study->file, node, err, "%s: only of a study with `search`", rest[k]);
@@ -146,7 +180,8 @@ bool study_read_search(Study *study, Error *err)
          item = yaml_next(study->file, item))
         TRY(read_key(study, item, err));
     TRY(read_where(study, err));
-    TRY(read_best(study, err));
+    TRY(check_goal(study, err));
+    TRY(read_goal(study, err));
 cleanup:
     return error_is_clean(err);
 }

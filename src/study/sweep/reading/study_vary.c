@@ -69,26 +69,33 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool add_case(Study *study, const YamlDocument *document, YamlNode map, Error *err)
+{
+    int32_t count = study->case_list ? study->case_count : 0;   // without cases there is one point
+    StudyCase *list = memory_grow(study->case_list, count, &study->case_room, sizeof *list, err);
+    TRY(list);
+    study->case_list = list;
+    study->case_list[count] = (StudyCase){document, map};
+    study->case_count = count + 1;
+    for (YamlNode item = yaml_first(document, map); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        TRY(study_check_key(document, item, err));
+        TRY(add_columns(study, yaml_key(document, item), document, item, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // Every key of any case is a column; a case without it has the base scene's value there.
 static bool read_cases(Study *study, const YamlDocument *document, YamlNode cases, Error *err)
 {
-    study->case_count = 1;
-    study->case_document = document;
-    study->cases = cases;
-    if (cases == YAML_NO_NODE) return true;
-    study->case_count = yaml_count(document, cases);
-    if (yaml_kind(document, cases) != YAML_LIST || study->case_count == 0)
+    if (yaml_kind(document, cases) != YAML_LIST || yaml_count(document, cases) == 0)
         return yaml_refuse(document, cases, "cases", "a list of maps of the scene's keys", err);
-    TRY(study_list(document, cases, &study->case_list, err));
     for (YamlNode one = yaml_first(document, cases); one != YAML_NO_NODE;
          one = yaml_next(document, one)) {
         if (yaml_kind(document, one) != YAML_MAP)
             return yaml_refuse(document, one, "cases", "a map of the scene's keys", err);
-        for (YamlNode item = yaml_first(document, one); item != YAML_NO_NODE;
-             item = yaml_next(document, item)) {
-            TRY(study_check_key(document, item, err));
-            TRY(add_columns(study, yaml_key(document, item), document, item, err));
-        }
+        TRY(add_case(study, document, one, err));
     }
 cleanup:
     return error_is_clean(err);
@@ -322,7 +329,9 @@ bool study_read_vary(Study *study, const char *const *overrides, int32_t overrid
     if (override_count > STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1)
         FAIL(err, ERROR_INPUT, "more than %d settings by --set",
              STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1);
-    TRY(read_cases(study, study->file, yaml_look_up(study->file, "cases"), err));
+    study->case_count = 1;
+    study->cases = yaml_look_up(study->file, "cases");
+    if (study->cases != YAML_NO_NODE) TRY(read_cases(study, study->file, study->cases, err));
     TRY(read_vary(study, err));
     for (int32_t k = 0; k < override_count; k++) TRY(read_override(study, overrides[k], err));
     TRY(read_set(study, err));
@@ -332,16 +341,20 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool study_set_cases(Study *study, const char *text, Error *err)
+bool study_add_designs(Study *study, const char *text, Error *err)
 {
-    memory_free(study->case_list);
-    study->case_list = NULL;
-    if (study->case_document != study->file) yaml_destroy(study->made[--study->made_count]);
-    study->case_document = study->file;
-    YamlDocument **document = &study->made[study->made_count];
-    TRY(yaml_parse("designs of the search", text, 0, document, err));
-    study->made_count++;
-    TRY(read_cases(study, *document, YAML_ROOT, err));
+    int32_t count = study->design_count;
+    char **texts = memory_grow(study->designs, count, &study->design_room, sizeof *texts, err);
+    TRY(texts);
+    study->designs = texts;
+    YamlDocument **files =
+        memory_grow(study->design_files, count, &study->design_file_room, sizeof *files, err);
+    TRY(files);
+    study->design_files = files;
+    TRY((texts[count] = memory_text(text, err)));
+    study->design_count++;   // half of it is freed as well
+    TRY(yaml_parse("designs of the search", text, 0, &files[count], err));
+    TRY(read_cases(study, files[count], YAML_ROOT, err));
     TRY(count_points(study, err));
 cleanup:
     return error_is_clean(err);

@@ -9,8 +9,8 @@
 // Fills columns, cases, axes, overrides, `set` and point_count. overrides: [override_count].
 bool study_read_vary(Study *study, const char *const *overrides, int32_t override_count,
                      Error *err);
-// Replaces `cases` by the list of maps in `text`.
-bool study_set_cases(Study *study, const char *text, Error *err);
+// Of a study that searches: one more list of maps, in `text`, which becomes further cases.
+bool study_add_designs(Study *study, const char *text, Error *err);
 // A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
 bool study_check_key(const YamlDocument *document, YamlNode item, Error *err);
 

@@ -108,6 +108,13 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
     return false;
 }
 
+const char *study_record_path(const char *name)
+{
+    for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++)
+        if (strcmp(name, KNOWN_RECORDS[k].name) == 0) return KNOWN_RECORDS[k].path;
+    return strncmp(name, "results.", 8) == 0 ? name : NULL;
+}
+
 static bool read_record(Study *study, YamlNode node, const char *what, int32_t *column, Error *err)
 {
     WantedName wanted = {yaml_text(study->file, node), what, node};

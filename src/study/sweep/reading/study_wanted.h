@@ -7,5 +7,8 @@
 #include "study/sweep/reading/study.h"
 
 bool study_read_wanted(Study *study, Error *err);
+// The path in run.json of what `record` calls `name`; NULL: no name of its list, nor a path of
+// results.
+const char *study_record_path(const char *name);
 
 #endif

@@ -12,12 +12,11 @@ enum { POINTS = 12 };
 static void count(const char *const *words, int32_t points, int32_t *runs)
 {
     Error err = {0};
-    BlockCounts counts;
+    BlockCounts counts = {0};
     PointMesh mesh = {0};
     SweepPoint list[POINTS] = {0};
     char path[1000];
     snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
-    assert_true(block_counts_create(points, &counts, &err));
     for (int32_t k = 0; k < points; k++) {
         Scene *scene = NULL;
         if (!amontons_scene_read(path, &words[k], 1, &scene, &err)) fail_msg("%s", err.message);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/optimise/designs.h"
+#include "study/search/designs.h"
 
 #include "base/memory.h"
 
@@ -10,14 +10,16 @@
 
 enum { NUMBER_SIZE = 32 };
 
-bool designs_create(const Study *study, Designs *designs, Error *err)
+bool designs_create(const Study *study, int32_t conditions, char *const *texts, Designs *designs,
+                    Error *err)
 {
-    *designs = (Designs){.study = study, .conditions = 1};
+    *designs = (Designs){.study = study,
+                         .lowest = study->rank.lowest || study->search.fits,
+                         .conditions = conditions > 0 ? conditions : 1,
+                         .texts = texts};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
-    int64_t points = (int64_t)DESIGNS_MAX * designs->conditions;
-    TRY(designs->points = NEW_ARRAY(DesignPoint, points, err));
-    TRY(designs->known = NEW_ARRAY(bool, points, err));
+    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->conditions, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -26,13 +28,17 @@ void designs_destroy(Designs *designs)
 {
     memory_free(designs->list);
     memory_free(designs->points);
-    memory_free(designs->known);
     *designs = (Designs){0};
 }
 
-static void number_text(const SearchKey *key, double value, char text[NUMBER_SIZE])
+static void number_text(const Study *study, int32_t k, double value, char text[NUMBER_SIZE])
 {
-    snprintf(text, NUMBER_SIZE, key->scale == SEARCH_WHOLE ? "%.0f" : "%.3g", value);
+    bool whole = study->search.keys[k].scale == SEARCH_WHOLE;
+    int digits = study->search.fits ? 5 : 3;
+    if (whole)
+        snprintf(text, NUMBER_SIZE, "%.0f", value);
+    else
+        snprintf(text, NUMBER_SIZE, "%.*g", digits, value);
 }
 
 // So that a value can be quoted; an end of the range is met exactly.
@@ -41,7 +47,7 @@ void designs_round(const Study *study, double *x)
     for (int32_t k = 0; k < study->search.key_count; k++) {
         const SearchKey *key = &study->search.keys[k];
         char text[NUMBER_SIZE];
-        number_text(key, x[k], text);
+        number_text(study, k, x[k], text);
         x[k] = fmin(fmax(strtod(text, NULL), key->least), key->most);
     }
 }
@@ -49,7 +55,7 @@ void designs_round(const Study *study, double *x)
 int32_t designs_add(Designs *designs, const double *x, int32_t choice)
 {
     Design *design = &designs->list[designs->count];
-    *design = (Design){.choice = choice, .value = NAN, .bar = NAN};
+    *design = (Design){.choice = choice, .point = -1, .value = NAN, .bar = NAN};
     memcpy(design->x, x, (size_t)designs->study->search.key_count * sizeof *x);
     return designs->count++;
 }
@@ -65,27 +71,36 @@ int32_t designs_find(const Designs *designs, const double *x)
     return -1;
 }
 
+// "mesh.set.n: 4, rod.height: 0.2"
+static void write_design(const Study *study, const Design *design, FILE *out)
+{
+    for (int32_t k = 0; k < study->search.key_count; k++) {
+        char number[NUMBER_SIZE];
+        number_text(study, k, design->x[k], number);
+        fprintf(out, "%s%s: %s", k ? ", " : "", study->search.keys[k].key, number);
+    }
+    if (design->accuracy > 0) fprintf(out, ", accuracy.mu: %.2g", design->accuracy);
+}
+
 char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err)
 {
-    const StudySearch *search = &designs->study->search;
-    int64_t size = (int64_t)count * (search->key_count + 1) * (STUDY_NAME_SIZE + NUMBER_SIZE) + 8;
-    char *text = NEW_ARRAY(char, size, err), number[NUMBER_SIZE];
-    if (!text) return NULL;
-    int64_t used = snprintf(text, (size_t)size, "[");
-    for (int32_t d = 0; d < count; d++) {
-        used += snprintf(text + used, (size_t)(size - used), "%s{", d ? ", " : "");
-        for (int32_t k = 0; k < search->key_count; k++) {
-            number_text(&search->keys[k], list[d].x[k], number);
-            used += snprintf(text + used, (size_t)(size - used), "%s%s: %s", k ? ", " : "",
-                             search->keys[k].key, number);
-        }
-        if (list[d].accuracy > 0)
-            used += snprintf(text + used, (size_t)(size - used), ", accuracy.mu: %.2g",
-                             list[d].accuracy);
-        used += snprintf(text + used, (size_t)(size - used), "}");
+    int32_t cases = designs->texts ? designs->conditions : 1;
+    char *text = NULL, *owned = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) FAIL(err, ERROR_MEMORY, "no memory for designs");
+    for (int32_t k = 0; k < count * cases; k++) {
+        fprintf(out, "%s{", k ? ", " : "[");
+        write_design(designs->study, &list[k / cases], out);
+        if (designs->texts) fprintf(out, ", %s", designs->texts[k % cases]);
+        fprintf(out, "}");
     }
-    snprintf(text + used, (size_t)(size - used), "]");
-    return text;
+    fprintf(out, "]");
+    if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for designs");
+    owned = memory_text(text, err);
+cleanup:
+    free(text);
+    return owned;
 }
 
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE])
@@ -94,7 +109,7 @@ void design_words(const Study *study, const Design *design, char words[OPTIMISE_
     words[0] = 0;
     for (int32_t k = 0; k < study->search.key_count; k++) {
         char number[NUMBER_SIZE];
-        number_text(&study->search.keys[k], design->x[k], number);
+        number_text(study, k, design->x[k], number);
         int length = snprintf(words + used, OPTIMISE_WORDS_SIZE - used, "%s%s=%s", k ? " " : "",
                               study->search.keys[k].key, number);
         if (length < 0 || (size_t)length >= OPTIMISE_WORDS_SIZE - used) break;
@@ -105,13 +120,13 @@ void design_words(const Study *study, const Design *design, char words[OPTIMISE_
 bool design_is_better(const Designs *designs, const Design *a, const Design *b)
 {
     if (isnan(a->value) || isnan(b->value)) return !isnan(a->value);
-    return designs->study->rank.lowest ? a->value < b->value : a->value > b->value;
+    return designs->lowest ? a->value < b->value : a->value > b->value;
 }
 
 // Of the worst: the interval in which the worst of all may be, with the bars of each.
 static void judge_worst(const Designs *designs, const DesignPoint *points, Design *design)
 {
-    double sign = designs->study->rank.lowest ? -1 : 1, low = INFINITY, high = INFINITY;
+    double sign = designs->lowest ? -1 : 1, low = INFINITY, high = INFINITY;
     double worst = INFINITY;
     for (int32_t c = 0; c < designs->conditions; c++) {
         double value = sign * points[c].value;
@@ -134,23 +149,22 @@ static void judge_mean(const Designs *designs, const DesignPoint *points, Design
     design->bar = sqrt(square) / designs->conditions;
 }
 
-int64_t designs_point(const Designs *designs, int32_t design)
+DesignPoint *designs_points(const Designs *designs, int32_t design)
 {
-    return (int64_t)design * designs->conditions;
+    return &designs->points[(int64_t)design * designs->conditions];
 }
 
 void designs_judge(Designs *designs, int32_t d)
 {
     Design *design = &designs->list[d];
-    const DesignPoint *points = &designs->points[designs_point(designs, d)];
-    const bool *known = &designs->known[designs_point(designs, d)];
+    const DesignPoint *points = designs_points(designs, d);
     design->value = design->bar = NAN;
     design->deciding = 0;
     design->has_bar = true;
     for (int32_t c = 0; c < designs->conditions; c++)
         design->has_bar = design->has_bar && points[c].has_bar;
     for (int32_t c = 0; c < designs->conditions; c++)
-        if (!known[c] || isnan(points[c].value)) return;
+        if (isnan(points[c].value)) return;
     (designs->study->search.mean ? judge_mean : judge_worst)(designs, points, design);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a design comes to from its points, by hand; and how designs are written and found.
-#include "study/optimise/designs.h"
+#include "study/search/designs.h"
 
 #include "base/memory.h"
 #include "near.h"
@@ -17,8 +17,8 @@ static int begin(void **state)
 {
     static Designs designs;
     Error err = {0};
-    study.rank.lowest = study.search.mean = false;
-    assert_true(designs_create(&study, &designs, &err));
+    study.search.mean = false;
+    assert_true(designs_create(&study, 0, NULL, &designs, &err));
     *state = &designs;
     return 0;
 }
@@ -34,7 +34,6 @@ static void give(Designs *designs, int32_t design, double a, double b)
     DesignPoint *points = &designs->points[2 * design];
     points[0] = (DesignPoint){.value = a, .bar = 0.01};
     points[1] = (DesignPoint){.value = b, .bar = 0.03};
-    designs->known[2 * design] = designs->known[2 * design + 1] = true;
     designs_judge(designs, design);
 }
 
@@ -49,7 +48,7 @@ static void test_the_worst(void **state)
     assert_near("value", designs->list[d].value, 0.30, 1e-15);
     assert_near("bar", designs->list[d].bar, 0.02, 1e-15);
     assert_int_equal(designs->list[d].deciding, 0);
-    study.rank.lowest = true;   // the worst of lowest values is the highest
+    designs->lowest = true;   // the worst of lowest values is the highest
     designs_judge(designs, d);
     assert_near("value", designs->list[d].value, 0.31, 1e-15);
     assert_near("bar", designs->list[d].bar, 0.03, 1e-15);
@@ -77,7 +76,7 @@ static void test_the_best(void **state)
     give(designs, 0, 0.30, 0.40);
     give(designs, 1, 0.35, 0.36);
     assert_int_equal(designs_best(designs), 1);   // by its worst
-    study.rank.lowest = true;
+    designs->lowest = true;
     for (int32_t k = 0; k < 2; k++) designs_judge(designs, k);
     assert_int_equal(designs_best(designs), 1);
     study.search.mean = true;

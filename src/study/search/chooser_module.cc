@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // dlib's global_function_search behind four C functions, which catch every exception.
 extern "C" {
-#include "study/optimise/chooser.h"
+#include "study/search/chooser.h"
 }
 
 #include <dlib/global_optimization/global_function_search.h>

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/optimise/search_report.h"
+#include "study/search/optimise_report.h"
 
 #include "base/memory.h"
-#include "study/sweep/showing/figure_file.h"
+#include "study/search/search_figure.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { OTHERS_SHOWN = 5, COLOR_BEST = 1, COLOR_DESIGNS = 0, COLOR_SO_FAR = 7 };
+enum { OTHERS_SHOWN = 5 };
 
 static const char *quantity(const Search *search)
 {
-    return search->study.records[search->study.rank.record].name;
+    return search->study->records[search->study->rank.record].name;
 }
 
 static bool is_on_section(const Search *search, int32_t best, int32_t k, int32_t d)
 {
     const Design *one = &search->designs.list[d], *top = &search->designs.list[best];
     if (isnan(one->value)) return false;
-    for (int32_t i = 0; i < search->study.search.key_count; i++)
+    for (int32_t i = 0; i < search->study->search.key_count; i++)
         if (i != k && one->x[i] != top->x[i]) return false;
     return true;
 }
@@ -48,7 +48,7 @@ static void print_gain(const Search *search, const OptimiseSummary *summary, int
     double ratio = summary->value / summary->start_value;
     double error = fabs(ratio) *
                    hypot(summary->bar / summary->value, summary->start_bar / summary->start_value);
-    design_words(&search->study, &search->designs.list[search->start], words);
+    design_words(search->study, &search->designs.list[search->start], words);
     fprintf(out, "  the scene as it is, %s: ", words);
     print_estimate(search, &search->designs.list[search->start]);
     fprintf(out, "; the best differs by %+.1f %% +- %.1f %%\n", 100 * (ratio - 1), 100 * error);
@@ -61,7 +61,7 @@ static void print_open(const Search *search, int32_t best)
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
         if (!designs_may_equal(&search->designs, best, d) || open++ >= OTHERS_SHOWN) continue;
-        design_words(&search->study, &search->designs.list[d], words);
+        design_words(search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
                 words);
         print_estimate(search, &search->designs.list[d]);
@@ -70,11 +70,11 @@ static void print_open(const Search *search, int32_t best)
     if (open > OTHERS_SHOWN) fprintf(out, "    ... and %d more\n", open - OTHERS_SHOWN);
     if (open == 0) fprintf(out, "  better than every other design, with the bars of both\n");
     if (open == 0) return;
-    if (search->study.rank.refine > 0)
+    if (search->study->rank.refine > 0)
         fprintf(out,
                 "  telling them apart needs a smaller `refine` than %g %% (half the error "
                 "takes two to four times as long), or does not matter\n",
-                100 * search->study.rank.refine);
+                100 * search->study->rank.refine);
     else
         fprintf(out, "  `rank: {refine: 1%%}` with `set: {accuracy.mu: 4%%}` computes them again "
                      "until they are told apart\n");
@@ -82,7 +82,7 @@ static void print_open(const Search *search, int32_t best)
 
 static void print_section(const Search *search, int32_t best, int32_t k)
 {
-    const SearchKey *key = &search->study.search.keys[k];
+    const SearchKey *key = &search->study->search.keys[k];
     const Designs *designs = &search->designs;
     FILE *out = search->options->out;
     double last = -INFINITY;
@@ -107,56 +107,25 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
     const Designs *designs = &search->designs;
     FILE *out = search->options->out;
     fprintf(out, "%s, %s of %d designs", quantity(search),
-            search->study.rank.lowest ? "the lowest" : "the highest", summary->designs);
+            search->study->rank.lowest ? "the lowest" : "the highest", summary->designs);
     if (designs->conditions > 1)
-        fprintf(out, ", %s of %d points each", search->study.search.mean ? "mean" : "worst",
+        fprintf(out, ", %s of %d points each", search->study->search.mean ? "mean" : "worst",
                 designs->conditions);
     fprintf(out, ":\n  %s: ", summary->best);
     print_estimate(search, &designs->list[best]);
     fprintf(out, "\n");
     print_gain(search, summary, best);
     print_open(search, best);
-    for (int32_t k = 0; k < search->study.search.key_count; k++) print_section(search, best, k);
-    if (*search->run)
-        fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", search->run);
+    for (int32_t k = 0; k < search->study->search.key_count; k++) print_section(search, best, k);
+    if (search->refused > 0)
+        fprintf(out, "  %d more have no scene, the first: %s\n", search->refused,
+                search->refusal.message);
+    char run[AMONTONS_PATH_SIZE];
+    search_run_path(search, best, designs->list[best].deciding, run);
+    if (*run) fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", run);
 }
 
 // --- figures ------------------------------------------------------------------------------------
-
-typedef struct Frame {
-    const char *name, *scale;   // of the file; of x
-    QuantityLabel x;
-} Frame;
-
-static Curve dots_of(const char *label, int32_t count, const double *x, const double *y)
-{
-    return (Curve){.label = label,
-                   .line = "none",
-                   .marker = "circle",
-                   .color = COLOR_DESIGNS,
-                   .count = count,
-                   .filled = true,
-                   .x = x,
-                   .y = y};
-}
-
-// What is ranked by over x: two curves, the second over the first.
-static bool draw(const Search *search, const Frame *frame, const Curve curves[2], Error *err)
-{
-    Figure figure = {
-        .folder = search->options->folder, .name = frame->name, .title = search->study.title};
-    QuantityLabel y = label_of_record(quantity(search));
-    TRY(figure_begin(&figure, err));
-    figure_write_axis(&figure, "x", &frame->x, frame->scale);
-    figure_write_axis(&figure, "y", &y, "linear");
-    json_begin_list(figure.json, "series");
-    for (int32_t k = 0; k < 2 && error_is_clean(err); k++)
-        figure_write_curve(&figure, &curves[k], err);
-    json_end(figure.json);
-    figure_end(&figure, err);
-cleanup:
-    return error_is_clean(err);
-}
 
 // Every design in the order of its choice, and the best so far.
 static bool draw_course(const Search *search, Error *err)
@@ -173,15 +142,12 @@ static bool draw_course(const Search *search, Error *err)
         x[d] = d + 1, y[d] = one->value, error[d] = one->bar;
         so_far[d] = best ? best->value : (double)NAN;
     }
-    Curve curves[] = {dots_of("designs", count, x, y),
-                      {.label = "best so far",
-                       .line = "solid",
-                       .color = COLOR_SO_FAR,
-                       .count = count,
-                       .x = x,
-                       .y = so_far}};
+    Curve curves[] = {search_dots("designs", count, x, y),
+                      search_line("best so far", count, x, so_far)};
     curves[0].error = error;
-    TRY(draw(search, &(Frame){"course", "linear", {.words = "design"}}, curves, err));
+    Frame frame = {
+        "course", "linear", "linear", {.words = "design"}, label_of_record(quantity(search))};
+    TRY(search_draw(search, &frame, curves, 2, err));
 cleanup:
     memory_free(x);
     return error_is_clean(err);
@@ -190,7 +156,7 @@ cleanup:
 static bool draw_section(const Search *search, int32_t best, int32_t k, Error *err)
 {
     const Designs *designs = &search->designs;
-    const SearchKey *key = &search->study.search.keys[k];
+    const SearchKey *key = &search->study->search.keys[k];
     const Design *top = &designs->list[best];
     char name[STUDY_NAME_SIZE + 8];
     int32_t count = 0;
@@ -203,25 +169,25 @@ static bool draw_section(const Search *search, int32_t best, int32_t k, Error *e
         error[count++] = designs->list[d].bar;
     }
     snprintf(name, sizeof name, "along_%s", key->key);
-    Frame frame = {name, key->scale == SEARCH_LOG ? "log" : "linear",
-                   label_of_key(key->key, search->scene->units == UNITS_SI)};
-    Curve curves[] = {dots_of("others as in the best", count, x, y),
-                      dots_of("the best", 1, &top->x[k], &top->value)};
+    Frame frame = {name, search_key_scale(search, k), "linear", search_key_label(search, k),
+                   label_of_record(quantity(search))};
+    Curve curves[] = {search_dots("others as in the best", count, x, y),
+                      search_dots("the best", 1, &top->x[k], &top->value)};
     curves[0].error = error;
     curves[1].marker = "square";
     curves[1].color = COLOR_BEST;
-    TRY(draw(search, &frame, curves, err));
+    TRY(search_draw(search, &frame, curves, 2, err));
 cleanup:
     memory_free(x);
     return error_is_clean(err);
 }
 
-bool search_report(const Search *search, const OptimiseSummary *summary, Error *err)
+bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err)
 {
     int32_t best = designs_best(&search->designs);
     if (search->options->out) print_answer(search, summary, best);
     TRY(draw_course(search, err));
-    for (int32_t k = 0; k < search->study.search.key_count; k++)
+    for (int32_t k = 0; k < search->study->search.key_count; k++)
         TRY(draw_section(search, best, k, err));
 cleanup:
     return error_is_clean(err);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Designs of a search, and their values. Called by optimise, leaders and search_report.
-#ifndef AMONTONS_STUDY_OPTIMISE_DESIGNS_H
-#define AMONTONS_STUDY_OPTIMISE_DESIGNS_H
+// Designs of a search, and their values. Shared by the files of this folder.
+#ifndef AMONTONS_STUDY_SEARCH_DESIGNS_H
+#define AMONTONS_STUDY_SEARCH_DESIGNS_H
 
 #include "amontons_optimise.h"
 #include "study/sweep/reading/study.h"
@@ -11,9 +11,10 @@ enum { DESIGNS_MAX = STUDY_DESIGNS_MAX + 200 };   // with the start and those al
 typedef struct Design {
     double x[STUDY_SEARCH_MAX];   // values of the keys that are searched
     int32_t choice;   // number of the chooser's; -1: not chosen by it
+    int32_t point;   // of the sweep, the first of its conditions; -1: not computed yet
     double accuracy;   // accuracy.mu; 0: the study's
     bool settled;   // a smaller accuracy is of no use
-    double value, bar;   // what is searched for, NaN: none; what is known of its error
+    double value, bar;   // what is searched for, of a fit the misfit; NaN: none; its error
     bool has_bar;   // an error bar, with the mesh's part; else what is usual of such a mesh
     int32_t deciding;   // point of `vary` whose value it is; of a mean 0
 } Design;
@@ -26,24 +27,30 @@ typedef struct DesignPoint {
 
 typedef struct Designs {
     const Study *study;   // not owned
-    int32_t count, conditions;   // points of `vary`, for each design
+    bool lowest;   // is best
+    int32_t count;
+    int32_t conditions;   // at which each design is computed: points of `vary`, or ...
+    char *const *texts;   // ... [conditions] "load.pressure: 0.003", not owned; NULL: `vary`
     Design *list;   // [DESIGNS_MAX] owned
-    DesignPoint *points;   // [DESIGNS_MAX * conditions] owned, as the next
-    bool *known;   // points that ended, or were found, since their design has its accuracy
+    DesignPoint *points;   // [DESIGNS_MAX * conditions] owned
 } Designs;
 
-bool designs_create(const Study *study, Designs *designs, Error *err);
+// conditions, texts: of what was measured; 0, NULL: the points of `vary`.
+bool designs_create(const Study *study, int32_t conditions, char *const *texts, Designs *designs,
+                    Error *err);
 void designs_destroy(Designs *designs);   // zeroed is fine
 
 // Adds one; its index. x: as from the chooser or a section, rounded here to what is written.
 int32_t designs_add(Designs *designs, const double *x, int32_t choice);
 int32_t designs_find(const Designs *designs, const double *x);   // with the same values; -1: none
-void designs_round(const Study *study, double *x);   // whole numbers, three digits
-// "[{mesh.set.n: 4, ...}, ...]" of [count] designs (memory_free).
+// Whole numbers, three digits; of a fit five.
+void designs_round(const Study *study, double *x);
+// "[{mesh.set.n: 4, ...}, ...]" of [count] designs (memory_free): one a design, or one for each of
+// its `texts`.
 char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err);
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
-int64_t designs_point(const Designs *designs, int32_t design);   // the first of its points
+DesignPoint *designs_points(const Designs *designs, int32_t design);   // [conditions]
 // value and bar of a design from its points: of the worst, or the mean; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
 int32_t designs_best(const Designs *designs);   // -1: none has a value

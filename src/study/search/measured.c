@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/search/measured.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/csv_reader.h"
+#include "scene/keys.h"
+#include "study/sweep/reading/study_wanted.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char SERIES[] = "series/", ERROR_ENDING[] = "_error";
+
+typedef enum ColumnKind { COLUMN_CONDITION, COLUMN_RESULT, COLUMN_ERROR, COLUMN_ALONG } ColumnKind;
+
+typedef struct Column {
+    ColumnKind kind;
+    int32_t error;   // of a result: the column of its error
+} Column;
+
+typedef struct Table {
+    const char *path;
+    CsvTable csv;
+    Column *columns;   // [csv.columns] owned
+} Table;
+
+// --- columns ------------------------------------------------------------------------------------
+
+static bool is_key(const char *name)
+{
+    const char *part;
+    return scene_key_index(name) >= 0 || scene_key_above(name, &part) >= 0;
+}
+
+static bool is_series(const char *name)
+{
+    return strncmp(name, SERIES, sizeof SERIES - 1) == 0;
+}
+
+// NAME of NAME_error, where there is such a column. false: it is none's error.
+static bool is_error(const CsvTable *csv, const char *name)
+{
+    char of[STUDY_NAME_SIZE];
+    if (!text_ends_with(name, ERROR_ENDING) || strlen(name) >= sizeof of) return false;
+    snprintf(of, sizeof of, "%.*s", (int)(strlen(name) - sizeof ERROR_ENDING + 1), name);
+    return csv_column(csv, of) >= 0;
+}
+
+static int32_t error_of(const CsvTable *csv, const char *name)
+{
+    char column[STUDY_NAME_SIZE + sizeof ERROR_ENDING];
+    snprintf(column, sizeof column, "%s%s", name, ERROR_ENDING);
+    return csv_column(csv, column);
+}
+
+static bool read_column(Table *table, int32_t k, Error *err)
+{
+    const CsvTable *csv = &table->csv;
+    const char *name = csv_name(csv, k);
+    Column *column = &table->columns[k];
+    column->error = -1;
+    if (strlen(name) >= STUDY_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "%s: %.60s...: the name of a column is too long", table->path, name);
+    column->kind = COLUMN_ERROR;
+    if (is_error(csv, name)) return true;
+    column->kind = COLUMN_CONDITION;
+    if (is_key(name)) return true;
+    column->error = error_of(csv, name);
+    column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
+    if (is_series(name)) return true;
+    if (!study_record_path(name))
+        FAIL(err, ERROR_INPUT,
+             "%s: column %s: neither a key of the scene nor a result, as `record` of a study names "
+             "it, nor a series of history.h5, as in series/mu",
+             table->path, name);
+    if (column->error < 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: column %s: how far is it known? a column %s_error has one standard deviation",
+             table->path, name, name);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_columns(Table *table, Error *err)
+{
+    int32_t along = 0, results = 0, curves = 0;
+    TRY(table->columns = NEW_ARRAY(Column, table->csv.columns, err));
+    for (int32_t k = 0; k < table->csv.columns; k++) {
+        TRY(read_column(table, k, err));
+        along += table->columns[k].kind == COLUMN_ALONG;
+        results += table->columns[k].kind == COLUMN_RESULT;
+        curves += table->columns[k].kind == COLUMN_RESULT && is_series(csv_name(&table->csv, k));
+    }
+    if (results == 0)
+        FAIL(err, ERROR_INPUT, "%s: no column is a result, as in mu_M with mu_M_error",
+             table->path);
+    if (along > 1 || (along == 0) != (curves == 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: a curve has one column without an error, the series along which it is read, and "
+             "at least one with an error: series/rod_displacement, series/mu, series/mu_error",
+             table->path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- rows ---------------------------------------------------------------------------------------
+
+// "load.pressure: 0.003, mesh.set.length: 1"; one that was there before is the same.
+static bool find_condition(Measured *measured, const Table *table, int32_t row, int32_t *found,
+                           Error *err)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
+    for (int32_t k = 0; k < table->csv.columns; k++)
+        if (table->columns[k].kind == COLUMN_CONDITION)
+            fprintf(out, "%s%s: %s", ftell(out) > 0 ? ", " : "", csv_name(&table->csv, k),
+                    csv_cell(&table->csv, row, k));
+    if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
+    for (*found = 0; *found < measured->condition_count; ++*found)
+        if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
+    char **list = memory_grow(measured->conditions, measured->condition_count,
+                              &measured->condition_room, sizeof *list, err);
+    TRY(list);
+    measured->conditions = list;
+    TRY(list[measured->condition_count] = memory_text(text, err));
+    measured->condition_count++;
+cleanup:
+    free(text);
+    return error_is_clean(err);
+}
+
+static bool add_datum(Measured *measured, const Datum *datum, Error *err)
+{
+    Datum *list = memory_grow(measured->list, measured->count, &measured->room, sizeof *list, err);
+    if (!list) return false;
+    measured->list = list;
+    list[measured->count++] = *datum;
+    return true;
+}
+
+static bool read_number(const Table *table, int32_t row, int32_t column, double *value, Error *err)
+{
+    *value = csv_value(&table->csv, row, column);
+    if (!isfinite(*value))
+        FAIL(err, ERROR_INPUT, "%s:%d: %s: `%.40s` is no number", table->path, row + 2,
+             csv_name(&table->csv, column), csv_cell(&table->csv, row, column));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_row(Measured *measured, const Table *table, int32_t row, Error *err)
+{
+    Datum datum = {0};
+    int32_t along = -1;
+    TRY(find_condition(measured, table, row, &datum.condition, err));
+    for (int32_t k = 0; k < table->csv.columns; k++)
+        if (table->columns[k].kind == COLUMN_ALONG) along = k;
+    if (along >= 0) TRY(read_number(table, row, along, &datum.at, err));
+    for (int32_t k = 0; k < table->csv.columns; k++) {
+        const char *name = csv_name(&table->csv, k);
+        if (table->columns[k].kind != COLUMN_RESULT || !*csv_cell(&table->csv, row, k)) continue;
+        snprintf(datum.name, sizeof datum.name, "%s", name);
+        snprintf(datum.along, sizeof datum.along, "%s",
+                 is_series(name) ? csv_name(&table->csv, along) : "");
+        TRY(read_number(table, row, k, &datum.value, err));
+        TRY(read_number(table, row, table->columns[k].error, &datum.error, err));
+        if (!(datum.error > 0))
+            FAIL(err, ERROR_INPUT, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
+                 ERROR_ENDING);
+        measured->has_curves |= is_series(name);
+        TRY(add_datum(measured, &datum, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_table(Measured *measured, const char *path, Error *err)
+{
+    Table table = {.path = path};
+    TRY(csv_read(path, &table.csv, err));
+    TRY(read_columns(&table, err));
+    for (int32_t row = 0; row < table.csv.rows; row++) TRY(read_row(measured, &table, row, err));
+cleanup:
+    memory_free(table.columns);
+    csv_destroy(&table.csv);
+    return error_is_clean(err);
+}
+
+static bool read_named(const Study *study, YamlNode node, Measured *measured, Error *err)
+{
+    char path[2 * SCENE_TEXT_SIZE];
+    const char *given = yaml_text(study->file, node), *slash = strrchr(study->path, '/');
+    if (yaml_kind(study->file, node) != YAML_SCALAR || !*given || strlen(given) >= SCENE_TEXT_SIZE)
+        return yaml_refuse(study->file, node, "measured", "a table's path, or a list of them", err);
+    int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
+    snprintf(path, sizeof path, "%.*s%s", folder, study->path, given);
+    return read_table(measured, path, err);
+}
+
+bool measured_read(const Study *study, Measured *measured, Error *err)
+{
+    YamlNode node = study->search.measured;
+    *measured = (Measured){0};
+    if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
+    for (YamlNode one = yaml_first(study->file, node); one != YAML_NO_NODE;
+         one = yaml_next(study->file, one))
+        TRY(read_named(study, one, measured, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+void measured_destroy(Measured *measured)
+{
+    for (int32_t k = 0; k < measured->condition_count; k++) memory_free(measured->conditions[k]);
+    memory_free(measured->conditions);
+    memory_free(measured->list);
+    *measured = (Measured){0};
+}
+
+// --- what a run came to -------------------------------------------------------------------------
+
+// Of y over x, steps of a run: where x first comes to `at`, from whichever side; linear between.
+static double read_along(const double *x, const double *y, int64_t count, double at)
+{
+    for (int64_t k = 1; k < count; k++) {
+        double part = (at - x[k - 1]) / (x[k] - x[k - 1]);
+        if (part >= 0 && part <= 1) return y[k - 1] + part * (y[k] - y[k - 1]);
+    }
+    return NAN;
+}
+
+static bool find_on_curve(const Datum *datum, const char *history, double *value, Error *err)
+{
+    double *x = NULL, *y = NULL;
+    int64_t rows = 0, other = 0;
+    int32_t width = 0;
+    Error ignored = {0};   // it is only read
+    ArrayFile *file = array_file_open(history, err);
+    TRY(file);
+    TRY(array_file_read(file, datum->along, &x, &rows, &width, err));
+    if (width == 1) TRY(array_file_read(file, datum->name, &y, &other, &width, err));
+    if (width != 1 || rows != other)
+        FAIL(err, ERROR_INPUT, "%s over %s: a series has one number a step", datum->name,
+             datum->along);
+    *value = read_along(x, y, rows, datum->at);
+cleanup:
+    array_file_close(file, &ignored);
+    memory_free(x);
+    memory_free(y);
+    return error_is_clean(err);
+}
+
+bool measured_find(const Datum *datum, const char *report, const char *history, double *value,
+                   double *error, Error *err)
+{
+    *value = NAN;
+    *error = 0;
+    if (!report) return true;
+    if (*datum->along) return find_on_curve(datum, history, value, err);
+    PointValue found = point_value(report, study_record_path(datum->name));
+    *value = found.value;
+    if (isfinite(found.known_to)) *error = found.known_to / 2;
+    return true;
+}

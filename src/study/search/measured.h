@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What was measured: a table whose columns are
+//
+//     load.pressure, ...       keys of the scene: under which condition
+//     mu_M, l_c, ...           results, as `record` of a study names them
+//     mu_M_error, ...          one standard deviation of each; a result must have it
+//     series/rod_displacement  a series of history.h5, without an error: where it first comes to this,
+//     series/mu                another one is read, which has an error: a curve, a row a point
+//
+// An empty cell: nothing was measured there. Called by fit.
+#ifndef AMONTONS_STUDY_SEARCH_MEASURED_H
+#define AMONTONS_STUDY_SEARCH_MEASURED_H
+
+#include "study/sweep/computing/point.h"
+
+typedef struct Datum {
+    int32_t condition;
+    char name[STUDY_NAME_SIZE];   // as the table has it
+    char along[STUDY_NAME_SIZE];   // of a curve: the series at whose value `at` it is read; "": none
+    double at;
+    double value, error;   // one standard deviation
+} Datum;
+
+typedef struct Measured {
+    int32_t count, room;
+    Datum *list;   // [room] owned
+    int32_t condition_count, condition_room;
+    char **conditions;   // [condition_room] "load.pressure: 0.003, mesh.set.length: 1"; owned
+    bool has_curves;   // runs must keep a history
+} Measured;
+
+// The tables that `fit: measured` names, seen from the study.
+bool measured_read(const Study *study, Measured *measured, Error *err);
+void measured_destroy(Measured *measured);   // zeroed is fine
+
+// What a run came to: its run.json, and of a curve the history.h5 beside it. *error: one standard
+// deviation of the program's own, half of what the value is known to; 0: not told, as of curves.
+// *value: NaN: it has none.
+bool measured_find(const Datum *datum, const char *report, const char *history, double *value,
+                   double *error, Error *err);
+
+#endif

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// study read -> designs chosen, in rounds of as many as are computed side by side (search) -> those
+// along each key through the best -> the best decided with smaller error bars -> answer, figures.
+#include "study/search/optimise_report.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    SECTION_POINTS = 5,   // along a key
+    LEADERS = 4,   // computed with a smaller error at a time
+    BESTS_MAX = 3,   // times that deciding may come to another design
+};
+
+typedef struct Optimise {
+    Search search;
+    double accuracy;   // accuracy.mu of the study; 0: none
+} Optimise;
+
+// --- what a design is worth ---------------------------------------------------------------------
+
+static bool take_value(Search *search, int32_t d, int32_t c, const char *report, Error *err)
+{
+    (void)err;
+    const Study *study = search->study;
+    PointValue found = point_value(report, study->records[study->rank.record].path);
+    bool has_bar = !isnan(found.bar);
+    designs_points(&search->designs, d)[c] =
+        (DesignPoint){found.value, has_bar ? found.bar : found.known_to, has_bar};
+    return true;
+}
+
+static void judge_design(Search *search, int32_t d)
+{
+    designs_judge(&search->designs, d);
+}
+
+static double tell_as_it_is(double value)
+{
+    return value;
+}
+
+// --- sections -----------------------------------------------------------------------------------
+
+// Along key `k` through the best design, the others as in it.
+static bool add_section(Search *search, int32_t best, int32_t k, Error *err)
+{
+    const SearchKey *key = &search->study->search.keys[k];
+    double least = search_scaled(key, key->least), most = search_scaled(key, key->most);
+    for (int32_t i = 0; i < SECTION_POINTS; i++) {
+        double x[STUDY_SEARCH_MAX];
+        int32_t added = -1;
+        memcpy(x, search->designs.list[best].x, sizeof x);
+        x[k] = search_unscaled(key, least + (most - least) * i / (SECTION_POINTS - 1));
+        TRY(search_add(search, x, &added, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool compute_sections(Search *search, int32_t best, Error *err)
+{
+    int32_t first = search->designs.count;
+    for (int32_t k = 0; k < search->study->search.key_count; k++)
+        TRY(add_section(search, best, k, err));
+    TRY(search_compute_from(search, first, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- deciding -----------------------------------------------------------------------------------
+
+// Half the error that was asked for or, where that is smaller, of the one that came out. false: it
+// is as small as it may get.
+static bool next_accuracy(const Search *search, Design *design)
+{
+    const Optimise *self = search->judge.context;
+    double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
+    double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
+    double next = fmax(fmin(asked, came_out) / 2, limit);
+    if (design->settled || !(limit > 0) || asked <= limit) return false;
+    design->accuracy = next;
+    return true;
+}
+
+// Of those not in `taken` the design that may be the highest, if it may be above the value of the
+// best: one below may still be as good, by the bar of the best, but computing it does not tell.
+static int32_t next_leader(const Search *search, int32_t best, const bool *taken)
+{
+    double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
+    int32_t leader = -1;
+    for (int32_t d = 0; d < search->designs.count; d++) {
+        const Design *one = &search->designs.list[d];
+        double reach = sign * one->value + one->bar;
+        if (taken[d] || !(reach >= sign * search->designs.list[best].value)) continue;
+        if (reach > top) top = reach, leader = d;
+    }
+    return leader;
+}
+
+// A design that comes to nothing with a smaller error keeps what it had.
+static bool decide_round(Search *search, int32_t best, bool *again, Error *err)
+{
+    bool *taken = NEW_ARRAY(bool, DESIGNS_MAX, err);
+    int32_t leaders[LEADERS], count = 0;
+    Design before[LEADERS];
+    TRY(taken);
+    *again = false;
+    for (int32_t d; count < LEADERS && (d = next_leader(search, best, taken)) >= 0;) {
+        Design *design = &search->designs.list[d];
+        taken[d] = true;
+        before[count] = *design;
+        if (next_accuracy(search, design)) leaders[count++] = d;
+    }
+    if (count == 0) goto cleanup;
+    TRY(search_compute(search, leaders, count, err));
+    for (int32_t k = 0; k < count; k++) {
+        Design *design = &search->designs.list[leaders[k]];
+        if (isnan(design->value)) *design = before[k], design->settled = true;
+        *again = true;
+    }
+cleanup:
+    memory_free(taken);
+    return error_is_clean(err);
+}
+
+static bool decide(Search *search, Error *err)
+{
+    bool again = true;
+    while (again) {
+        int32_t best = designs_best(&search->designs);
+        bool open = false;
+        for (int32_t d = 0; d < search->designs.count; d++)
+            open = open || designs_may_equal(&search->designs, best, d);
+        again = false;
+        if (open) TRY(decide_round(search, best, &again, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool finish_search(Search *search, Error *err)
+{
+    int32_t best = designs_best(&search->designs);
+    for (int32_t k = 0, last = -1; k < BESTS_MAX && best >= 0 && best != last; k++) {
+        TRY(compute_sections(search, best, err));
+        TRY(decide(search, err));
+        last = best;
+        best = designs_best(&search->designs);
+    }
+    if (best < 0)
+        FAIL(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
+             search->study->path, search->designs.count,
+             search->study->records[search->study->rank.record].name);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- the whole ----------------------------------------------------------------------------------
+
+static bool open_study(Optimise *self, const char *path, const SweepOptions *options, Error *err)
+{
+    Search *search = &self->search;
+    TRY(search_open(search, path, options, false, err));
+    const StudyRank *rank = &search->study->rank;
+    if (!rank->wanted) FAIL(err, ERROR_INPUT, "%s: what is best? say `rank: {by: mu_hold}`", path);
+    search->judge = (SearchJudge){take_value, judge_design, tell_as_it_is, self};
+    TRY(search_begin(search, 0, NULL, err));
+    search->planned += search->designs.conditions * (SECTION_POINTS - 1) *
+                       search->study->search.key_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// accuracy.mu of the first design: the study's. Points were refused that have none, where `refine`
+// halves it (sweep).
+static bool note_accuracy(Optimise *self, Error *err)
+{
+    Search *search = &self->search;
+    if (!point_scene(search->sweep, 0, search->scene, err)) return false;
+    self->accuracy = search->scene->accuracy.mu;
+    return true;
+}
+
+static void summarise(const Search *search, OptimiseSummary *summary)
+{
+    const Designs *designs = &search->designs;
+    int32_t best = designs_best(designs);
+    const Design *top = &designs->list[best];
+    *summary = (OptimiseSummary){.computed = search->computed,
+                                 .value = top->value,
+                                 .bar = top->bar,
+                                 .decided = true,
+                                 .start_value = NAN,
+                                 .start_bar = NAN,
+                                 .seconds = clock_seconds() - search->started};
+    design_words(search->study, top, summary->best);
+    for (int32_t d = 0; d < designs->count; d++) {
+        summary->designs += !isnan(designs->list[d].value);
+        if (designs_may_equal(designs, best, d)) summary->decided = false;
+    }
+    if (search->start < 0) return;
+    summary->start_value = designs->list[search->start].value;
+    summary->start_bar = designs->list[search->start].bar;
+}
+
+bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSummary *summary,
+                       Error *err)
+{
+    *summary = (OptimiseSummary){.value = NAN, .bar = NAN, .start_value = NAN, .start_bar = NAN};
+    Optimise *self = NEW_ARRAY(Optimise, 1, err);
+    TRY(self);
+    TRY(open_study(self, path, options, err));
+    TRY(search_designs(&self->search, err));
+    if (self->search.designs.count > 0) TRY(note_accuracy(self, err));
+    TRY(finish_search(&self->search, err));
+    summarise(&self->search, summary);
+    TRY(optimise_report(&self->search, summary, err));
+cleanup:
+    if (self) search_close(&self->search, err);
+    memory_free(self);
+    return error_is_clean(err);
+}

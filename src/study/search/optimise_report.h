@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a search came to, in words and figures. Called by optimise.
+#ifndef AMONTONS_STUDY_SEARCH_OPTIMISE_REPORT_H
+#define AMONTONS_STUDY_SEARCH_OPTIMISE_REPORT_H
+
+#include "amontons_optimise.h"
+#include "study/search/search.h"
+
+// To options->out, and figures/course.png and along_KEY.png of the folder.
+bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err);
+
+#endif

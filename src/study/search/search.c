@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A search that is gone on with makes the same choices from the same values: what is finished is
+// found again as in every sweep.
+#include "study/search/search.h"
+
+#include "base/clock.h"
+#include "base/formula.h"
+#include "base/memory.h"
+#include "base/module.h"
+#include "scene/formulas.h"
+#include "study/sweep/computing/tally.h"
+#include "study/sweep/reading/study_point.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum {
+    TRIES_MAX = 1000,   // choices that limits refuse, one after the other
+    REFUSED_MAX = 20,   // scenes that are refused before there is any design: the study is wrong
+};
+static const double REFUSED = 0.5;   // below the worst, in parts of what values differ by
+
+double search_scaled(const SearchKey *key, double value)
+{
+    return key->scale == SEARCH_LOG ? log(value) : value;
+}
+
+double search_unscaled(const SearchKey *key, double scaled)
+{
+    return key->scale == SEARCH_LOG ? exp(scaled) : scaled;
+}
+
+// --- computing ----------------------------------------------------------------------------------
+
+// For a SweepCallback: the whole is more than the points so far.
+static void show_point(const SweepView *view, void *context)
+{
+    Search *search = context;
+    SweepView shown = *view;
+    search->computed += !view->reused;
+    shown.finished = ++search->told;
+    shown.points = search->told > search->planned ? search->told : search->planned;
+    shown.seconds_left = (clock_seconds() - search->started) / search->told *
+                         (shown.points - search->told);
+    if (search->options->on_point) search->options->on_point(&shown, search->options->context);
+}
+
+static bool take_design(Search *search, int32_t d, Error *err)
+{
+    const Design *design = &search->designs.list[d];
+    for (int32_t c = 0; c < search->designs.conditions; c++) {
+        char *report = point_report(search->sweep, design->point + c, err);
+        TRY(error_is_clean(err));
+        bool done = point_status(report) == POINT_DONE;
+        search->judge.take(search, d, c, done ? report : NULL, err);
+        memory_free(report);
+        TRY(error_is_clean(err));
+    }
+    search->judge.judge(search, d);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool search_compute(Search *search, const int32_t *which, int32_t count, Error *err)
+{
+    Designs *designs = &search->designs;
+    int32_t first = search->sweep->point_count;
+    char *text = NULL;
+    Design *list = NEW_ARRAY(Design, count, err);
+    TRY(list);
+    if (count == 0) goto cleanup;
+    for (int32_t k = 0; k < count; k++) list[k] = designs->list[which[k]];
+    TRY(text = designs_text(designs, list, count, err));
+    TRY(sweep_add(search->sweep, text, err));
+    TRY(sweep_compute(search->sweep, err));
+    for (int32_t k = 0; k < count; k++) {
+        designs->list[which[k]].point = first + k * designs->conditions;
+        TRY(take_design(search, which[k], err));
+    }
+cleanup:
+    memory_free(list);
+    memory_free(text);
+    return error_is_clean(err);
+}
+
+bool search_compute_from(Search *search, int32_t first, Error *err)
+{
+    int32_t which[DESIGNS_MAX], count = 0;
+    for (int32_t d = first; d < search->designs.count; d++) which[count++] = d;
+    return search_compute(search, which, count, err);
+}
+
+void search_run_path(const Search *search, int32_t design, int32_t condition,
+                     char path[AMONTONS_PATH_SIZE])
+{
+    char whole[POINT_PATH_SIZE + 16];
+    *path = 0;
+    if (search->study->keep_table) return;
+    point_report_path(search->sweep, search->designs.list[design].point + condition, whole);
+    if (strlen(whole) < AMONTONS_PATH_SIZE) memcpy(path, whole, strlen(whole) + 1);
+}
+
+// --- designs ------------------------------------------------------------------------------------
+
+// At the first condition.
+static bool check_limits(const Search *search, bool *allowed, Error *err)
+{
+    const Study *study = search->study;
+    for (int32_t k = 0; k < study->search.limit_count && *allowed; k++) {
+        const SearchLimit *limit = &study->search.limits[k];
+        double value = 0;
+        const char *formula = strchr(yaml_text(study->file, limit->formula), '=') + 1;
+        if (!formula_value(formula, scene_number, search->scene, &value, err)) {
+            error_context(err, "%s:%d: where", study->path, yaml_line(study->file, limit->formula));
+            return false;
+        }
+        *allowed = value >= limit->least && value <= limit->most;
+    }
+    return true;
+}
+
+// A scene that two keys together make impossible is no design: it is passed over, and counted.
+static bool make_scene(Search *search, const StudyCase *trial, int32_t condition, bool *allowed,
+                       Error *err)
+{
+    Error refusal = {0};
+    *allowed = study_trial_scene(search->study, trial, condition, search->scene, &refusal);
+    if (*allowed) return true;
+    if (refusal.code != ERROR_INPUT) {
+        *err = refusal;
+        return false;
+    }
+    if (search->refused == 0) search->refusal = refusal;
+    return true;
+}
+
+// Those of `vary`, or of what was measured; the first comes last, as limits are checked at it.
+bool search_allows(Search *search, const double *x, bool *allowed, Error *err)
+{
+    const Designs *designs = &search->designs;
+    Design design = {.choice = -1};
+    YamlDocument *document = NULL;
+    memcpy(design.x, x, sizeof design.x);
+    char *text = designs_text(designs, &design, 1, err);
+    *allowed = true;
+    TRY(text);
+    TRY(yaml_parse("a design of the search", text, 0, &document, err));
+    StudyCase trial = {document, yaml_first(document, YAML_ROOT)};
+    StudyCase first = trial;
+    for (int32_t c = 1; c < designs->conditions && *allowed; c++) {
+        if (designs->texts) trial.map = yaml_next(document, trial.map);
+        TRY(make_scene(search, &trial, designs->texts ? 0 : c, allowed, err));
+    }
+    if (*allowed) TRY(make_scene(search, &first, 0, allowed, err));
+    search->refused += !*allowed;
+    if (*allowed) TRY(check_limits(search, allowed, err));
+cleanup:
+    yaml_destroy(document);
+    memory_free(text);
+    return error_is_clean(err);
+}
+
+bool search_add(Search *search, double *x, int32_t *added, Error *err)
+{
+    bool allowed = false;
+    *added = -1;
+    designs_round(search->study, x);
+    if (search->designs.count == DESIGNS_MAX || designs_find(&search->designs, x) >= 0) return true;
+    TRY(search_allows(search, x, &allowed, err));
+    if (allowed) *added = designs_add(&search->designs, x, -1);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The scene with `set`, at the first point of `vary`, if all that is searched has a value there
+// within its range. One that lacks what a formula takes from a searched key is none.
+static bool add_start(Search *search, Error *err)
+{
+    const StudySearch *keys = &search->study->search;
+    double x[STUDY_SEARCH_MAX] = {0};
+    bool within = true;
+    Error ignored = {0};
+    if (!study_point_scene(search->study, 0, search->scene, &ignored)) return true;
+    for (int32_t k = 0; k < keys->key_count; k++) {
+        char words[SCENE_TEXT_SIZE];
+        study_scene_value(search->scene, keys->keys[k].key, words, sizeof words, &x[k]);
+        within = within && x[k] >= keys->keys[k].least && x[k] <= keys->keys[k].most;
+    }
+    return !within || search_add(search, x, &search->start, err);
+}
+
+// What the chooser is told of a design that is refused or comes to nothing.
+static double below_the_worst(const Search *search)
+{
+    double low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;
+    for (int32_t d = 0; d < search->designs.count; d++) {
+        double value = search->designs.list[d].value;
+        if (isnan(value)) continue;
+        low = fmin(low, sign * search->judge.told(value));
+        high = fmax(high, sign * search->judge.told(value));
+    }
+    return low <= high ? low - REFUSED * (high - low) : 0;
+}
+
+static bool tell(Search *search, int32_t choice, double value, Error *err)
+{
+    double sign = search->designs.lowest ? -1 : 1;
+    double told = isnan(value) ? below_the_worst(search) : sign * search->judge.told(value);
+    return search->module->tell(search->chooser, choice, told, err);
+}
+
+// The next design that is allowed and new. *added: there is one.
+static bool choose(Search *search, bool *added, Error *err)
+{
+    const StudySearch *keys = &search->study->search;
+    int32_t design = -1;
+    for (int32_t k = 0; k < TRIES_MAX && design < 0; k++) {
+        if (search->designs.count == 0 && search->refused >= REFUSED_MAX) {
+            *err = search->refusal;
+            return false;
+        }
+        double x[STUDY_SEARCH_MAX] = {0};
+        int32_t number = 0;
+        TRY(search->module->choose(search->chooser, x, &number, err));
+        for (int32_t i = 0; i < keys->key_count; i++) x[i] = search_unscaled(&keys->keys[i], x[i]);
+        TRY(search_add(search, x, &design, err));
+        int32_t known = design < 0 ? designs_find(&search->designs, x) : design;
+        if (design >= 0)
+            search->designs.list[design].choice = number;
+        else
+            TRY(tell(search, number, known < 0 ? NAN : search->designs.list[known].value, err));
+    }
+    *added = design >= 0;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool search_designs(Search *search, Error *err)
+{
+    int32_t chosen = 0;
+    bool added = true;
+    TRY(add_start(search, err));
+    if (search->start >= 0) TRY(search_compute_from(search, 0, err));
+    while (chosen < search->study->search.designs && added) {
+        int32_t first = search->designs.count;
+        for (int32_t k = 0; k < search->side_by_side && added; k++) {
+            if (chosen == search->study->search.designs) break;
+            TRY(choose(search, &added, err));
+            chosen += added;
+        }
+        TRY(search_compute_from(search, first, err));
+        for (int32_t d = first; d < search->designs.count; d++)
+            TRY(tell(search, search->designs.list[d].choice, search->designs.list[d].value, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- begin and end ------------------------------------------------------------------------------
+
+static bool open_chooser(Search *search, Error *err)
+{
+    const StudySearch *keys = &search->study->search;
+    double least[STUDY_SEARCH_MAX], most[STUDY_SEARCH_MAX];
+    bool whole[STUDY_SEARCH_MAX];
+    for (int32_t k = 0; k < keys->key_count; k++) {
+        least[k] = search_scaled(&keys->keys[k], keys->keys[k].least);
+        most[k] = search_scaled(&keys->keys[k], keys->keys[k].most);
+        whole[k] = keys->keys[k].scale == SEARCH_WHOLE;
+    }
+    ChooserSpace space = {keys->key_count, least, most, whole, keys->seed};
+    ChooserModuleFunction module =
+        (ChooserModuleFunction)module_function("dlib", "amontons_chooser_module", err);
+    TRY(module);
+    search->module = module();
+    TRY(search->chooser = search->module->create(&space, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool search_open(Search *search, const char *path, const SweepOptions *options, bool fits,
+                 Error *err)
+{
+    search->options = options;
+    search->own = *options;
+    search->own.on_point = show_point;
+    search->own.context = search;
+    search->own.out = NULL;
+    search->start = -1;
+    search->started = clock_seconds();
+    TRY(sweep_open(path, &search->own, &search->sweep, err));
+    search->study = &search->sweep->study;
+    if (search->study->search.node == YAML_NO_NODE)
+        FAIL(err, ERROR_INPUT,
+             "%s: nothing to search: a study for `%s` has `search`, as in `search: "
+             "{%s}}`",
+             path, fits ? "fit" : "optimise",
+             fits ? "material.eta1: {log: [0.1, 10]" : "mesh.set.n: {whole: [1, 12]");
+    if (search->study->search.fits != fits)
+        FAIL(err, ERROR_INPUT, "%s: %s", path,
+             fits ? "what was measured? say `fit: {measured: measured.csv}`"
+                  : "a study with `fit` is for `amontons fit`");
+cleanup:
+    return error_is_clean(err);
+}
+
+bool search_begin(Search *search, int32_t conditions, char *const *texts, Error *err)
+{
+    const SweepOptions *options = search->options;
+    TRY(search->scene = NEW_ARRAY(Scene, 1, err));
+    TRY(designs_create(search->study, conditions, texts, &search->designs, err));
+    TRY(open_chooser(search, err));
+    int64_t cores = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
+    search->side_by_side = (int32_t)fmax(1, floor((double)cores / search->designs.conditions));
+    search->planned = search->designs.conditions * search->study->search.designs;
+cleanup:
+    return error_is_clean(err);
+}
+
+void search_close(Search *search, Error *err)
+{
+    Error ignored = {0};
+    bool whole = error_is_clean(err), stopped = err->code == ERROR_INTERRUPT;
+    if (search->sweep && search->sweep->lock >= 0) {
+        sweep_share_results(search->sweep);
+        if (whole || stopped) sweep_show(search->sweep, whole, whole ? err : &ignored);
+    }
+    if (search->module) search->module->destroy(search->chooser);
+    designs_destroy(&search->designs);
+    memory_free(search->scene);
+    sweep_close(search->sweep);
+}
