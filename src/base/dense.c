@@ -252,25 +252,6 @@ static void scale_by(double keep, int64_t count, double *c)
     for (int64_t k = 0; k < count; k++) c[k] = keep == 0 ? 0 : keep * c[k];
 }
 
-void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
-{
-    if (a.columns == 0 || b.columns == 0) return;
-    if (a.rows == 0) {
-        scale_by(keep, (int64_t)a.columns * b.columns, c);
-        return;
-    }
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, factor,
-                a.values, a.rows, b.values, b.rows, keep, c, a.columns);
-}
-
-// Where there is nothing to sum over (a.columns 0) `c` is left as it is, not even scaled.
-void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c)
-{
-    if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, b.columns, a.columns, factor,
-                a.values, a.rows, b.values, b.rows, keep, c, a.rows);
-}
-
 void dense_multiply_by_transposed(DenseView a, DenseView b, double *c)
 {
     if (a.columns == 0 || a.rows == 0 || b.rows == 0) return;
@@ -283,22 +264,6 @@ void dense_add_square(DenseView a, double *c)
     if (a.columns == 0 || a.rows == 0) return;
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, a.rows, a.columns, 1, a.values, a.rows, 1,
                 c, a.rows);
-}
-
-void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,
-                                    int64_t stride)
-{
-    if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, factor,
-                a.values, a.rows, b.values, b.rows, keep, c, (int)stride);
-}
-
-void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,
-                         double factor, double *c)
-{
-    if (a.columns == 0 || columns == 0 || a.rows == 0) return;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, (int)columns, a.columns, factor,
-                a.values, a.rows, b, (int)stride, 1, c, a.rows);
 }
 
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)

@@ -10,7 +10,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "base/share.h"
+#include "base/parallel.h"
 
 #include <math.h>
 #include <string.h>
@@ -184,8 +184,9 @@ static void fill_above(const Proof *proof, double *matrix)
     dense_add_square((DenseView){images, def->size, largest->count}, matrix);
 }
 
-static void prove_half(void *context, int32_t which)
+static void prove(void *context, int32_t which, int32_t worker)
 {
+    (void)worker;
     Proof *proof = context;
     const LargestEigenDef *def = proof->lanczos->def;
     int64_t square = (int64_t)def->size * def->size;
@@ -207,7 +208,7 @@ bool largest_eigen_find(const LargestEigenDef *def, LargestEigen *largest, bool 
     if (!run(&lanczos, &wanted)) goto cleanup;
     TRY(take_wanted(&lanczos, wanted, largest, err));
     Proof proof = {.lanczos = &lanczos, .largest = largest};
-    share_in_two(prove_half, &proof);
+    parallel_for(2, prove, &proof);
     *found = proof.holds[0] && proof.holds[1];
 cleanup:
     lanczos_destroy(&lanczos);

@@ -34,6 +34,7 @@ void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *
 char *memory_text(const char *text, Error *err);   // an owned copy
 void memory_free(void *array);   // NULL is fine
 MemoryCounters memory_counters(void);
+void memory_take_over(MemoryCounters counted);   // by a thread that has ended, into this one's
 
 // Fault injection: this thread's allocation after `allocations` more successful ones fails, and
 // every later one too, until called with -1. For tests only.

@@ -4,6 +4,7 @@
 #ifndef AMONTONS_BASE_SPARSE_ANALYSIS_H
 #define AMONTONS_BASE_SPARSE_ANALYSIS_H
 
+#include "base/parallel.h"
 #include "base/sparse.h"
 
 #include <cholmod.h>
@@ -23,7 +24,9 @@ struct SparseAnalysis {
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
     cholmod_dense *work_y, *work_e;
     cholmod_dense *permuted;   // right-hand side in L's order
-    cholmod_dense *passages[2];   // [size, PASSAGE_COLUMNS] work of two threads; NULL: not used yet
+    cholmod_dense
+        *passages[PARALLEL_WORKERS_MAX];   // [size, PASSAGE_COLUMNS] work of a thread each;
+        // NULL: not used yet
 };
 
 struct SparseFactor {

@@ -4,7 +4,6 @@
 // solve calls BLAS twice for each supernode, most of which are too small for that (160 x 160 cells:
 // the same 5 Gflop in a third of the time).
 #include "base/lanes.h"
-#include "base/share.h"
 #include "base/sparse_analysis.h"
 
 enum {
@@ -84,7 +83,7 @@ FOR_EACH_PROCESSOR static void pass_with(const cholmod_factor *factor, int32_t b
 typedef struct Expansion {
     SparseFactor *factor;
     const double *border;   // [border_count * count]
-    int32_t count;
+    int32_t count, passes;
     double *x;   // [size * count]
 } Expansion;
 
@@ -105,32 +104,30 @@ static void expand_columns(const Expansion *all, int32_t first, int32_t columns,
     }
 }
 
-// One half's columns. The halves share nothing that either writes to.
-static void expand_half(void *context, int32_t which)
+static void expand_pass(void *context, int32_t pass, int32_t worker)
 {
     const Expansion *all = context;
-    int32_t first = which ? all->count / 2 : 0, end = which ? all->count : all->count / 2;
-    int32_t passes = (end - first + PASSAGE_COLUMNS - 1) / PASSAGE_COLUMNS, columns = 0;
-    for (int32_t pass = 0; pass < passes; pass++, first += columns) {
-        columns = (end - first) / (passes - pass);   // alike: a few alone take as long as many
-        expand_columns(all, first, columns, all->factor->analysis->passages[which]->x);
-    }
+    int32_t first = (int32_t)((int64_t)all->count * pass / all->passes);
+    int32_t end = (int32_t)((int64_t)all->count * (pass + 1) / all->passes);
+    expand_columns(all, first, end - first, all->factor->analysis->passages[worker]->x);
 }
 
 bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
                         Error *err)
 {
     SparseAnalysis *analysis = factor->analysis;
-    Expansion all = {factor, x_border, count, x};
-    for (int which = 0; which < 2; which++) {   // kept: memory asked for anew comes page by page
-        cholmod_dense **rows = &analysis->passages[which];
+    // Alike: a few columns alone take as long as many.
+    Expansion all = {factor, x_border, count, (count + PASSAGE_COLUMNS - 1) / PASSAGE_COLUMNS, x};
+    for (int32_t k = 0; k < parallel_workers();
+         k++) {   // kept: memory asked for anew comes page by page
+        cholmod_dense **rows = &analysis->passages[k];
         if (!*rows)
             *rows = cholmod_zeros((size_t)analysis->size, PASSAGE_COLUMNS, CHOLMOD_REAL,
                                   &analysis->common);
         if (!*rows)
             FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", PASSAGE_COLUMNS);
     }
-    share_in_two(expand_half, &all);
+    parallel_for(all.passes, expand_pass, &all);
 cleanup:
     return error_is_clean(err);
 }

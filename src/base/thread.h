@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Threads as base/worker and base/share make them: signals are for the threads of whoever calls.
+// Threads as base/worker and base/parallel make them: signals are for the threads of whoever calls.
 #ifndef AMONTONS_BASE_THREAD_H
 #define AMONTONS_BASE_THREAD_H
 

@@ -77,7 +77,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool worker_wait_for(Worker *worker, int64_t jobs, Error *err)
+// Until the first `jobs` are done.
+static bool wait_for(Worker *worker, int64_t jobs, Error *err)
 {
     pthread_mutex_lock(&worker->lock);
     while (worker->done < jobs) pthread_cond_wait(&worker->changed, &worker->lock);
@@ -90,7 +91,7 @@ bool worker_wait_for(Worker *worker, int64_t jobs, Error *err)
 bool worker_slot(Worker *worker, int32_t *slot, Error *err)
 {
     *slot = (int32_t)(worker->given % worker->def.slots);   // only the owner moves `given`
-    return worker_wait_for(worker, worker->given - worker->def.slots + 1, err);
+    return wait_for(worker, worker->given - worker->def.slots + 1, err);
 }
 
 void worker_submit(Worker *worker)
@@ -103,7 +104,7 @@ void worker_submit(Worker *worker)
 
 bool worker_wait(Worker *worker, Error *err)
 {
-    return !worker || worker_wait_for(worker, worker->given, err);
+    return !worker || wait_for(worker, worker->given, err);
 }
 
 void worker_destroy(Worker *worker)

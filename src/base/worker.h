@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One thread beside its owner, for what takes long and is waited for by nobody: jobs are done in
 // the order in which they were handed over. A job is the number of a slot, of which there are few:
-// its owner keeps what it needs there. Called by record/fields and
-// reduction/factors_ahead.
+// its owner keeps what it needs there. Called by record/fields.
 //
 //   slot -> (the owner fills it) -> submit ... -> wait -> destroy
 #ifndef AMONTONS_BASE_WORKER_H
@@ -31,7 +30,6 @@ bool worker_create(const WorkerDef *def, Worker **worker, Error *err);
 bool worker_slot(Worker *worker, int32_t *slot, Error *err);
 void worker_submit(Worker *worker);
 bool worker_wait(Worker *worker, Error *err);   // until every job is done
-bool worker_wait_for(Worker *worker, int64_t jobs, Error *err);   // until the first `jobs` are done
 void worker_destroy(Worker *worker);   // does what was handed over first
 
 #endif

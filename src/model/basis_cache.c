@@ -51,6 +51,7 @@ static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
 static void archive_basis(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;
+    archive_index(archive, &reduced->dim, 2, DIM_MAX + 1);
     archive_length(archive, &reduced->interface_count);
     archive_length(archive, &reduced->mirrored);
     archive_length(archive, &reduced->count);
@@ -58,9 +59,8 @@ static void archive_basis(void *self, Archive *archive)
     int32_t m = reduced->interface_count, n = reduced->mirrored, left = reduced->count - m - n;
     int32_t border = m + n, dofs = 0;
     archive_lend_numbers(archive, &reduced->load, reduced->count);
+    archive_new_numbers(archive, &reduced->rigid, (int64_t)rigid_count(reduced->dim) * (m + n));
     archive_require(archive, left >= 0);
-    archive_new_numbers(archive, &reduced->at_rest.follow, (int64_t)n * m);
-    archive_new_numbers(archive, &reduced->at_rest.lower, (int64_t)n * n);
     for (int p = 0; p < reduced->part_count; p++) {
         ReducedPart *part = &reduced->part[p];
         archive_part(part, m + n, archive);

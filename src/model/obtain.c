@@ -88,23 +88,9 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     model->reduced.scales = bulk_scales(model, load);
     model->is_reduced = true;
     return model_set_load(model, shape->sizes.load_resultant, err) &&
-           bulk_operator_reduce(&model->reduced, shape->rotation,
+           bulk_operator_reduce(&model->reduced, model->length,
                                 shape->sizes.area * model->materials.mean.density, &model->system,
                                 err);
-}
-
-// What the unit rotation about the trailing end does to the interface's unknowns.
-static bool list_rotation(const Model *model, const ReductionBlock *block, Shape *shape, Error *err)
-{
-    const Interface *interface = &shape->interface;
-    shape->rotation = NEW_ARRAY(double, interface->count, err);
-    for (int32_t k = 0; shape->rotation && k < interface->count; k++) {
-        int32_t dim = block->bulk.dim, dof = interface->dofs[k], up = dim - 1;
-        const double *at = block->position + dim * dof_node(dim, dof);
-        double turned = dof_axis(dim, dof) == 0 ? -at[up] : at[0];
-        shape->rotation[k] = turned * model->length;
-    }
-    return shape->rotation != NULL;
 }
 
 // That of the shape's name, from the cache; *found: it is there, and of this block.
@@ -133,6 +119,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
                         .materials = block->materials,
                         .modes = wants_mesh(scene),
                         .node_image = block->image,
+                        .position = block->position,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     FileLock lock = {0};
     if (scene->reduction.cache) {
@@ -188,7 +175,6 @@ static bool reduce_bulk(Model *model, const char *key, Error *err)
     shape.interface = model->interface;
     model->interface = (Interface){0};
     TRY(reduction_block_create(&model->mesh, bulk, &model->materials, load, &block, err));
-    TRY(list_rotation(model, &block, &shape, err));
     TRY(obtain_basis(model, &block, &shape, err));
     if (shape.basis[0]) shape_cache_store(key, &shape, model->cache_note);
     TRY(adopt_shape(model, &shape, err));

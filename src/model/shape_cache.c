@@ -21,7 +21,6 @@
 void shape_destroy(Shape *shape)
 {
     interface_destroy(&shape->interface);
-    memory_free(shape->rotation);
     *shape = (Shape){0};
 }
 
@@ -144,7 +143,6 @@ static void archive_shape(void *self, Archive *archive)
     if (archive->failed) return;
     archive_text(archive, shape->basis, sizeof shape->basis);
     archive_interface(&shape->interface, (int32_t)shape->sizes.full_dofs, archive);
-    archive_new_numbers(archive, &shape->rotation, shape->interface.count);
 }
 
 bool shape_cache_load(const char *key, Shape *shape, bool *found, char note[CACHE_NOTE_SIZE],

@@ -35,7 +35,6 @@ typedef struct ShapeSizes {
 typedef struct Shape {
     ShapeSizes sizes;
     Interface interface;
-    double *rotation;   // [interface.count] of the unit rotation, length; owned
     char basis[HASH_TEXT_SIZE];   // its name; empty: none
 } Shape;
 

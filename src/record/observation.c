@@ -41,11 +41,12 @@ static Moments sum_moments(const StepControl *control)
     const BulkOperator *system = control->scheme.system;
     const Interface *interface = control->scheme.interface;
     const State *state = &control->now;
+    const double *rotation = system->rigid + (int64_t)interface->dim * system->dof_count;
     double factor = load_factor(control->scheme.course, state->time);
-    Moments sum = {.forces = factor * dense_dot(system->rotation, system->load, system->dof_count),
-                   .inertia = dense_dot(system->rotation, state->inertia, system->dof_count)};
+    Moments sum = {.forces = factor * dense_dot(rotation, system->load, system->dof_count),
+                   .inertia = dense_dot(rotation, state->inertia, system->dof_count)};
     for (int32_t k = 0; k < interface->count; k++)
-        sum.forces += system->rotation[system->interface_dofs[k]] * state->reaction[k];
+        sum.forces += rotation[system->interface_dofs[k]] * state->reaction[k];
     return sum;
 }
 

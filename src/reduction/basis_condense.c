@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With A_qq = L L' and Z = L^-1 [A_qb  load_q]: S = A_bb - Z_b' Z_b, the energy is Z_f' Z_f.
-#include "reduction/basis_condense.h"
+#include "reduction/basis.h"
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "base/share.h"
+#include "base/parallel.h"
 
 #include <string.h>
 
 enum {
     WIDE = 64,   // columns of a product
-    STRETCH = 1024,   // numbers that are added up at once
-    ALONE = 20000   // entries of Z below which a thread takes as long as it saves
+    STRETCH = 1024   // numbers that are added up at once
 };
 
 typedef struct Condensation {
@@ -21,35 +20,25 @@ typedef struct Condensation {
     double *schur;   // [m^2]
 } Condensation;
 
-static void divide_half(void *context, int32_t which)
+static void divide_columns(void *context, int32_t k, int32_t worker)
 {
     const Condensation *all = context;
-    int64_t half = all->m / 2, first = which ? half : 0, end = which ? all->m + 1 : half;
-    dense_lower_divide(all->lower, (int32_t)all->r, (int32_t)(end - first),
-                       all->z + first * all->r);
+    int64_t from = (int64_t)k * WIDE, left = all->m + 1 - from;
+    (void)worker;
+    dense_lower_divide(all->lower, (int32_t)all->r, (int32_t)(left < WIDE ? left : WIDE),
+                       all->z + from * all->r);
 }
 
 // Rows from a block's first column down.
-static void square_half(void *context, int32_t which)
+static void square_columns(void *context, int32_t k, int32_t worker)
 {
     const Condensation *all = context;
-    int64_t m = all->m, r = all->r;
-    for (int64_t from = which * WIDE; from < m; from += 2 * WIDE) {
-        int64_t columns = m - from < WIDE ? m - from : WIDE;
-        const double *z = all->z + from * r;
-        dense_multiply_transposed_rows(dense_view(z, r, m - from), dense_view(z, r, columns), -1, 1,
-                                       all->schur + from * (m + 1), m);
-    }
-}
-
-static void in_two(void (*half)(void *context, int32_t which), Condensation *all)
-{
-    if (all->m * all->r >= ALONE) {
-        share_in_two(half, all);
-    } else {
-        half(all, 0);
-        half(all, 1);
-    }
+    int64_t from = (int64_t)k * WIDE, left = all->m - from, r = all->r;
+    const double *z = all->z + from * r;
+    (void)worker;
+    dense_multiply_transposed_rows(dense_view(z, r, left),
+                                   dense_view(z, r, left < WIDE ? left : WIDE), -1, 1,
+                                   all->schur + from * (all->m + 1), all->m);
 }
 
 // out := sum of factor * term, those that are there, stretch by stretch in the cache.
@@ -68,7 +57,7 @@ static void combine(double *const terms[BULK_TERMS], const double *factor, int64
     }
 }
 
-bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
+bool basis_condense(const Basis *basis, const double *factor, double *schur, double *energy,
                     bool *definite, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count;
@@ -82,8 +71,8 @@ bool basis_condense(const GrowingBasis *basis, const double *factor, double *sch
     memcpy(z + m * r, basis->load + m, (size_t)r * sizeof *z);
     if (!(*definite = dense_cholesky(interior, (int32_t)r))) goto cleanup;
     Condensation all = {m, r, interior, z, schur};
-    in_two(divide_half, &all);
-    in_two(square_half, &all);
+    parallel_for((int32_t)((m + WIDE) / WIDE), divide_columns, &all);
+    parallel_for((int32_t)((m + WIDE - 1) / WIDE), square_columns, &all);
     dense_mirror(schur, m);
     *energy = dense_dot(z + m * r, z + m * r, (int32_t)r);
 cleanup:

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With K = L L' and L^-1 M L^-T = Q T Q' of Phi (Householder: LAPACK Users' Guide, 3rd ed., 2.4.4),
 // Phi W, W = L^-T Q, has the unit matrix as K and the tridiagonal T as M.
-#include "reduction/basis_finish.h"
+#include "reduction/basis.h"
 
-#include "base/dense_threaded.h"
+#include "base/dense.h"
 #include "base/memory.h"
-#include "reduction/basis_renew.h"
 
 #include <string.h>
 
@@ -23,7 +22,7 @@ static void turn_destroy(Turn *turn)
     memory_free(turn->damping);
 }
 
-static bool turn_create(const GrowingBasis *basis, Turn *turn, Error *err)
+static bool turn_create(const Basis *basis, Turn *turn, Error *err)
 {
     int64_t r = basis->interior_count;
     double *work = NEW_ARRAY(double, dense_eigen_work((int32_t)r), err);
@@ -40,22 +39,21 @@ static bool turn_create(const GrowingBasis *basis, Turn *turn, Error *err)
     dense_lower_divide_transposed(basis->lower, (int32_t)r, (int32_t)r, turn->w);
     // K and M of the interior are done with.
     DenseView w = dense_view(turn->w, r, r), half = dense_view(basis->interior[BULK_MASS], r, r);
-    dense_multiply_threaded(dense_view(basis->interior[BULK_DAMPING], r, r), w, 1, 0,
-                            basis->interior[BULK_MASS]);
-    dense_multiply_transposed_threaded(w, half, 1, 0, turn->damping);
+    dense_multiply(dense_view(basis->interior[BULK_DAMPING], r, r), w, 1, 0,
+                   basis->interior[BULK_MASS]);
+    dense_multiply_transposed(w, half, 1, 0, turn->damping);
 cleanup:
     memory_free(work);
     return error_is_clean(err);
 }
 
 // [count^2] of [m^2] and [m * r] and, transposed, their mirror image; the interior's part is 0.
-static double *put_together(const GrowingBasis *basis, BulkTerm term, const Turn *turn, Error *err)
+static double *put_together(const Basis *basis, BulkTerm term, const Turn *turn, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;
     double *square = NEW_ARRAY(double, all *all, err), *beside = NEW_ARRAY(double, m *r, err);
     if (!square || !beside) goto cleanup;
-    dense_multiply_threaded(dense_view(basis->beside[term], m, r), dense_view(turn->w, r, r), 1, 0,
-                            beside);
+    dense_multiply(dense_view(basis->beside[term], m, r), dense_view(turn->w, r, r), 1, 0, beside);
     for (int64_t j = 0; j < m; j++)
         memcpy(square + j * all, basis->statics[term] + j * m, (size_t)m * sizeof *square);
     for (int64_t j = 0; j < r; j++)
@@ -67,16 +65,27 @@ cleanup:
 }
 
 // Psi, and Phi W.
-static bool write_modes(const GrowingBasis *basis, const Turn *turn, ReducedPart *part, Error *err)
+static bool write_modes(const Basis *basis, const Turn *turn, ReducedPart *part, Error *err)
 {
     int64_t dofs = basis->full_dofs, m = basis->interface_count, r = basis->interior_count;
-    double *modes = part->modes = NEW_ARRAY(double, dofs *(m + r), err);
-    if (!modes) return false;
-    memcpy(modes, basis->responses.blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
-    return basis_form(basis, turn->w, r, modes + dofs * m, err);
+    const Responses *responses = &basis->responses;
+    double *modes = part->modes = NEW_ARRAY(double, dofs *(m + r), err), *phi = modes + dofs * m;
+    double *statics = NEW_ARRAY(double, m *r, err), *mixed = NEW_ARRAY(double, (m + r) * r, err);
+    if (!error_is_clean(err)) goto cleanup;
+    memcpy(modes, responses->blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
+    dense_multiply(dense_view(basis->parts, m, r), dense_view(turn->w, r, r), -1, 0, statics);
+    for (int64_t j = 0; j < r; j++) {
+        memcpy(mixed + j * (m + r), statics + j * m, (size_t)m * sizeof *mixed);
+        memcpy(mixed + j * (m + r) + m, turn->w + j * r, (size_t)r * sizeof *mixed);
+    }
+    responses_combine(responses, mixed, r, phi);
+cleanup:
+    memory_free(statics);
+    memory_free(mixed);
+    return error_is_clean(err);
 }
 
-bool basis_finish(GrowingBasis *basis, bool modes, ReducedPart *part, Error *err)
+bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err)
 {
     Turn turn = {0};
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;

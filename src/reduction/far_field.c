@@ -75,27 +75,29 @@ bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t i
 {
     FarPatches patches = {0};
     FarSamples samples = {.patches = &patches};
+    BulkOperator whole = {0};
     int32_t *dofs = NEW_ARRAY(int32_t, interface_count, err);
     *far = (FarField){0};
     if (!dofs) goto cleanup;
     TRY(far_patches_create(&mesh->pattern, interface_dofs, interface_count, &patches, err));
     if (patches.count == 0) goto cleanup;
-    TRY(far_samples_take(mesh, interface_dofs, interface_count, def, &samples, err));
+    TRY(bulk_operator_create(mesh, NULL, interface_dofs, interface_count, &whole, err));
+    bool taken = far_samples_take(&whole, def, &samples, err);
     far->stiffness = samples.stiffness;
     far->slowest = samples.slowest;
-    samples.stiffness = NULL;
+    if (!taken) goto cleanup;
     TRY(list_modes(mesh, &patches, &far->modes, err));
     far_patches_destroy(&patches);
     TRY(bulk_transform(mesh, &far->modes, &far->bulk, err));
     for (int32_t j = 0; j < interface_count; j++)
         dofs[j] = transform_column(&far->modes, interface_dofs[j]);
     TRY(bulk_operator_create(&far->bulk, NULL, dofs, interface_count, &far->system, err));
-    TRY(far_samples_compare(&samples, &far->system, &far->error, err));
+    TRY(far_samples_compare(&samples, &whole, &far->system, &far->error, err));
     far->used = far->error < ERROR_MAX;
 cleanup:
     // The whole bulk is tried then, and says what is wrong.
     if (err->code == ERROR_COMPUTE) error_clear(err);
-    far_samples_destroy(&samples);
+    bulk_operator_destroy(&whole);
     far_patches_destroy(&patches);
     memory_free(dofs);
     if (!error_is_clean(err)) error_context(err, "far from the interface");

@@ -6,8 +6,8 @@
 #include "base/dense.h"
 #include "base/largest_eigen.h"
 #include "base/memory.h"
-#include "base/share.h"
-#include "reduction/factors_ahead.h"
+#include "base/parallel.h"
+#include "reduction/factored_points.h"
 #include "reduction/inertias.h"
 
 #include <math.h>
@@ -40,55 +40,30 @@ static const double LIFT = 1;
 enum { LEVELS_MAX = 16, POINTS_MAX = TRAINING_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
 
 typedef struct Sampling {
-    const Bulk *bulk;
+    BulkOperator *mesh;   // not owned
     const FarFieldDef *def;
     FarSamples *samples;   // not owned
-    BulkOperator mesh;
     InterfaceOperator *statics;
-    ParameterPoint points[POINTS_MAX];   // [count], then that at which S is compared
-    OperatorTerms terms[POINTS_MAX];
+    ParameterPoint points[POINTS_MAX];   // [count]
+    OperatorTerms terms[POINTS_MAX];   // likewise
     int32_t count;
-    double viscosity[TRAINING_VISCOSITIES_MAX];   // [viscosity_count]
-    int32_t viscosity_count;
-    double top;   // the largest inertia
-    FactorsAhead *ahead;
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *lifted;   // [m^2] that of S of K alone
     double *asked;   // [m * CHUNK] boundary motions
     double *fields;   // [dofs * (CHUNK + 1)] responses
     uint64_t drawn;   // random numbers
     bool *busy;   // [patches] whether a patch still finds much that is new
-    FarRoom room[2];   // of two threads
+    FarRoom room[PARALLEL_WORKERS_MAX];   // of a thread each
 } Sampling;
 
-// All but what the comparison needs.
-static void sampling_end(Sampling *work)
+static void sampling_destroy(Sampling *work)
 {
     interface_operator_destroy(work->statics);
     memory_free(work->lifted);
     memory_free(work->asked);
     memory_free(work->fields);
     memory_free(work->busy);
-    for (int which = 0; which < 2; which++) far_room_destroy(&work->room[which]);
-    work->busy = NULL;
-    work->statics = NULL;
-    work->lifted = work->asked = work->fields = NULL;
-}
-
-static void sampling_destroy(Sampling *work)
-{
-    if (!work) return;
-    sampling_end(work);
-    factors_ahead_destroy(work->ahead);
-    bulk_operator_destroy(&work->mesh);
-    memory_free(work);
-}
-
-void far_samples_destroy(FarSamples *samples)
-{
-    memory_free(samples->stiffness);
-    sampling_destroy(samples->sampling);
-    *samples = (FarSamples){0};
+    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) far_room_destroy(&work->room[k]);
 }
 
 // 1 or -1 (Steele, Lea, Flood, OOPSLA 2014: splitmix64).
@@ -100,57 +75,42 @@ static double draw_sign(uint64_t *drawn)
     return (z ^ (z >> 31)) >> 63 ? 1 : -1;
 }
 
-static void add_point(Sampling *work, ParameterPoint point)
+static void add_point(Sampling *work, double viscosity, double inertia)
 {
+    ParameterPoint point = {viscosity, inertia};
     work->points[work->count] = point;
     work->terms[work->count] = parameter_terms(point, &work->def->scales);
     work->terms[work->count++].lower_only = true;
 }
 
-// At one inertia, with every other viscosity.
-static void add_level(Sampling *work, int32_t level, double inertia)
-{
-    for (int32_t k = level % 2; k < work->viscosity_count; k += 2)
-        add_point(work, (ParameterPoint){work->viscosity[k], inertia});
-}
-
-// Those that are asked whatever the slowest mode is, as many as are factored ahead at least.
-static void list_first_points(Sampling *work, double element_inertia)
+// From half a step below where responses no longer reach that far down to the lowest level of the
+// reduction, with every other viscosity, there with all; S is compared where one is asked half way,
+// with the other viscosity.
+static void list_points(Sampling *work, double element_inertia)
 {
     TrainingPoints training;
     ReductionErrors levels = {0};
+    FarSamples *samples = work->samples;
     const FarFieldDef *def = work->def;
-    training_points_list(&def->materials, &def->scales, element_inertia, element_inertia, &levels,
+    double viscosity[TRAINING_VISCOSITIES_MAX];
+    int32_t count = training_viscosities(&def->materials, &def->scales, viscosity);
+    training_points_list(&def->materials, &def->scales, samples->slowest, element_inertia, &levels,
                          &training);
-    work->viscosity_count = training_viscosities(&def->materials, &def->scales, work->viscosity);
-    // Half a step below where responses no longer reach that far.
-    work->top = training.element_inertia * pow(FALLEN / work->samples->patches->distance, 2) /
-                sqrt(INERTIA_STEP);
-    add_level(work, 0, work->top);
-    add_level(work, 1, work->top / INERTIA_STEP);
-}
-
-// The others, down to the lowest level of the reduction, there with all viscosities; and the one at
-// which S is compared: where one is asked half way, with the other viscosity.
-static void list_points(Sampling *work, double slowest, double element_inertia)
-{
-    TrainingPoints training;
-    ReductionErrors levels = {0};
-    const FarFieldDef *def = work->def;
-    training_points_list(&def->materials, &def->scales, slowest, element_inertia, &levels,
-                         &training);
-    double lowest = levels.inertia[0], second = work->top / INERTIA_STEP;
+    double lowest = levels.inertia[0];
+    double top = training.element_inertia * pow(FALLEN / samples->patches->distance, 2) /
+                 sqrt(INERTIA_STEP);
+    double second = top / INERTIA_STEP;
     int32_t steps =
         (int32_t)fmin(fmax(round(log(second / lowest) / log(INERTIA_STEP)), 1), LEVELS_MAX - 2);
-    for (int32_t k = 1; k < steps; k++)
-        add_level(work, 1 + k, second * pow(lowest / second, (double)k / steps));
+    for (int32_t level = 0; level <= steps; level++) {
+        double inertia = level == 0 ? top : second * pow(lowest / second, (level - 1.0) / steps);
+        for (int32_t k = level % 2; k < count; k += 2) add_point(work, viscosity[k], inertia);
+    }
     ParameterPoint compared = work->points[(work->count + 1) / 2];
-    compared.viscosity = work->viscosity[compared.viscosity < 0.5 ? 1 : 0];
-    for (int32_t k = 1; k < work->viscosity_count; k++)
-        add_point(work, (ParameterPoint){work->viscosity[k], lowest});
-    add_point(work, compared);
-    work->terms[--work->count].lower_only = false;
-    work->samples->allowed = parameter_error_allowed(&training, compared, def->tolerance);
+    compared.viscosity = viscosity[compared.viscosity < 0.5 ? 1 : 0];
+    samples->compared = parameter_terms(compared, &def->scales);
+    samples->allowed = parameter_error_allowed(&training, compared, def->tolerance);
+    for (int32_t k = 1; k < count; k++) add_point(work, viscosity[k], lowest);
 }
 
 static bool begin_patches(Sampling *work, Error *err)
@@ -159,37 +119,31 @@ static bool begin_patches(Sampling *work, Error *err)
     int32_t size = 0;
     work->busy = NEW_ARRAY(bool, patches->count, err);
     if (!work->busy) goto cleanup;
-    TRY(far_patches_begin(work->bulk, work->def->scales.stiffness, ROOM, patches, err));
+    TRY(far_patches_begin(work->mesh->bulk, work->def->scales.stiffness, ROOM, patches, err));
     for (int32_t p = 0; p < patches->count; p++)
         if (patches->modes[p].size > size) size = patches->modes[p].size;
-    for (int which = 0; which < 2; which++)
-        TRY(far_room_create(size, CHUNK + 1, &work->room[which], err));
+    for (int32_t k = 0; k < parallel_workers(); k++)
+        TRY(far_room_create(size, CHUNK + 1, &work->room[k], err));
 cleanup:
     return error_is_clean(err);
 }
 
-static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *work, Error *err)
+static bool sampling_begin(Sampling *work, Error *err)
 {
     FarSamples *samples = work->samples;
-    const Bulk *bulk = work->bulk;
+    BulkOperator *mesh = work->mesh;
     const BulkScales *scales = &work->def->scales;
+    int64_t m = mesh->interface_count;
     OperatorTerms terms = {.stiffness = 1 / scales->stiffness, .lift = true};
-    double element = inertia_element(bulk, scales, interface_dofs, m);
-    TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &work->mesh, err));
-    list_first_points(work, element);
-    FactorsAheadDef def = {
-        .system = &work->mesh, .load = bulk->load, .terms = work->terms, .count = work->count};
-    TRY(factors_ahead_create(&def, &work->ahead, err));
-    work->statics = interface_operator_create(&work->mesh, terms, err);
+    work->statics = interface_operator_create(mesh, terms, err);
     if (!work->statics) goto cleanup;
-    TRY(inertia_slowest(&work->mesh, scales, work->statics, &samples->slowest, err));
-    list_points(work, samples->slowest, element);
-    factors_ahead_extend(work->ahead, work->count + 1);
+    TRY(inertia_slowest(mesh, scales, work->statics, &samples->slowest, err));
+    list_points(work, inertia_element(mesh->bulk, scales, mesh->interface_dofs, (int32_t)m));
     TRY(begin_patches(work, err));
-    samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
-    work->lifted = NEW_ARRAY(double, (int64_t)m *m, err);
-    work->asked = NEW_ARRAY(double, (int64_t)m *CHUNK, err);
-    work->fields = NEW_ARRAY(double, (int64_t)bulk->dof_count *(CHUNK + 1), err);
+    samples->stiffness = NEW_ARRAY(double, m *m, err);
+    work->lifted = NEW_ARRAY(double, m *m, err);
+    work->asked = NEW_ARRAY(double, m *CHUNK, err);
+    work->fields = NEW_ARRAY(double, (int64_t)mesh->dof_count *(CHUNK + 1), err);
 cleanup:
     return error_is_clean(err);
 }
@@ -197,37 +151,32 @@ cleanup:
 // The response to the load, of energy 1, behind the others; 0: there is no load.
 static int32_t take_load(const Sampling *work, const double *held)
 {
-    int32_t dofs = work->bulk->dof_count;
-    double energy = dense_dot(work->bulk->load, held, dofs);
+    int32_t dofs = work->mesh->dof_count;
+    double energy = dense_dot(work->mesh->load, held, dofs);
     double *out = work->fields + (int64_t)CHUNK * dofs;
     if (!(energy > 0)) return 0;
     for (int32_t i = 0; i < dofs; i++) out[i] = held[i] / sqrt(energy);
     return 1;
 }
 
-// Patches that found much that was new in the responses before, two at a time.
+// What is new in the responses before to patches that found much of it.
 typedef struct Turn {
     Sampling *work;
     DenseView fields;
     double least;
-    atomic_int next;   // patch
     atomic_bool failed;
 } Turn;
 
-static void add_in_turn(void *context, int32_t which)
+static void add_to_patch(void *context, int32_t p, int32_t worker)
 {
     Turn *turn = context;
     Sampling *work = turn->work;
-    const FarPatches *patches = work->samples->patches;
-    int32_t count = patches->count, added = 0;
-    for (int32_t p = atomic_fetch_add(&turn->next, 1); p < count;
-         p = atomic_fetch_add(&turn->next, 1)) {
-        if (!work->busy[p]) continue;
-        if (!patch_modes_add(&patches->modes[p], turn->fields, turn->least, &work->room[which],
-                             &added))
-            atomic_store(&turn->failed, true);
-        work->busy[p] = added > NEW_SHARE * turn->fields.columns;
-    }
+    int32_t added = 0;
+    if (!work->busy[p]) return;
+    if (!patch_modes_add(&work->samples->patches->modes[p], turn->fields, turn->least,
+                         &work->room[worker], &added))
+        atomic_store(&turn->failed, true);
+    work->busy[p] = added > NEW_SHARE * turn->fields.columns;
 }
 
 // *left: patches that found much that is new now, too.
@@ -235,11 +184,11 @@ static bool add_to_patches(Sampling *work, int32_t columns, double least, int32_
 {
     const FarPatches *patches = work->samples->patches;
     Turn turn = {.work = work,
-                 .fields = dense_view(work->fields, work->bulk->dof_count, columns),
+                 .fields = dense_view(work->fields, work->mesh->dof_count, columns),
                  .least = least};
     for (int32_t p = 0; p < patches->count; p++)
         if (work->busy[p]) TRY(patch_modes_make_room(&patches->modes[p], columns, err));
-    share_in_two(add_in_turn, &turn);
+    parallel_for(patches->count, add_to_patch, &turn);
     if (turn.failed)
         FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of modes far from the interface");
     *left = 0;
@@ -252,7 +201,7 @@ cleanup:
 static bool sample(Sampling *work, InterfaceOperator *full, const double *held, double least,
                    Error *err)
 {
-    int32_t m = work->mesh.interface_count;
+    int32_t m = work->mesh->interface_count;
     int32_t left = work->samples->patches->count;
     for (int32_t p = 0; p < left; p++) work->busy[p] = true;
     // m boundary motions are all there are.
@@ -269,7 +218,7 @@ cleanup:
 
 static bool factor_statics(Sampling *work, Error *err)
 {
-    int64_t m = work->mesh.interface_count;
+    int64_t m = work->mesh->interface_count;
     const double *schur = interface_operator_schur(work->statics);
     double sum = 0;
     memcpy(work->lifted, schur, (size_t)(m * m) * sizeof *schur);
@@ -283,10 +232,10 @@ cleanup:
 
 static bool sample_statics(Sampling *work, Error *err)
 {
-    double *held = NEW_ARRAY(double, work->bulk->dof_count, err);
-    double *pull = NEW_ARRAY(double, work->mesh.interface_count, err);
+    double *held = NEW_ARRAY(double, work->mesh->dof_count, err);
+    double *pull = NEW_ARRAY(double, work->mesh->interface_count, err);
     if (!held || !pull) goto cleanup;
-    TRY(interface_operator_respond_held(work->statics, work->bulk->load, held, pull, err));
+    TRY(interface_operator_respond_held(work->statics, work->mesh->load, held, pull, err));
     TRY(factor_statics(work, err));
     work->lower = work->lifted;
     TRY(sample(work, work->statics, held, LEAST_AT_REST, err));
@@ -296,25 +245,34 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                      const FarFieldDef *def, FarSamples *samples, Error *err)
+static bool sample_point(void *self, int32_t k, const FactoredPoint *point, Error *err)
 {
-    Sampling *work = samples->sampling = NEW_ARRAY(Sampling, 1, err);
-    double least = LEAST * def->tolerance * def->tolerance;
-    size_t square = (size_t)interface_count * (size_t)interface_count * sizeof(double);
-    FactoredPoint point;
-    if (!work) goto cleanup;
-    *work = (Sampling){.bulk = bulk, .def = def, .samples = samples};
-    TRY(sampling_begin(interface_dofs, interface_count, work, err));
+    Sampling *work = self;
+    double tolerance = work->def->tolerance;
+    (void)k;
+    work->lower = interface_operator_schur_lower(point->full);
+    return sample(work, point->full, point->held, LEAST * tolerance * tolerance, err);
+}
+
+bool far_samples_take(BulkOperator *mesh, const FarFieldDef *def, FarSamples *samples, Error *err)
+{
+    Sampling *work = NEW_ARRAY(Sampling, 1, err);
+    size_t square = (size_t)mesh->interface_count * (size_t)mesh->interface_count * sizeof(double);
+    if (!work) return false;
+    *work = (Sampling){.mesh = mesh, .def = def, .samples = samples};
+    TRY(sampling_begin(work, err));
     memcpy(samples->stiffness, interface_operator_schur(work->statics), square);
     TRY(sample_statics(work, err));
-    for (int32_t k = 0; k < work->count; k++) {
-        TRY(factors_ahead_next(work->ahead, &point, err));
-        work->lower = interface_operator_schur_lower(point.full);
-        TRY(sample(work, point.full, point.held, least, err));
-    }
-    sampling_end(work);
+    FactoredPointsDef points = {.system = mesh,
+                                .load = mesh->load,
+                                .terms = work->terms,
+                                .count = work->count,
+                                .visit = sample_point,
+                                .context = work};
+    TRY(factored_points_visit(&points, err));
 cleanup:
+    sampling_destroy(work);
+    memory_free(work);
     return error_is_clean(err);
 }
 
@@ -353,25 +311,23 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool far_samples_compare(FarSamples *samples, BulkOperator *system, double *error, Error *err)
+bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOperator *left,
+                         double *error, Error *err)
 {
-    int32_t m = system->interface_count;
-    Sampling *work = samples->sampling;
-    FactoredPoint point;
-    InterfaceOperator *condensed = NULL;
+    int32_t m = left->interface_count;
+    InterfaceOperator *full = NULL, *condensed = NULL;
     double *excess = NEW_ARRAY(double, (int64_t)m *m, err);
     if (!excess) goto cleanup;
-    condensed = interface_operator_create(system, work->terms[work->count], err);
+    full = interface_operator_create(mesh, samples->compared, err);
+    condensed = full ? interface_operator_create(left, samples->compared, err) : NULL;
     if (!condensed) goto cleanup;
-    TRY(factors_ahead_next(work->ahead, &point, err));
     memcpy(excess, interface_operator_schur(condensed), (size_t)m * (size_t)m * sizeof *excess);
-    dense_add_scaled(-1, interface_operator_schur(point.full), m * m, excess);
-    TRY(find_largest(point.full, excess, m, samples->allowed, error, err));
+    dense_add_scaled(-1, interface_operator_schur(full), m * m, excess);
+    TRY(find_largest(full, excess, m, samples->allowed, error, err));
     *error /= samples->allowed;
 cleanup:
+    interface_operator_destroy(full);
     interface_operator_destroy(condensed);
     memory_free(excess);
-    sampling_destroy(work);
-    samples->sampling = NULL;
     return error_is_clean(err);
 }

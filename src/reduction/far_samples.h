@@ -14,21 +14,20 @@ typedef struct FarFieldDef {
     Materials materials;
 } FarFieldDef;
 
-// What the whole mesh says, of which the first line is given. `bulk` must outlive it: its
-// last factor is made while the caller goes on.
+// What the whole mesh says, of which the first line is given.
 typedef struct FarSamples {
     FarPatches *patches;   // begun and filled; not owned
-    double *stiffness;   // [interface_count^2] S of K/E; owned
+    double *stiffness;   // [interface_count^2] S of K/E; owned by who calls
     double slowest;   // inertia of the interior's slowest mode (reduction/inertias)
-    struct Sampling *sampling;   // what the comparison needs; owned
-    double allowed;   // error of S where it is compared
+    OperatorTerms compared;   // where S is compared
+    double allowed;   // error of it there
 } FarSamples;
 
-bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                      const FarFieldDef *def, FarSamples *samples, Error *err);
-// *error: the largest relative one of S of `system` at a point where nothing was asked, over what
-// is allowed. Once.
-bool far_samples_compare(FarSamples *samples, BulkOperator *system, double *error, Error *err);
-void far_samples_destroy(FarSamples *samples);
+// mesh: the operator of the whole.
+bool far_samples_take(BulkOperator *mesh, const FarFieldDef *def, FarSamples *samples, Error *err);
+// *error: the largest relative one of S of what is left at a point where nothing was asked, over
+// what is allowed.
+bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOperator *left,
+                         double *error, Error *err);
 
 #endif

@@ -26,26 +26,34 @@ static bool allocate_full(const Bulk *bulk, const int32_t *interface_dofs, int32
         .dof_count = bulk->dof_count, .interface_count = interface_count, .bulk = bulk};
     system->interface_dofs = NEW_ARRAY(int32_t, interface_count, err);
     system->load = NEW_ARRAY(double, bulk->dof_count, err);
-    system->rotation = NEW_ARRAY(double, bulk->dof_count, err);
     system->values = NEW_ARRAY(double, bulk->pattern.start[bulk->dof_count], err);
     if (!error_is_clean(err)) return false;
     memcpy(system->interface_dofs, interface_dofs, (size_t)interface_count * sizeof(int32_t));
     return true;
 }
 
-// The load is copied: later changes of `bulk` do not reach it. mass_total: of one direction, as
-// both have the same.
+// mass_total: of one direction, as all have the same.
+static bool list_rigid_motions(const Bulk *bulk, const double *position, BulkOperator *system,
+                               Error *err)
+{
+    int32_t dim = bulk->dim, dofs = bulk->dof_count;
+    double *next = system->rigid = NEW_ARRAY(double, (int64_t)rigid_count(dim) * dofs, err);
+    if (!next) return false;
+    for (int32_t dof = 0; dof < dofs; dof += dim) system->mass_total += bulk->mass[dof];
+    for (int32_t which = 0; which < rigid_count(dim); which++)
+        for (int32_t dof = 0; dof < dofs; dof++)
+            *next++ =
+                rigid_motion(dim, which, position + dof - dof_axis(dim, dof), dof_axis(dim, dof));
+    return true;
+}
+
+// The load is copied: later changes of `bulk` do not reach it.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err)
 {
     TRY(allocate_full(bulk, interface_dofs, interface_count, system, err));
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
-    for (int32_t dof = 0; position && dof < bulk->dof_count; dof += bulk->dim) {
-        int32_t up = dof + bulk->dim - 1;
-        system->rotation[dof] = -position[up];
-        system->rotation[up] = position[dof];
-        system->mass_total += bulk->mass[dof];
-    }
+    if (position) TRY(list_rigid_motions(bulk, position, system, err));
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
 cleanup:
     return error_is_clean(err);
@@ -53,19 +61,15 @@ cleanup:
 
 bool bulk_operator_copy(const BulkOperator *from, BulkOperator *system, Error *err)
 {
-    size_t size = (size_t)from->dof_count * sizeof(double);
     TRY(allocate_full(from->bulk, from->interface_dofs, from->interface_count, system, err));
-    memcpy(system->load, from->load, size);
-    memcpy(system->rotation, from->rotation, size);
-    system->mass_total = from->mass_total;
-    system->machine = from->machine;
+    memcpy(system->load, from->load, (size_t)from->dof_count * sizeof(double));
     system->analysis = sparse_analysis_copy(from->analysis, err);
 cleanup:
     return error_is_clean(err);
 }
 
-bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
-                          double mass_total, BulkOperator *system, Error *err)
+bool bulk_operator_reduce(const ReducedBulk *reduced, double length, double mass_total,
+                          BulkOperator *system, Error *err)
 {
     *system = (BulkOperator){.dof_count = reduced->count,
                              .interface_count = reduced->interface_count,
@@ -73,10 +77,14 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_ro
                              .mass_total = mass_total};
     system->interface_dofs = NEW_ARRAY(int32_t, reduced->interface_count, err);
     system->load = NEW_ARRAY(double, reduced->count, err);
-    system->rotation = NEW_ARRAY(double, reduced->count, err);
+    int32_t border = reduced->interface_count + reduced->mirrored,
+            motions = rigid_count(reduced->dim);
+    system->rigid = NEW_ARRAY(double, (int64_t)motions * reduced->count, err);
     if (!error_is_clean(err)) goto cleanup;
-    // A rigid motion is a static mode: its interior coordinates are 0.
-    memcpy(system->rotation, interface_rotation, (size_t)reduced->interface_count * sizeof(double));
+    for (int32_t which = 0; reduced->rigid && which < motions; which++)
+        for (int32_t k = 0; k < border; k++)
+            system->rigid[which * reduced->count + k] = (which < reduced->dim ? 1 : length) *
+                                                        reduced->rigid[which * border + k];
     for (int32_t k = 0; k < reduced->interface_count; k++) system->interface_dofs[k] = k;
     for (int32_t k = 0; k < reduced->count; k++)
         system->load[k] = reduced->scales.load * reduced->load[k];
@@ -89,7 +97,7 @@ void bulk_operator_destroy(BulkOperator *system)
 {
     memory_free(system->interface_dofs);
     memory_free(system->load);
-    memory_free(system->rotation);
+    memory_free(system->rigid);
     memory_free(system->values);
     reduced_operator_destroy(system->small);
     sparse_analysis_destroy(system->analysis);
@@ -127,9 +135,9 @@ void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const d
 double bulk_operator_size(const BulkOperator *system, const double *x)
 {
     if (system->bulk) return dense_max_abs(x, system->dof_count);
-    int32_t m = system->interface_count;
-    double interior = sqrt(dense_dot(x + m, x + m, system->dof_count - m));
-    return fmax(interior, dense_max_abs(x, m));
+    int32_t border = system->interface_count + system->reduced->mirrored;
+    double interior = sqrt(dense_dot(x + border, x + border, system->dof_count - border));
+    return fmax(interior, dense_max_abs(x, border));
 }
 
 // Nothing is lost: u = V q in every node of the mesh.

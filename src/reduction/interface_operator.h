@@ -21,7 +21,7 @@ typedef struct BulkOperator {
     int32_t interface_count;
     int32_t *interface_dofs;   // [interface_count] indices of unknowns; owned
     double *load;   // [dof_count] f, force/width; owned
-    double *rotation;   // [dof_count] the unit rotation about the origin, (-z, x); owned
+    double *rigid;   // [rigid_count][dof_count] rigid motions (reduction/reduced_bulk); owned
     double mass_total;   // of the block, mass/width
     Machine machine;   // behind the rod; set before an operator is made, rigid at first
     const Bulk *bulk;   // full: K, C, M; not owned; NULL when reduced
@@ -33,17 +33,17 @@ typedef struct BulkOperator {
     int64_t solves;   // counted
 } BulkOperator;
 
-// position: [dof_count] of `bulk`, x and z of its nodes, length; NULL: no rotation is asked for.
+// position: [dof_count] of `bulk`, places of its nodes, length; NULL: no rigid motions are asked
+// for.
 // `bulk` must outlive the operator.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err);
 // Another one of a full bulk, for another thread: nothing is analysed again.
 bool bulk_operator_copy(const BulkOperator *from, BulkOperator *system, Error *err);
 
-// interface_rotation: [interface_count] the unit rotation: -z for a u_x, x for a u_z. `reduced`
-// must outlive the operator.
-bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
-                          double mass_total, BulkOperator *system, Error *err);
+// length: L. `reduced` must outlive the operator.
+bool bulk_operator_reduce(const ReducedBulk *reduced, double length, double mass_total,
+                          BulkOperator *system, Error *err);
 void bulk_operator_destroy(BulkOperator *system);
 
 // y = K x, C x or M x; [dof_count]
@@ -53,7 +53,7 @@ void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const d
                               int64_t columns, double *y, double *work);
 
 // The size of a displacement, length, or of a velocity: the largest component on the full mesh; on
-// a reduced one the largest on the interface or, if larger, sqrt(2 elastic energy / E) of the
+// a reduced one the largest on the border or, if larger, sqrt(2 elastic energy / E) of the
 // interior.
 double bulk_operator_size(const BulkOperator *system, const double *x);
 

@@ -47,6 +47,7 @@ void mirror_destroy(Mirror *mirror)
         transform_destroy(&part->border);
         memory_free(part->border_dofs);
     }
+    memory_free(mirror->border);
     *mirror = (Mirror){0};
 }
 
@@ -197,6 +198,8 @@ bool mirror_find(const Bulk *bulk, const int32_t *node_image, const int32_t *int
         TRY(list_border_unknowns(&find, p, part, err));
         TRY(bulk_transform(bulk, &part->unknowns, &part->bulk, err));
     }
+    if (find.found) mirror->border = find.border;
+    if (find.found) find.border = NULL;
 cleanup:
     finder_destroy(&find);
     return error_is_clean(err);

@@ -21,6 +21,7 @@ typedef struct MirrorPart {
 typedef struct Mirror {
     bool found;   // else all is empty
     int32_t mirrored;   // images of interface unknowns, as of rod nodes, that are not on it
+    int32_t *border;   // [interface + mirrored] unknowns; owned
     MirrorPart part[2];
 } Mirror;
 

@@ -7,13 +7,9 @@
 //         [ Psi Phi ] [ q ]          [ 0   I ]          [ M_qb T    ],
 //
 // T tridiagonal: a product with M or K costs m r, not (m + r)^2. The border is the interface u_b
-// and the mirrored unknowns u_R: images of those of its unknowns, as of rod nodes, that have none
-// there; S on it is the sum of T_p S_p T_p'. What u_R moves beside the static motion that follows
-// the interface is interior to the whole, in coordinates w with the unit matrix as K:
-//
-//     x = [ u_b; w; q_0; q_1 ],   u_R = L^-T w - E u_b,   z_p = T_p' [u_b; u_R],
-//
-// E = S_RR^-1 S_Rb and L L' = S_RR of the border's S of K.
+// and the mirrored unknowns u_R: images of those of its unknowns, as of rod nodes, that are not on
+// it. A state is x = [ u_b; u_R; q_0; q_1 ], z_p = T_p' [u_b; u_R]: all T_p side by side turn the
+// border, so that forces are split and joined as motions are.
 //
 // All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
 // size and stiffness of a shape. Built by reduction/reduction and reduction/symmetry_reduction,
@@ -59,26 +55,28 @@ typedef struct ReducedPart {
     Transform mesh;   // of the whole mesh's unknowns; where the modes are at hand
 } ReducedPart;
 
-// Mirrored unknowns condensed out of an S on the border.
-typedef struct MirroredDofs {
-    double *follow;   // [mirrored * interface] E = S_RR^-1 S_Rb; owned
-    double *lower;   // [mirrored^2] L of S_RR; owned
-} MirroredDofs;
-
 enum { REDUCED_PARTS_MAX = 2 };
 
 typedef struct ReducedBulk {
+    int32_t dim;
     int32_t full_dofs;
     int32_t interface_count;
-    int32_t mirrored;   // unknowns of w
+    int32_t mirrored;   // unknowns of u_R
     int32_t count;   // of x
     int32_t part_count;
     ReducedPart part[REDUCED_PARTS_MAX];
-    MirroredDofs at_rest;   // of K; owned, like all below
-    double *load;   // [count] of the unit load
+    double *load;   // [count] of the unit load; owned
+    double
+        *rigid;   // [rigid_count(dim)][interface + mirrored] lengths over L, from the trailing end
+        // on; all interior stays at 0; owned; NULL: none are asked for
     double *storage;   // the array that loads and the parts' matrices lie in (a file's); NULL: none
     BulkScales scales;
 } ReducedBulk;
+
+// Rigid motions of a block: unit translations along each axis, then unit rotations about the
+// origin, that of x and height first: (-z, x).
+int32_t rigid_count(int32_t dim);
+double rigid_motion(int32_t dim, int32_t which, const double *place, int32_t axis);
 
 void reduced_part_destroy(ReducedPart *part);
 void reduced_bulk_destroy(ReducedBulk *reduced);
@@ -92,21 +90,8 @@ double reduced_bulk_error(const ReducedBulk *reduced, double inertia);
 bool reduced_bulk_recover(const ReducedBulk *reduced, int32_t count, const double *const *states,
                           double *const *full, Error *err);
 
-// Motions x into local[p] = [z; q], and back. border: [interface + mirrored] work.
-void reduced_bulk_split_motion(const ReducedBulk *reduced, const double *x, double *const *local,
-                               double *border);
-void reduced_bulk_join_motion(const ReducedBulk *reduced, const double *const *local, double *x,
-                              double *border);
-// Forces: what does the same work.
-void reduced_bulk_split_force(const ReducedBulk *reduced, const double *force, double *const *local,
-                              double *border);
-void reduced_bulk_join_force(const ReducedBulk *reduced, const double *const *local, double *force,
-                             double *border);
-
-// border: [m + count, squared] S. schur [m^2] := S_bb - S_bR E; NULL: not asked for.
-// ERROR_COMPUTE: S_RR is not definite.
-bool mirrored_dofs_condense(const double *border, int32_t m, int32_t count, MirroredDofs *mirrored,
-                            double *schur, Error *err);
-void mirrored_dofs_destroy(MirroredDofs *mirrored);
+// Motions or forces x [count] into those of the parts, local[p] = [z; q], and back.
+void reduced_bulk_split(const ReducedBulk *reduced, const double *x, double *const *local);
+void reduced_bulk_join(const ReducedBulk *reduced, const double *const *local, double *x);
 
 #endif

@@ -18,6 +18,12 @@ struct ReducedOperator {
     double *border;   // [interface + mirrored] work; owned
 };
 
+// Mirrored unknowns condensed out of an S on the border.
+typedef struct MirroredDofs {
+    double *follow;   // [mirrored * interface] E; owned
+    double *lower;   // [mirrored^2] Cholesky factor of S_RR; owned
+} MirroredDofs;
+
 struct CondensedBulk {
     const ReducedOperator *system;   // not owned
     CondensedPart part[REDUCED_PARTS_MAX];
@@ -63,10 +69,10 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
     const double scale[] = {[BULK_STIFFNESS] = reduced->scales.stiffness,
                             [BULK_DAMPING] = reduced->scales.damping,
                             [BULK_MASS] = reduced->scales.mass};
-    reduced_bulk_split_motion(reduced, x, system->local, system->border);
+    reduced_bulk_split(reduced, x, system->local);
     for (int p = 0; p < reduced->part_count; p++)
         part_operator_apply(&system->part[p], term, system->local[p], system->image[p]);
-    reduced_bulk_join_force(reduced, (const double *const *)system->image, y, system->border);
+    reduced_bulk_join(reduced, (const double *const *)system->image, y);
     for (int32_t k = 0; k < reduced->count; k++) y[k] *= scale[term];
 }
 
@@ -74,9 +80,34 @@ void condensed_bulk_destroy(CondensedBulk *condensed)
 {
     if (!condensed) return;
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) condensed_part_destroy(&condensed->part[p]);
-    mirrored_dofs_destroy(&condensed->mirrored);
+    memory_free(condensed->mirrored.follow);
+    memory_free(condensed->mirrored.lower);
     memory_free(condensed->pushed);
     memory_free(condensed);
+}
+
+// border: [m + n, squared] S; schur [m^2] := S_bb - S_bR E.
+static bool condense_mirrored(const double *border, int32_t m, int32_t n, MirroredDofs *mirrored,
+                              double *schur, Error *err)
+{
+    int64_t all = m + n;
+    mirrored->follow = NEW_ARRAY(double, (int64_t)n *m, err);
+    mirrored->lower = NEW_ARRAY(double, (int64_t)n *n, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int64_t j = 0; j < m; j++) {
+        memcpy(mirrored->follow + j * n, border + j * all + m, (size_t)n * sizeof *border);
+        memcpy(schur + j * m, border + j * all, (size_t)m * sizeof *schur);
+    }
+    for (int64_t j = 0; j < n; j++)
+        memcpy(mirrored->lower + j * n, border + (m + j) * all + m, (size_t)n * sizeof *border);
+    if (!dense_cholesky(mirrored->lower, n))
+        FAIL(err, ERROR_COMPUTE, "mirror images of the interface are not held by it");
+    DenseView half = dense_view(mirrored->follow, n, m);
+    dense_lower_divide(mirrored->lower, n, m, mirrored->follow);
+    if (n > 0) dense_multiply_transposed(half, half, -1, 1, schur);
+    dense_lower_divide_transposed(mirrored->lower, n, m, mirrored->follow);
+cleanup:
+    return error_is_clean(err);
 }
 
 CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerms terms,
@@ -96,8 +127,7 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
         TRY(condensed_part_create(&reduced->part[p], terms, &condensed->part[p], part, taken, err));
         transform_add_square(&reduced->part[p].border, part, border);
     }
-    TRY(mirrored_dofs_condense(border, (int32_t)m, reduced->mirrored, &condensed->mirrored, schur,
-                               err));
+    TRY(condense_mirrored(border, (int32_t)m, reduced->mirrored, &condensed->mirrored, schur, err));
 cleanup:
     memory_free(border);
     memory_free(part);
@@ -111,18 +141,18 @@ void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double
     const ReducedOperator *system = condensed->system;
     const ReducedBulk *reduced = system->reduced;
     int32_t m = reduced->interface_count, n = reduced->mirrored;
-    reduced_bulk_split_force(reduced, rhs, system->local, system->border);
-    memset(condensed->pushed, 0, (size_t)(m + n) * sizeof *g);
+    double *pushed = condensed->pushed;
+    reduced_bulk_split(reduced, rhs, system->local);
+    memset(pushed, 0, (size_t)(m + n) * sizeof *pushed);
     for (int p = 0; p < reduced->part_count; p++) {
         condensed_part_condense(&reduced->part[p], &condensed->part[p], system->local[p],
                                 system->image[p]);
-        transform_apply(&reduced->part[p].border, system->image[p], condensed->pushed);
+        transform_apply(&reduced->part[p].border, system->image[p], pushed);
     }
-    memcpy(g, condensed->pushed, (size_t)m * sizeof *g);
-    dense_apply_transposed(dense_view(condensed->mirrored.follow, n, m), condensed->pushed + m, -1,
-                           1, g);
-    dense_lower_solve(condensed->mirrored.lower, n, condensed->pushed + m);
-    dense_lower_solve_transposed(condensed->mirrored.lower, n, condensed->pushed + m);
+    memcpy(g, pushed, (size_t)m * sizeof *g);
+    dense_apply_transposed(dense_view(condensed->mirrored.follow, n, m), pushed + m, -1, 1, g);
+    dense_lower_solve(condensed->mirrored.lower, n, pushed + m);
+    dense_lower_solve_transposed(condensed->mirrored.lower, n, pushed + m);
 }
 
 void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, double *v)
@@ -139,5 +169,5 @@ void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, do
         condensed_part_expand(&reduced->part[p], &condensed->part[p], system->image[p],
                               system->local[p]);
     }
-    reduced_bulk_join_motion(reduced, (const double *const *)system->local, v, system->border);
+    reduced_bulk_join(reduced, (const double *const *)system->local, v);
 }

@@ -15,12 +15,9 @@
 #include "base/dense.h"
 #include "base/largest_eigen.h"
 #include "base/memory.h"
-#include "reduction/basis_condense.h"
-#include "reduction/basis_finish.h"
-#include "reduction/basis_renew.h"
-#include "reduction/factors_ahead.h"
+#include "reduction/basis.h"
+#include "reduction/factored_points.h"
 #include "reduction/far_field.h"
-#include "reduction/growing_basis.h"
 #include "reduction/inertias.h"
 #include "reduction/training_points.h"
 
@@ -42,11 +39,11 @@ static const double NEGATIVE_MAX = 1e-3;
 typedef struct Builder {
     BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
     const ReductionDef *def;
-    GrowingBasis basis;
+    Basis basis;
+    bool spoiled;   // by rounding: S_r is below S
     ReducedPart *part;   // not owned
     TrainingPoints training;
     OperatorTerms terms[TRAINING_POINTS_MAX];   // [training.count] of its points
-    FactorsAhead *ahead;   // of these
     double load_energy;   // at a point, of the basis's response to the unit load
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *excess;   // [m^2] S_r - S
@@ -59,7 +56,6 @@ typedef struct Builder {
 // All but the part.
 static void builder_destroy(Builder *work)
 {
-    factors_ahead_destroy(work->ahead);
     basis_destroy(&work->basis);
     memory_free(work->excess);
     memory_free(work->values);
@@ -179,30 +175,17 @@ static bool condense_basis(Builder *work, ParameterPoint point, bool *definite, 
     return basis_condense(&work->basis, factor, work->excess, &work->load_energy, definite, err);
 }
 
-// Compares S_r with `schur`, S at the point. *negative: a Galerkin projection is too stiff, never
-// too soft; this one is, so it is none any more.
-static bool compare_at(Builder *work, ParameterPoint point, const double *schur, bool *negative,
-                       Error *err)
+// Compares S_r with `schur`, S at the point. A Galerkin projection is too stiff, never too soft:
+// where this one is it is none any more.
+static bool compare_at(Builder *work, ParameterPoint point, const double *schur, Error *err)
 {
     double allowed = allowed_error(work, point);
     double least = -NEGATIVE_MAX * allowed - parameter_error_allowed(&work->training, point, 0);
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
     if (definite) TRY(compare(work, schur, allowed, least, err));
-    *negative = !definite || work->values[0] < least;
-cleanup:
-    return error_is_clean(err);
-}
-
-// Likewise, with the basis renewed where it has to be.
-static bool compare_well(Builder *work, ParameterPoint point, const double *schur, Error *err)
-{
-    bool negative = false;
-    TRY(compare_at(work, point, schur, &negative, err));
-    if (!negative) goto cleanup;
-    TRY(basis_renew(&work->basis, 0, err));
-    TRY(compare_at(work, point, schur, &negative, err));
-    if (negative) FAIL(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
+    work->spoiled = !definite || work->values[0] < least;
+    if (work->spoiled) FAIL(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
 cleanup:
     return error_is_clean(err);
 }
@@ -214,7 +197,7 @@ static bool train_at(Builder *work, ParameterPoint point, const FactoredPoint *f
     int32_t m = work->basis.interface_count, wanted = 0;
     double allowed = allowed_error(work, point);
     work->lower = interface_operator_schur_lower(full->full);
-    TRY(compare_well(work, point, interface_operator_schur(full->full), err));
+    TRY(compare_at(work, point, interface_operator_schur(full->full), err));
     // The error of what is added becomes 0; what is left is that of the first boundary motion not
     // added.
     while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
@@ -229,10 +212,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The thread begins while the basis is started.
-static bool list_training_points(Builder *work, double slowest, Error *err)
+static void list_training_points(Builder *work, double slowest)
 {
-    const Responses *responses = &work->basis.responses;
     training_points_list(&work->def->materials, &work->def->scales, slowest,
                          inertia_element(work->full->bulk, &work->def->scales,
                                          work->full->interface_dofs, work->full->interface_count),
@@ -240,26 +221,17 @@ static bool list_training_points(Builder *work, double slowest, Error *err)
     work->basis.responses.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->training.count; k++)
         work->terms[k] = parameter_terms(work->training.points[k].point, &work->def->scales);
-    FactorsAheadDef def = {.system = work->full,
-                           .load = responses->unit_load,
-                           .terms = work->terms,
-                           .count = work->training.count};
-    return factors_ahead_create(&def, &work->ahead, err);
 }
 
-static bool train_basis(Builder *work, Error *err)
+static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error *err)
 {
-    ReductionErrors *errors = &work->part->errors;
-    for (int32_t k = 0; k < work->training.count; k++) {
-        TrainingPoint now = work->training.points[k];
-        FactoredPoint full;
-        double left = 0;
-        TRY(factors_ahead_next(work->ahead, &full, err));
-        TRY(train_at(work, now.point, &full, &left, err));
-        // What the last one added is looked at, too.
-        if (k == work->training.count - 1) TRY(train_at(work, now.point, &full, &left, err));
-        errors->error[now.level] = fmax(errors->error[now.level], left);
-    }
+    Builder *work = self;
+    TrainingPoint now = work->training.points[k];
+    double left = 0, *error = &work->part->errors.error[now.level];
+    TRY(train_at(work, now.point, full, &left, err));
+    // What the last one added is looked at, too.
+    if (k == work->training.count - 1) TRY(train_at(work, now.point, full, &left, err));
+    *error = fmax(*error, left);
 cleanup:
     return error_is_clean(err);
 }
@@ -279,7 +251,7 @@ static bool compare_beyond(Builder *work, Error *err)
         lower[j * (m + 1)] = sqrt(schur[j * (m + 1)]);
     }
     work->lower = lower;
-    TRY(compare_well(work, point, schur, err));
+    TRY(compare_at(work, point, schur, err));
     errors->error[errors->count - 1] = fmax(work->values[m - 1], 0);
 cleanup:
     memory_free(schur);
@@ -332,29 +304,48 @@ static void add_far_field(const Builder *work)
     }
 }
 
+static bool train_basis(Builder *work, Error *err)
+{
+    const ReductionDef *def = work->def;
+    OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
+    double slowest = work->far.slowest;   // where the whole mesh was looked at
+    InterfaceOperator *statics = interface_operator_create(work->full, terms, err);
+    if (!statics) return false;
+    if (!(slowest > 0)) TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
+    list_training_points(work, slowest);
+    TRY(basis_start(&work->basis, statics, err));
+    FactoredPointsDef points = {.system = work->full,
+                                .load = work->basis.responses.unit_load,
+                                .terms = work->terms,
+                                .count = work->training.count,
+                                .visit = train_point,
+                                .context = work};
+    TRY(factored_points_visit(&points, err));
+    TRY(compare_beyond(work, err));
+cleanup:
+    interface_operator_destroy(statics);
+    return error_is_clean(err);
+}
+
+// Where rounding spoils it once more, every block made orthonormal.
 static bool build_on(Builder *work, Error *err)
 {
     const ReductionDef *def = work->def;
-    InterfaceOperator *statics = NULL;
-    OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
-    double slowest = work->far.slowest;   // where the whole mesh was looked at
     TRY(builder_create(work, err));
-    if (slowest > 0) TRY(list_training_points(work, slowest, err));
-    if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
-    if (!(slowest > 0)) {
-        TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
-        TRY(list_training_points(work, slowest, err));
-    }
     work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
-    TRY(basis_start(&work->basis, statics, err));
-    TRY(train_basis(work, err));
-    TRY(compare_beyond(work, err));
+    if (!train_basis(work, err) && work->spoiled && work->basis.loss_max > 0) {
+        error_clear(err);
+        basis_destroy(&work->basis);
+        work->part->errors = (ReductionErrors){0};
+        TRY(basis_create(work->full, &def->scales, &work->basis, err));
+        train_basis(work, err);
+    }
+    if (!error_is_clean(err)) goto cleanup;
     TRY(find_viscous(work, err));
     TRY(basis_finish(&work->basis, def->modes, work->part, err));
     if (def->modes && work->far.used) TRY(expand_modes(work, err));
     if (work->far.used) add_far_field(work);
 cleanup:
-    interface_operator_destroy(statics);
     return error_is_clean(err);
 }
 

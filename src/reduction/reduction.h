@@ -34,6 +34,8 @@ typedef struct ReductionDef {
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
     const int32_t *node_image;   // [nodes] of the block (reduction/mirror_nodes); NULL: none
+    const double
+        *position;   // [dof_count] of its nodes, for rigid motions; NULL: none are asked for
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay: the border of a part by itself.

@@ -9,9 +9,8 @@
 // Linear Algebra Appl. 425, 2007.)
 #include "reduction/responses.h"
 
-#include "base/dense_threaded.h"
+#include "base/dense.h"
 #include "base/memory.h"
-#include "base/share.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,6 +18,8 @@
 // The factor between two inertias, or the part of 1 between two viscosities, from which on two
 // equations are as good as independent.
 static const double FAR = 4;
+
+enum { ALL_PRODUCTS = (1 << BULK_TERMS) - 1 };
 
 static void block_destroy(ResponseBlock *block)
 {
@@ -32,9 +33,9 @@ void responses_destroy(Responses *responses)
     for (int32_t k = 0; k <= responses->block_count; k++) block_destroy(&responses->blocks[k]);
     for (int32_t k = 0; k < responses->shelf_count; k++) memory_free(responses->shelves[k].field);
     memory_free(responses->unit_load);
-    for (int which = 0; which < 2; which++) {
-        memory_free(responses->image[which]);
-        memory_free(responses->work[which]);
+    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) {
+        memory_free(responses->room[k].image);
+        memory_free(responses->room[k].work);
     }
     *responses = (Responses){0};
 }
@@ -45,10 +46,10 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
     const Bulk *bulk = full->bulk;
     *responses = (Responses){.full = full, .scales = *scales, .shelf_count = 2, .shelf_of = {0, 1}};
     responses->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
-    for (int which = 0; which < 2; which++) {
-        responses->image[which] =
-            NEW_ARRAY(double, (int64_t)bulk->dof_count *RESPONSES_TOGETHER, err);
-        responses->work[which] = NEW_ARRAY(double, (int64_t)bulk->dof_count *SPARSE_WIDE, err);
+    for (int32_t k = 0; k < parallel_workers(); k++) {
+        int64_t dofs = bulk->dof_count;
+        responses->room[k].image = NEW_ARRAY(double, dofs *RESPONSES_TOGETHER, err);
+        responses->room[k].work = NEW_ARRAY(double, dofs *SPARSE_WIDE, err);
     }
     if (!error_is_clean(err)) goto cleanup;
     // Without a load every response to it is 0, in any unit.
@@ -80,6 +81,11 @@ static double *shelf_room(Responses *responses, int kind, int64_t columns, Error
     return shelf->field;
 }
 
+ResponseBlock *responses_last(Responses *responses)
+{
+    return &responses->blocks[responses->block_count];
+}
+
 ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_t columns,
                               Error *err)
 {
@@ -94,6 +100,16 @@ ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_
     block->reaction = NEW_ARRAY(double, rows *columns, err);
 cleanup:
     return error_is_clean(err) ? block : NULL;
+}
+
+void responses_replace(Responses *responses, int64_t columns, const double *field)
+{
+    ResponseBlock *next = responses_last(responses);
+    int64_t rows = responses->full->interface_count + 1;
+    memset(next->boundary, 0, (size_t)(rows * next->count) * sizeof *field);
+    memcpy(next->field, field, (size_t)(responses->full->dof_count * columns) * sizeof *field);
+    next->count = columns;
+    next->formed = true;
 }
 
 void responses_keep(Responses *responses)
@@ -122,21 +138,25 @@ static void apply(const Responses *responses, BulkTerm term, DenseView x, double
 // and is enough where viscosities differ: what is lost then goes with the root of the quotient of
 // inertias. Where only inertia differs it gives M, the point with less of it that of K and C which
 // weighs more there, and the lighter one is multiplied.
-static unsigned needed_products(const Responses *responses, ParameterPoint old, ParameterPoint new)
+static unsigned needed_products(const Responses *responses, const ResponseBlock *one,
+                                const ResponseBlock *other)
 {
+    ParameterPoint old = one->point, new = other->point;
     bool ascends = old.inertia < new.inertia;
     ParameterPoint low = ascends ? old : new, high = ascends ? new : old;
     unsigned mass = 1u << BULK_MASS;
     unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
+    if (one->formed || other->formed) return ALL_PRODUCTS;
     if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return mass;
     bool apart = high.inertia > fmax(FAR * low.inertia, responses->inertia_least);
     return apart ? light : mass | light;
 }
 
-// What two threads do to each half of the next block's columns.
+// What is done to each piece of the next block's columns.
 typedef struct Multiplication {
     const Responses *responses;
     double *const *gram;
+    int32_t pieces;
 } Multiplication;
 
 // Blocks whose fields stand side by side: multiplied as one.
@@ -169,20 +189,20 @@ static void multiply_run(const Multiplication *all, Run *run, DenseView image, i
 }
 
 // All blocks of a kind that need this product.
-static void multiply_kind(const Multiplication *all, int kind, BulkTerm term, int32_t which,
-                          int64_t from, int64_t columns)
+static void multiply_kind(const Multiplication *all, int kind, BulkTerm term,
+                          const ResponseRoom *room, int64_t from, int64_t columns)
 {
     const Responses *responses = all->responses;
     const ResponseBlock *next = &responses->blocks[responses->block_count];
     int64_t dofs = responses->full->dof_count;
-    DenseView image = dense_view(responses->image[which], dofs, columns);
-    double *product = responses->product[which], *gram = all->gram[term];
+    DenseView image = dense_view(room->image, dofs, columns);
+    double *product = room->product, *gram = all->gram[term];
     Run run = {0};
     for (int32_t k = 0; k <= responses->block_count; k++) {
         const ResponseBlock *block = &responses->blocks[k];
         int64_t skipped = block == next ? from : 0;
         const double *field = block->field + skipped * dofs;
-        unsigned needed = needed_products(responses, block->point, next->point);
+        unsigned needed = needed_products(responses, block, next);
         if (kind_of(block->point) != kind || !(needed & 1u << term)) continue;
         bool beside = run.count > 0 && field == run.field + run.columns * dofs;
         if (run.count > 0 && !beside) multiply_run(all, &run, image, from, product, gram);
@@ -193,33 +213,23 @@ static void multiply_kind(const Multiplication *all, int kind, BulkTerm term, in
     if (run.count > 0) multiply_run(all, &run, image, from, product, gram);
 }
 
-static void multiply_columns(const Multiplication *all, int32_t which, int64_t from,
-                             int64_t columns)
+static void multiply_piece(void *context, int32_t piece, int32_t worker)
 {
+    const Multiplication *all = context;
     const Responses *responses = all->responses;
     const ResponseBlock *next = &responses->blocks[responses->block_count];
-    int64_t dofs = responses->full->dof_count;
+    const ResponseRoom *room = &responses->room[worker];
+    int64_t dofs = responses->full->dof_count, from = next->count * piece / all->pieces;
+    int64_t columns = next->count * (piece + 1) / all->pieces - from;
     unsigned needed = 0;
     for (int32_t k = 0; k <= responses->block_count; k++)
-        needed |= needed_products(responses, responses->blocks[k].point, next->point);
+        needed |= needed_products(responses, &responses->blocks[k], next);
     for (int term = 0; term < BULK_TERMS; term++) {
         if (!(needed & 1u << term)) continue;
         apply(responses, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
-              responses->work[which], responses->image[which]);
+              room->work, room->image);
         for (int kind = 0; kind < 2; kind++)
-            multiply_kind(all, kind, (BulkTerm)term, which, from, columns);
-    }
-}
-
-// Pass by pass in turn: the work of a pass falls with its number.
-static void multiply_half(void *context, int32_t which)
-{
-    const Multiplication *all = context;
-    int64_t columns = all->responses->blocks[all->responses->block_count].count;
-    int64_t passes = 2 * ((columns + 2 * RESPONSES_TOGETHER - 1) / (2 * RESPONSES_TOGETHER));
-    for (int64_t pass = which; pass < passes; pass += 2) {
-        int64_t from = columns * pass / passes, to = columns * (pass + 1) / passes;
-        if (to > from) multiply_columns(all, which, from, to - from);
+            multiply_kind(all, kind, (BulkTerm)term, room, from, columns);
     }
 }
 
@@ -256,11 +266,12 @@ static void complete_block(const Responses *responses, const ResponseBlock *bloc
 {
     const ResponseBlock *next = &responses->blocks[responses->block_count];
     int64_t m = responses->full->interface_count, rows = responses->count + next->count;
-    unsigned known = needed_products(responses, block->point, next->point);
-    dense_multiply_transposed_threaded(dense_view(block->reaction, m + 1, block->count),
-                                       dense_view(next->boundary, m + 1, next->count), 1, 0, a);
-    dense_multiply_transposed_threaded(dense_view(block->boundary, m + 1, block->count),
-                                       dense_view(next->reaction, m + 1, next->count), 1, 0, b);
+    unsigned known = needed_products(responses, block, next);
+    if (known == ALL_PRODUCTS) return;
+    dense_multiply_transposed(dense_view(block->reaction, m + 1, block->count),
+                              dense_view(next->boundary, m + 1, next->count), 1, 0, a);
+    dense_multiply_transposed(dense_view(block->boundary, m + 1, block->count),
+                              dense_view(next->reaction, m + 1, next->count), 1, 0, b);
     for (int64_t j = 0; j < next->count; j++) {
         for (int64_t i = block == next ? j : 0; i < block->count; i++) {
             int64_t at = j * rows + block->first + i, own = j * block->count + i;
@@ -279,28 +290,36 @@ static void mirror_own(const Responses *responses, double *gram)
             gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
 }
 
+// Of many columns in pieces as large as may be: the work of a piece falls with its number.
+static int32_t pieces_of(int64_t columns)
+{
+    return columns > 1
+               ? (int32_t)(2 * ((columns + 2 * RESPONSES_TOGETHER - 1) / (2 * RESPONSES_TOGETHER)))
+               : 1;
+}
+
 bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Error *err)
 {
     const ResponseBlock *next = &responses->blocks[responses->block_count];
     int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
     int64_t rows = responses->count + next->count;
-    Multiplication by_mesh = {responses, gram};
+    Multiplication by_mesh = {responses, gram, pieces_of(next->count)};
     double *a = NEW_ARRAY(double, rows * next->count, err);
     double *b = NEW_ARRAY(double, rows * next->count, err);
-    for (int which = 0; which < 2; which++)
-        responses->product[which] = NEW_ARRAY(double, rows *RESPONSES_TOGETHER, err);
+    for (int32_t k = 0; k < parallel_workers(); k++)
+        responses->room[k].product = NEW_ARRAY(double, rows *RESPONSES_TOGETHER, err);
     if (!error_is_clean(err)) goto cleanup;
     for (int64_t j = 0; j < next->count; j++)
         next->boundary[j * (m + 1) + m] =
             dense_dot(next->field + j * dofs, responses->unit_load, (int32_t)dofs);
-    share_in_two(multiply_half, &by_mesh);
+    parallel_for(by_mesh.pieces, multiply_piece, &by_mesh);
     for (int32_t k = 0; k <= responses->block_count; k++)
         complete_block(responses, &responses->blocks[k], a, b, gram);
     for (int term = 0; term < BULK_TERMS; term++) mirror_own(responses, gram[term]);
 cleanup:
-    for (int which = 0; which < 2; which++) {
-        memory_free(responses->product[which]);
-        responses->product[which] = NULL;
+    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) {
+        memory_free(responses->room[k].product);
+        responses->room[k].product = NULL;
     }
     memory_free(a);
     memory_free(b);
@@ -308,26 +327,16 @@ cleanup:
 }
 
 // Rows of `c` that belong to a block stand `count` apart.
-void responses_combine(const Responses *responses, double factor, const double *c, int64_t columns,
-                       double *y)
+void responses_combine(const Responses *responses, const double *c, int64_t columns, double *y)
 {
-    int64_t dofs = responses->full->dof_count;
+    const BulkOperator *full = responses->full;
+    int64_t dofs = full->dof_count;
     for (int32_t k = 0; k < responses->block_count; k++) {
         const ResponseBlock *block = &responses->blocks[k];
         dense_multiply_rows(dense_view(block->field, dofs, block->count), c + block->first,
-                            responses->count, columns, factor, y);
+                            responses->count, columns, 1, y);
     }
-}
-
-void responses_project(const Responses *responses, BulkTerm term, const double *z, int64_t columns,
-                       double *image, double *product)
-{
-    int64_t dofs = responses->full->dof_count;
-    apply(responses, term, dense_view(z, dofs, columns), responses->work[0], image);
-    for (int32_t k = 0; k < responses->block_count; k++) {
-        const ResponseBlock *block = &responses->blocks[k];
-        dense_multiply_transposed_rows(dense_view(block->field, dofs, block->count),
-                                       dense_view(image, dofs, columns), 1, 0,
-                                       product + block->first, responses->count);
-    }
+    for (int64_t j = 0; j < columns; j++)
+        for (int32_t i = 0; i < full->interface_count; i++)
+            y[j * dofs + full->interface_dofs[i]] = 0;
 }

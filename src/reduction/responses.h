@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Responses of the full mesh at points of the parameter domain of reduction/reduction: columns x
 // with A x = r on the interface and t f inside, f the unit load. A product of one with any other z
-// is known without the mesh: x' A z = r' z_b + t f' z. Used by reduction/growing_basis and
+// is known without the mesh: x' A z = r' z_b + t f' z. Used by reduction/basis_grow and
 // reduction/reduction.
 #ifndef AMONTONS_REDUCTION_RESPONSES_H
 #define AMONTONS_REDUCTION_RESPONSES_H
 
+#include "base/parallel.h"
 #include "reduction/interface_operator.h"
 #include "reduction/training_points.h"
 
@@ -17,6 +18,7 @@ enum {
 // Those at one point.
 typedef struct ResponseBlock {
     ParameterPoint point;
+    bool formed;   // of a basis, no response: 0 on the interface, all its products are by the mesh
     int64_t first, count;   // columns
     double *field;   // [dofs] each, x; in a shelf
     double *boundary;   // [m + 1] each, x on the interface, then f'x; owned, as what follows
@@ -29,14 +31,19 @@ typedef struct ResponseShelf {
     int64_t room, filled;   // columns
 } ResponseShelf;
 
+// What one thread multiplies in; owned.
+typedef struct ResponseRoom {
+    double *image;   // [dofs * RESPONSES_TOGETHER]
+    double *work;   // [dofs * SPARSE_WIDE]
+    double *product;   // [rows * RESPONSES_TOGETHER] while responses are multiplied
+} ResponseRoom;
+
 typedef struct Responses {
     const BulkOperator *full;   // of the mesh; not owned
     BulkScales scales;
     double *unit_load;   // [dofs] f; owned
-    double *image[2];   // [dofs * RESPONSES_TOGETHER] work of two threads; owned
-    double *work[2];   // [dofs * SPARSE_WIDE] likewise
     double inertia_least;   // at which the energy of motion counts; set before the third block
-    double *product[2];   // [rows * RESPONSES_TOGETHER] likewise, while responses are multiplied
+    ResponseRoom room[PARALLEL_WORKERS_MAX];
     int32_t shelf_count;
     ResponseShelf shelves[RESPONSE_BLOCKS_MAX + 2];   // [shelf_count]
     int32_t shelf_of[2];   // that in use for more elastic responses and for more viscous ones
@@ -53,17 +60,17 @@ void responses_destroy(Responses *responses);
 // Room for `columns` columns, behind all others: a block that counts from responses_keep on.
 ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_t columns,
                               Error *err);
+ResponseBlock *responses_last(Responses *responses);   // that one
+// Formed columns [dofs * columns], not more than it has, in its place.
+void responses_replace(Responses *responses, int64_t columns, const double *field);
 void responses_keep(Responses *responses);
 void responses_drop(Responses *responses);   // if it was not kept
 
 // gram [BULK_TERMS][all * added]: X' (K, C, M) X_next, X all columns with those of the next block.
 bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Error *err);
 
-// y [dofs * columns] += factor X c, of the columns that are kept; c [count * columns].
-void responses_combine(const Responses *responses, double factor, const double *c, int64_t columns,
-                       double *y);
-// product [count * columns] = X' T z; image [dofs * columns]: T z, too.
-void responses_project(const Responses *responses, BulkTerm term, const double *z, int64_t columns,
-                       double *image, double *product);
+// y [dofs * columns] += X c, of the columns that are kept, 0 on the interface to the last bit; c
+// [count * columns].
+void responses_combine(const Responses *responses, const double *c, int64_t columns, double *y);
 
 #endif

@@ -4,36 +4,41 @@
 #include "base/memory.h"
 #include "reduction/mirror.h"
 
-// What of the whole follows from its parts: E and L from S of K on the border, and the load.
+// What of the whole follows from its parts.
 static bool join(ReducedBulk *reduced, Error *err)
 {
-    int64_t size = reduced->interface_count + reduced->mirrored;
-    double *schur = NEW_ARRAY(double, size *size, err), *border = NEW_ARRAY(double, size, err);
     const double *loads[REDUCED_PARTS_MAX];
-    reduced->count = (int32_t)size;
+    reduced->count = reduced->interface_count + reduced->mirrored;
     for (int p = 0; p < reduced->part_count; p++) {
         reduced->count += reduced->part[p].interior_count;
         reduced->full_dofs += reduced->part[p].full_dofs;
         loads[p] = reduced->part[p].load;
     }
     reduced->load = NEW_ARRAY(double, reduced->count, err);
-    if (!error_is_clean(err)) goto cleanup;
-    for (int p = 0; p < reduced->part_count; p++)
-        transform_add_square(&reduced->part[p].border, reduced->part[p].stiffness, schur);
-    TRY(mirrored_dofs_condense(schur, reduced->interface_count, reduced->mirrored,
-                               &reduced->at_rest, NULL, err));
-    reduced_bulk_join_force(reduced, loads, reduced->load, border);
-cleanup:
-    memory_free(schur);
-    memory_free(border);
-    return error_is_clean(err);
+    if (reduced->load) reduced_bulk_join(reduced, loads, reduced->load);
+    return reduced->load != NULL;
+}
+
+// Of the unknowns on the border; a rigid motion is a static one, so that all else follows.
+static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const ReductionDef *def,
+                               ReducedBulk *reduced, Error *err)
+{
+    int32_t dim = bulk->dim, count = reduced->interface_count + reduced->mirrored;
+    double *next = reduced->rigid = NEW_ARRAY(double, (int64_t)rigid_count(dim) * count, err);
+    for (int32_t which = 0; next && which < rigid_count(dim); which++)
+        for (int32_t k = 0; k < count; k++) {
+            const double *place = def->position + node_dof(dim, dof_node(dim, border[k]), 0);
+            *next++ = rigid_motion(dim, which, place, dof_axis(dim, border[k]));
+        }
+    return next != NULL;
 }
 
 bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
                               const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
     Mirror mirror = {0};
-    *reduced = (ReducedBulk){.interface_count = m, .part_count = 1, .scales = def->scales};
+    *reduced = (ReducedBulk){
+        .dim = bulk->dim, .interface_count = m, .part_count = 1, .scales = def->scales};
     if (def->node_image) TRY(mirror_find(bulk, def->node_image, interface_dofs, m, &mirror, err));
     if (mirror.found) {
         reduced->part_count = 2;
@@ -52,6 +57,9 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
         from->unknowns = (Transform){0};
     }
     TRY(join(reduced, err));
+    if (def->position)
+        TRY(list_rigid_motions(bulk, mirror.found ? mirror.border : interface_dofs, def, reduced,
+                               err));
 cleanup:
     mirror_destroy(&mirror);
     return error_is_clean(err);

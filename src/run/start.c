@@ -57,22 +57,17 @@ static void touch_rod(Simulation *simulation)
         simulation->rod.origin[j] = now[system->interface_dofs[interface_rod(interface, j)]];
 }
 
-// Adds the velocity at t = 0, but for what is held (nothing is, where the shape came from the
-// cache). A reduced bulk's first unknowns are the interface's, and their static modes move all of
-// it.
+// Adds the velocity at t = 0, but for what is held. (What may move in a reduced bulk never is.)
 static void set_moving(const Model *model, State *state)
 {
     const Interface *interface = &model->interface;
     const BulkOperator *system = &model->system;
-    int32_t dim = interface->dim;
-    const uint8_t *held = model->bulk.held;
-    int32_t moved = system->reduced ? interface->count : state->dof_count;
-    for (int32_t k = 0; k < moved; k++) {
-        int32_t dof = system->reduced ? interface->dofs[k] : k;
-        int32_t axis = dof_axis(dim, dof);
-        if (held && held[dof]) continue;
-        if (axis == 0) state->velocity[k] += model->scene->start.velocity_x;
-        if (axis == dim - 1) state->velocity[k] += model->scene->start.velocity_z;
+    const uint8_t *held = system->reduced ? NULL : model->bulk.held;
+    const double *x = system->rigid, *z = x + (int64_t)(interface->dim - 1) * state->dof_count;
+    for (int32_t k = 0; k < state->dof_count; k++) {
+        if (held && held[k]) continue;
+        state->velocity[k] += model->scene->start.velocity_x * x[k];
+        state->velocity[k] += model->scene->start.velocity_z * z[k];
     }
     for (int32_t k = 0; k < interface->count; k++)
         state->slip_rate[k] = state->velocity[system->interface_dofs[k]];

@@ -88,7 +88,8 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
                            Error *err)
 {
     int64_t count = interface->count;
-    *reduced = (ReducedBulk){.interface_count = interface->count,
+    *reduced = (ReducedBulk){.dim = interface->dim,
+                             .interface_count = interface->count,
                              .count = interface->count,
                              .part_count = 1,
                              .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
@@ -115,21 +116,17 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
 // is bonded: s_xz follows U - u whatever its sign.
 bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
 {
-    double *rotation = NULL;   // moments are not the model's business: no rotation
     *chain = (Chain){.law = model->law};
     TRY(build_interface(model, points, &chain->interface, err));
     TRY(build_matrices(model, &chain->interface, &chain->reduced, err));
-    rotation = NEW_ARRAY(double, chain->interface.count, err);
-    if (!rotation) goto cleanup;
     double mass = model->density * model->alpha * model->height * model->length;
-    TRY(bulk_operator_reduce(&chain->reduced, rotation, mass, &chain->system, err));
+    TRY(bulk_operator_reduce(&chain->reduced, model->length, mass, &chain->system, err));
     TRY(rod_build(&chain->interface, ROD_IS_BONDED, model->velocity, &chain->rod, err));
     chain->block = (Block){.system = &chain->system,
                            .interface = &chain->interface,
                            .law = &chain->law,
                            .rod = &chain->rod};
 cleanup:
-    memory_free(rotation);
     return error_is_clean(err);
 }
 

@@ -39,15 +39,15 @@ static ReducedPart make_part(Random *random, int32_t m, int32_t interior, int32_
 
 static void make_basis(uint64_t seed, ReducedBulk *reduced)
 {
-    Error err = {0};
     Random random = {.state = seed};
-    *reduced = (ReducedBulk){.full_dofs = DOFS,
+    *reduced = (ReducedBulk){.dim = 2,
+                             .full_dofs = DOFS,
                              .interface_count = M,
                              .count = ALL,
                              .part_count = 1,
                              .part = {make_part(&random, M, ALL - M, DOFS)},
-                             .at_rest = {NEW_ARRAY(double, 0, &err), NEW_ARRAY(double, 0, &err)},
-                             .load = random_array(&random, ALL)};
+                             .load = random_array(&random, ALL),
+                             .rigid = random_array(&random, 3 * M)};
     reduced->part[0].border = (Transform){.size = M, .count = M};
     reduced->part[0].mesh = (Transform){.size = DOFS, .count = DOFS};
 }
@@ -89,12 +89,10 @@ static void assert_same_map(const Transform *a, const Transform *b)
 
 static void assert_same_bulk(const ReducedBulk *a, const ReducedBulk *b, bool with_modes)
 {
-    size_t n = (size_t)b->mirrored;
     assert_true(a->full_dofs == b->full_dofs && a->count == b->count && a->mirrored == b->mirrored);
     assert_true(a->interface_count == M && a->part_count == b->part_count);
     assert_same(a->load, b->load, (size_t)b->count);
-    assert_same(a->at_rest.follow, b->at_rest.follow, n * M);
-    assert_same(a->at_rest.lower, b->at_rest.lower, n * n);
+    assert_same(a->rigid, b->rigid, 3 * (size_t)(M + b->mirrored));
     for (int p = 0; p < b->part_count; p++) {
         const ReducedPart *part = &a->part[p], *wanted = &b->part[p];
         size_t all = (size_t)wanted->count, m = (size_t)wanted->border_count;
@@ -153,15 +151,15 @@ static void make_parts(ReducedBulk *reduced)
     enum { MIRRORED = 2, DOFS_OF_EACH = DOFS / 2 };
     Random random = {.state = 9};
     *reduced = (ReducedBulk){
+        .dim = 2,
         .full_dofs = DOFS,
         .interface_count = M,
         .mirrored = MIRRORED,
         .count = M + MIRRORED + 5,
         .part_count = 2,
         .part = {make_part(&random, 5, 3, DOFS_OF_EACH), make_part(&random, 4, 2, DOFS_OF_EACH)},
-        .at_rest = {.follow = random_array(&random, MIRRORED * M),
-                    .lower = random_array(&random, MIRRORED * MIRRORED)},
-        .load = random_array(&random, M + MIRRORED + 5)};
+        .load = random_array(&random, M + MIRRORED + 5),
+        .rigid = random_array(&random, 3 * (M + MIRRORED))};
     for (int p = 0; p < 2; p++) {
         make_map(reduced->part[p].border_count, M + MIRRORED, p, &reduced->part[p].border);
         make_map(DOFS_OF_EACH, DOFS, p, &reduced->part[p].mesh);

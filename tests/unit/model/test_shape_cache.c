@@ -238,7 +238,6 @@ static void make_shape(uint64_t seed, Shape *shape)
     snprintf(shape->interface.pad_name[0], GROUP_NAME_SIZE, "left");
     snprintf(shape->interface.pad_name[1], GROUP_NAME_SIZE, "%063d", 7);   // as long as allowed
     snprintf(shape->basis, sizeof shape->basis, "%s", BASIS);
-    shape->rotation = random_array(&random, M);
 }
 
 static void assert_same_shape(const Shape *a, const Shape *b)
@@ -258,7 +257,6 @@ static void assert_same_shape(const Shape *a, const Shape *b)
     assert_memory_equal(i->rod_z, j->rod_z, sizeof(double));
     assert_memory_equal(i->rod_share, j->rod_share, sizeof(double));
     assert_memory_equal(i->rod_face, j->rod_face, sizeof i->rod_face);
-    assert_memory_equal(a->rotation, b->rotation, 7 * sizeof(double));
 }
 
 static const char KEY[] = "00112233445566778899aabbccddeeff";

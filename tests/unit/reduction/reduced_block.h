@@ -55,6 +55,7 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
     block->def = (ReductionDef){.tolerance = tolerance,
                                 .materials = materials,
                                 .modes = true,
+                                .position = block->mesh.position,
                                 .scales = block_scales(&block->mesh, &materials.mean, largest)};
     if (tolerance > 0 &&
         !symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
@@ -123,14 +124,13 @@ static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms te
     Error err = {0};
     BulkOperator system;
     int32_t m = reduced->interface_count;
-    double *schur = hand_matrix(m, m), *rotation = hand_matrix(m, 1);
-    assert_true(bulk_operator_reduce(reduced, rotation, 1, &system, &err));
+    double *schur = hand_matrix(m, m);
+    assert_true(bulk_operator_reduce(reduced, 1, 1, &system, &err));
     InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
     if (!rung) fail_msg("%s", err.message);
     memcpy(schur, interface_operator_schur(rung), (size_t)(m * m) * sizeof *schur);
     interface_operator_destroy(rung);
     bulk_operator_destroy(&system);
-    free(rotation);
     return schur;
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Threads are made for each call and take the next piece until none is left. Where none is to be
+// had the caller's does all.
+#include "base/parallel.h"
+
+#include "base/memory.h"
+#include "base/thread.h"
+
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+
+static _Thread_local bool within_piece;
+
+typedef struct Work {
+    void (*piece)(void *context, int32_t k, int32_t worker);
+    void *context;
+    int32_t count;
+    atomic_int next;
+} Work;
+
+typedef struct Helper {
+    Work *work;
+    int32_t number;
+    pthread_t thread;
+    MemoryCounters counted;   // of the thread, at its end
+} Helper;
+
+int32_t parallel_workers(void)
+{
+    cpu_set_t allowed;
+    int32_t count = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
+    return count < PARALLEL_WORKERS_MAX ? count : PARALLEL_WORKERS_MAX;
+}
+
+static void do_pieces(Work *work, int32_t worker)
+{
+    bool before = within_piece;
+    within_piece = true;
+    for (int32_t k = atomic_fetch_add(&work->next, 1); k < work->count;
+         k = atomic_fetch_add(&work->next, 1))
+        work->piece(work->context, k, worker);
+    within_piece = before;
+}
+
+static void *help(void *self)
+{
+    Helper *helper = self;
+    do_pieces(helper->work, helper->number);
+    helper->counted = memory_counters();
+    return NULL;
+}
+
+void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t worker),
+                  void *context)
+{
+    Work work = {piece, context, count, 0};
+    Helper helpers[PARALLEL_WORKERS_MAX];
+    int32_t workers = within_piece ? 1 : parallel_workers(), made = 1;
+    for (; made < workers && made < count; made++) {
+        helpers[made] = (Helper){.work = &work, .number = made};
+        if (thread_start(help, &helpers[made], &helpers[made].thread) != 0) break;
+    }
+    do_pieces(&work, 0);
+    for (int32_t k = 1; k < made; k++) {
+        pthread_join(helpers[k].thread, NULL);
+        memory_take_over(helpers[k].counted);
+    }
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Work in pieces that know nothing of each other, in as many threads as the process may use. Pieces
+// follow from the work's size alone, so that what comes out does not depend on the threads. Called
+// by base/dense, base/sparse_expand, base/largest_eigen and several of reduction/.
+#ifndef AMONTONS_BASE_PARALLEL_H
+#define AMONTONS_BASE_PARALLEL_H
+
+#include <stdint.h>
+
+enum {
+    PARALLEL_WORKERS_MAX = 8,
+    PARALLEL_OPERATIONS =
+        20000000   // some ms: with less, threads (20 us each to begin) save little
+};
+
+int32_t parallel_workers(void);   // processors of this process, PARALLEL_WORKERS_MAX at most
+
+// Calls piece(context, k, worker) for k from 0 to count - 1; returns when all are done. worker:
+// which thread it is, for room of its own; 0 is the caller's. From within a piece: all in its
+// thread.
+void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t worker),
+                  void *context);
+
+#endif

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is left of a response is a difference of nearly equal energies. Its products come from
+// those of the responses, so that columns as long as the mesh are multiplied once. Where too many
+// digits are lost, or some of what is new depends on the rest, the block itself becomes what is new
+// of it, orthonormal in K, and is multiplied by the mesh.
+#include "reduction/basis.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+// The squared length of what is left of a response below which it is rounding.
+static const double DEPENDENT_LIMIT = 1e-12;
+
+enum { INVERSE_STEPS = 8 };   // to the smallest eigenvalue, within some per cent
+
+// What the next block brings, as small matrices.
+typedef struct Extension {
+    int64_t m, count, added;   // count: columns of Phi before
+    double *gram[BULK_TERMS];   // [(m + count + added) * added] X' (K, C, M) X_next
+    double *statics;   // [m * added] rows of one of these
+    double *parts;   // [m * added] X_b of the next
+    double *beside[BULK_TERMS];   // [m * added] Psi' (C, M) Y, Y the new columns of Phi
+    double *old[BULK_TERMS];   // [count * added] Phi' (K, C, M) Y
+    double *own[BULK_TERMS];   // [added^2] Y' (K, C, M) Y
+    double *load;   // [added] f'Y
+    double *lower;   // [added^2] of the factor of K
+    double *along;   // [count * added] L^-1 Phi'K Y
+    double largest;   // energy in K of a response
+} Extension;
+
+void basis_destroy(Basis *basis)
+{
+    responses_destroy(&basis->responses);
+    for (int term = 0; term < BULK_TERMS; term++) {
+        memory_free(basis->statics[term]);
+        memory_free(basis->beside[term]);
+        memory_free(basis->interior[term]);
+    }
+    memory_free(basis->lower);
+    memory_free(basis->load);
+    memory_free(basis->parts);
+    *basis = (Basis){0};
+}
+
+bool basis_create(const BulkOperator *full, const BulkScales *scales, Basis *basis, Error *err)
+{
+    int64_t m = full->interface_count;
+    *basis = (Basis){.full_dofs = full->dof_count, .interface_count = full->interface_count};
+    for (int term = 0; term < BULK_TERMS; term++)
+        basis->statics[term] = NEW_ARRAY(double, m *m, err);
+    basis->load = NEW_ARRAY(double, m, err);
+    return error_is_clean(err) && responses_create(full, scales, &basis->responses, err);
+}
+
+static void extension_destroy(Extension *x)
+{
+    for (int term = 0; term < BULK_TERMS; term++) {
+        memory_free(x->gram[term]);
+        memory_free(x->beside[term]);
+        memory_free(x->old[term]);
+        memory_free(x->own[term]);
+    }
+    double *const owned[] = {x->statics, x->parts, x->load, x->lower, x->along};
+    for (size_t k = 0; k < sizeof owned / sizeof *owned; k++) memory_free(owned[k]);
+    *x = (Extension){0};
+}
+
+static bool extension_create(const Basis *basis, int64_t added, Extension *x, Error *err)
+{
+    int64_t m = basis->interface_count, count = basis->interior_count;
+    *x = (Extension){.m = m, .count = count, .added = added};
+    for (int term = 0; term < BULK_TERMS; term++) {
+        x->gram[term] = NEW_ARRAY(double, (m + count + added) * added, err);
+        if (term != BULK_STIFFNESS) x->beside[term] = NEW_ARRAY(double, m *added, err);
+        x->old[term] = NEW_ARRAY(double, count *added, err);
+        x->own[term] = NEW_ARRAY(double, added *added, err);
+    }
+    x->statics = NEW_ARRAY(double, m *added, err);
+    x->parts = NEW_ARRAY(double, m *added, err);
+    x->load = NEW_ARRAY(double, added, err);
+    x->lower = NEW_ARRAY(double, added *added, err);
+    x->along = NEW_ARRAY(double, count *added, err);
+    return error_is_clean(err);
+}
+
+// out [count * columns] := rows `first` on of a [rows * columns].
+static void take_rows(DenseView a, int64_t first, int64_t count, double *out)
+{
+    for (int64_t j = 0; j < a.columns; j++)
+        memcpy(out + j * count, a.values + j * a.rows + first, (size_t)count * sizeof *out);
+}
+
+// Products of Y = X_next - Psi parts.
+static void take_out_statics(const Basis *basis, const ResponseBlock *next, Extension *x)
+{
+    int64_t m = x->m, added = x->added, count = x->count;
+    take_rows(dense_view(next->boundary, m + 1, added), 0, m, x->parts);
+    DenseView parts = dense_view(x->parts, m, added), statics = dense_view(x->statics, m, added);
+    DenseView before = dense_view(basis->parts, m, count);
+    for (int term = 0; term < BULK_TERMS; term++) {
+        DenseView known = dense_view(basis->statics[term], m, m);
+        DenseView gram = dense_view(x->gram[term], m + count + added, added);
+        take_rows(gram, m, count, x->old[term]);
+        take_rows(gram, m + count, added, x->own[term]);
+        for (int64_t j = 0; term == BULK_STIFFNESS && j < added; j++)
+            x->largest = fmax(x->largest, x->own[term][j * (added + 1)]);
+        if (term == BULK_STIFFNESS)
+            dense_multiply(known, parts, 1, 0, x->statics);
+        else
+            take_rows(gram, 0, m, x->statics);
+        dense_multiply_transposed(before, statics, -1, 1, x->old[term]);
+        dense_multiply_transposed(parts, statics, -1, 1, x->own[term]);
+        if (term == BULK_STIFFNESS) continue;
+        double *beside = x->beside[term];
+        memcpy(beside, x->statics, (size_t)(m * added) * sizeof *beside);
+        dense_multiply(known, parts, -1, 1, beside);
+        dense_multiply_transposed(dense_view(basis->beside[term], m, count), parts, -1, 1,
+                                  x->old[term]);
+        dense_multiply_transposed(dense_view(beside, m, added), parts, -1, 1, x->own[term]);
+    }
+    for (int64_t j = 0; j < added; j++) x->load[j] = next->boundary[j * (m + 1) + m];
+    dense_apply_transposed(parts, basis->load, -1, 1, x->load);
+}
+
+// Of L L', from above.
+static double smallest_eigenvalue(const double *lower, int32_t n, double *work)
+{
+    double size = 0;
+    for (int32_t k = 0; k < n; k++) work[k] = fmod(0.6180339887498949 * (k + 1.0), 1) - 0.5;
+    for (int32_t step = 0; step < INVERSE_STEPS; step++) {
+        double before = sqrt(dense_dot(work, work, n));
+        dense_lower_solve(lower, n, work);
+        dense_lower_solve_transposed(lower, n, work);
+        size = before / sqrt(dense_dot(work, work, n));
+        for (int32_t k = 0; k < n; k++) work[k] *= size / before;
+    }
+    return size;
+}
+
+// Rows of the factor of K that belong to the new columns. Returns how much larger the energy of a
+// response is than what is left of one; INFINITY: they are not independent but for rounding.
+static double factor_energy(const Basis *basis, Extension *x)
+{
+    int64_t count = x->count, added = x->added;
+    memcpy(x->along, x->old[BULK_STIFFNESS], (size_t)(count * added) * sizeof(double));
+    memcpy(x->lower, x->own[BULK_STIFFNESS], (size_t)(added * added) * sizeof(double));
+    if (count > 0) {
+        dense_lower_divide(basis->lower, (int32_t)count, (int32_t)added, x->along);
+        DenseView along = dense_view(x->along, count, added);
+        dense_multiply_transposed(along, along, -1, 1, x->lower);
+    }
+    if (!dense_cholesky(x->lower, (int32_t)added)) return INFINITY;
+    // `gram` is done with.
+    double least = smallest_eigenvalue(x->lower, (int32_t)added, x->gram[0]);
+    return least > DEPENDENT_LIMIT * x->largest ? x->largest / least : INFINITY;
+}
+
+// What of the new columns is not rounding, orthonormal in K: eigenvectors of what is left of their
+// energy, in `turn` [added * added], its last columns; how many.
+static bool find_new(Extension *x, double *turn, int64_t *kept, Error *err)
+{
+    int32_t added = (int32_t)x->added;
+    double *values = NEW_ARRAY(double, added, err);
+    double *work = NEW_ARRAY(double, dense_eigen_work(added), err);
+    if (!values || !work) goto cleanup;
+    DenseView along = dense_view(x->along, x->count, added);
+    memcpy(turn, x->own[BULK_STIFFNESS], (size_t)(x->added * x->added) * sizeof *turn);
+    if (x->count > 0) dense_multiply_transposed(along, along, -1, 1, turn);
+    if (!dense_eigen(turn, added, values, work))
+        FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of what is new of the responses");
+    for (*kept = 0; *kept < added; (*kept)++) {
+        int64_t j = added - 1 - *kept;
+        if (!(values[j] > DEPENDENT_LIMIT * x->largest)) break;
+        for (int64_t i = 0; i < added; i++) turn[j * added + i] /= sqrt(values[j]);
+    }
+cleanup:
+    memory_free(values);
+    memory_free(work);
+    return error_is_clean(err);
+}
+
+// (X_next - Psi parts - Phi L^-T along) turn in the place of the next block.
+static bool form_new(Basis *basis, Extension *x, DenseView turn, Error *err)
+{
+    ResponseBlock *next = responses_last(&basis->responses);
+    int64_t dofs = basis->full_dofs, m = x->m, count = x->count, kept = turn.columns;
+    double *formed = NEW_ARRAY(double, dofs *kept, err), *phi = NEW_ARRAY(double, count *kept, err);
+    double *psi = NEW_ARRAY(double, m *kept, err),
+           *all = NEW_ARRAY(double, (m + count) * kept, err);
+    if (!error_is_clean(err)) goto cleanup;
+    dense_lower_divide_transposed(basis->lower, (int32_t)count, (int32_t)x->added, x->along);
+    dense_multiply(dense_view(x->along, count, x->added), turn, -1, 0, phi);
+    dense_multiply(dense_view(x->parts, m, x->added), turn, -1, 0, psi);
+    dense_multiply(dense_view(basis->parts, m, count), dense_view(phi, count, kept), -1, 1, psi);
+    for (int64_t j = 0; j < kept; j++) {
+        memcpy(all + j * (m + count), psi + j * m, (size_t)m * sizeof *all);
+        memcpy(all + j * (m + count) + m, phi + j * count, (size_t)count * sizeof *all);
+    }
+    dense_multiply(dense_view(next->field, dofs, x->added), turn, 1, 0, formed);
+    responses_combine(&basis->responses, all, kept, formed);
+    responses_replace(&basis->responses, kept, formed);
+cleanup:
+    memory_free(formed);
+    memory_free(phi);
+    memory_free(psi);
+    memory_free(all);
+    return error_is_clean(err);
+}
+
+// The next block becomes what is new of it.
+static bool make_orthonormal(Basis *basis, Extension *x, Error *err)
+{
+    int64_t kept = 0;
+    double *turn = NEW_ARRAY(double, x->added * x->added, err);
+    if (!turn || !find_new(x, turn, &kept, err)) goto cleanup;
+    TRY(form_new(basis, x, dense_view(turn + (x->added - kept) * x->added, x->added, kept), err));
+cleanup:
+    memory_free(turn);
+    return error_is_clean(err);
+}
+
+// a [rows * columns] into the upper left corner of a new one, [new_size^2], zero elsewhere.
+static bool grow(double **a, int64_t size, int64_t new_size, Error *err)
+{
+    double *grown = NEW_ARRAY(double, new_size *new_size, err);
+    if (!grown) return false;
+    for (int64_t j = 0; j < size; j++)
+        memcpy(grown + j * new_size, *a + j * size, (size_t)size * sizeof *grown);
+    memory_free(*a);
+    *a = grown;
+    return true;
+}
+
+// Columns behind those that are there.
+static bool append(double **a, int64_t rows, int64_t count, const double *columns, int64_t added,
+                   Error *err)
+{
+    double *grown = memory_resize(*a, rows * count, rows * (count + added), sizeof *grown, err);
+    if (!grown) return false;
+    *a = grown;
+    memcpy(grown + rows * count, columns, (size_t)(rows * added) * sizeof *grown);
+    return true;
+}
+
+// A square matrix with the new columns, both triangles.
+static bool extend_square(double **square, const Extension *x, BulkTerm term, Error *err)
+{
+    int64_t count = x->count, added = x->added, size = count + added;
+    const double *own = x->own[term];
+    if (!grow(square, count, size, err)) return false;
+    for (int64_t j = 0; j < added; j++) {
+        double *column = *square + (count + j) * size;
+        memcpy(column, x->old[term] + j * count, (size_t)count * sizeof *column);
+        for (int64_t i = 0; i < count; i++) (*square)[i * size + count + j] = column[i];
+        for (int64_t i = 0; i < added; i++)
+            column[count + i] = (own[j * added + i] + own[i * added + j]) / 2;
+    }
+    return true;
+}
+
+// Of the factor, whose upper triangle is of no use.
+static bool extend_lower(Basis *basis, const Extension *x, Error *err)
+{
+    int64_t count = x->count, added = x->added, size = count + added;
+    if (!grow(&basis->lower, count, size, err)) return false;
+    for (int64_t i = 0; i < count; i++)
+        for (int64_t j = 0; j < added; j++)
+            basis->lower[i * size + count + j] = x->along[j * count + i];
+    for (int64_t j = 0; j < added; j++)
+        memcpy(basis->lower + (count + j) * (size + 1), x->lower + j * (added + 1),
+               (size_t)(added - j) * sizeof(double));
+    return true;
+}
+
+static bool take_up(Basis *basis, const Extension *x, Error *err)
+{
+    int64_t m = x->m, count = x->count, added = x->added;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        TRY(extend_square(&basis->interior[term], x, (BulkTerm)term, err));
+        if (term != BULK_STIFFNESS)
+            TRY(append(&basis->beside[term], m, count, x->beside[term], added, err));
+    }
+    TRY(extend_lower(basis, x, err));
+    TRY(append(&basis->parts, m, count, x->parts, added, err));
+    TRY(append(&basis->load, 1, m + count, x->load, added, err));
+    responses_keep(&basis->responses);
+    basis->interior_count = (int32_t)(count + added);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool basis_extend(Basis *basis, Error *err)
+{
+    ResponseBlock *next = responses_last(&basis->responses);
+    Extension x = {0};
+    while (next->count > 0) {
+        extension_destroy(&x);
+        TRY(extension_create(basis, next->count, &x, err));
+        TRY(responses_multiply(&basis->responses, x.gram, err));
+        take_out_statics(basis, next, &x);
+        double loss = factor_energy(basis, &x);
+        if (loss <= basis->loss_max || (next->formed && isfinite(loss))) break;
+        if (next->formed) FAIL(err, ERROR_COMPUTE, "the interior's responses are not independent");
+        TRY(make_orthonormal(basis, &x, err));
+    }
+    if (next->count > 0) TRY(take_up(basis, &x, err));
+cleanup:
+    extension_destroy(&x);
+    return error_is_clean(err);
+}
+
+bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err)
+{
+    int64_t m = basis->interface_count;
+    const double *schur = interface_operator_schur(statics);
+    double *boundary = NEW_ARRAY(double, m *m, err);
+    ResponseBlock *next = responses_next(&basis->responses, (ParameterPoint){0, 0}, m, err);
+    if (!boundary || !next) goto cleanup;
+    for (int64_t j = 0; j < m; j++) {
+        boundary[j * m + j] = next->boundary[j * (m + 1) + j] = 1;
+        memcpy(next->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
+    }
+    TRY(interface_operator_respond(statics, boundary, (int32_t)m, next->field, err));
+    TRY(responses_multiply(&basis->responses, basis->statics, err));
+    // Inside the block K Psi = 0, so that Psi'K Psi is S_K.
+    memcpy(basis->statics[BULK_STIFFNESS], schur, (size_t)(m * m) * sizeof *schur);
+    for (int64_t j = 0; j < m; j++) basis->load[j] = next->boundary[j * (m + 1) + m];
+    responses_keep(&basis->responses);
+    next = responses_next(&basis->responses, (ParameterPoint){0, 0}, 1, err);
+    if (!next) goto cleanup;
+    TRY(interface_operator_respond_held(statics, basis->responses.unit_load, next->field,
+                                        next->reaction, err));
+    for (int64_t i = 0; i < m; i++) next->reaction[i] = -next->reaction[i];
+    next->reaction[m] = 1;
+    if (dense_max_abs(next->field, basis->full_dofs) > 0) TRY(basis_extend(basis, err));
+cleanup:
+    memory_free(boundary);
+    return error_is_clean(err);
+}

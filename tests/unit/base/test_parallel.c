@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Every piece is done once, in several threads where they are to be had, else one after the other;
+// signals stay with the caller's thread, and what pieces allocate is counted there.
+#include "base/parallel.h"
+
+#include "base/memory.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+enum { PIECES = 40, INNER = 5 };
+
+typedef struct Rig {
+    int32_t calls[PIECES], worker[PIECES], inner[PIECES];
+    pthread_t thread[PIECES];
+    bool masked[PIECES];
+    double *kept[PIECES];
+} Rig;
+
+static void count_inner(void *context, int32_t k, int32_t worker)
+{
+    int32_t *sum = context;
+    assert_int_equal(worker, 0);   // in the thread of the piece that asked
+    *sum += k + 1;
+}
+
+static void piece(void *context, int32_t k, int32_t worker)
+{
+    Rig *rig = context;
+    Error err = {0};
+    sigset_t mask;
+    pthread_sigmask(SIG_SETMASK, NULL, &mask);
+    rig->masked[k] = sigismember(&mask, SIGINT) && sigismember(&mask, SIGTERM);
+    rig->thread[k] = pthread_self();
+    rig->worker[k] = worker;
+    rig->calls[k]++;
+    rig->kept[k] = NEW_ARRAY(double, 3, &err);
+    parallel_for(INNER, count_inner, &rig->inner[k]);
+    nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);   // or one thread might take all
+}
+
+static Rig done(int32_t count)
+{
+    static Rig rig;
+    rig = (Rig){0};
+    int64_t live = memory_counters().live;
+    parallel_for(count, piece, &rig);
+    assert_int_equal(memory_counters().live, live + count);
+    for (int32_t k = 0; k < count; k++) memory_free(rig.kept[k]);
+    for (int32_t k = 0; k < PIECES; k++) {
+        assert_int_equal(rig.calls[k], k < count);
+        if (k >= count) continue;
+        assert_int_equal(rig.inner[k], INNER * (INNER + 1) / 2);
+        assert_true(rig.worker[k] >= 0 && rig.worker[k] < parallel_workers());
+        bool here = pthread_equal(rig.thread[k], pthread_self());
+        assert_true(here == (rig.worker[k] == 0));
+        assert_true(here != rig.masked[k]);
+    }
+    return rig;
+}
+
+static void test_all_are_done(void **state)
+{
+    (void)state;
+    int32_t elsewhere = 0;
+    for (int32_t count = 0; count <= PIECES; count += 8) {
+        Rig rig = done(count);
+        for (int32_t k = 0; k < count; k++) elsewhere += rig.worker[k] > 0;
+    }
+    assert_true(parallel_workers() == 1 || elsewhere > 0);
+}
+
+// As on a machine with one.
+static void test_one_processor(void **state)
+{
+    (void)state;
+    cpu_set_t before, one;
+    assert_int_equal(sched_getaffinity(0, sizeof before, &before), 0);
+    CPU_ZERO(&one);
+    for (size_t cpu = 0; CPU_COUNT(&one) == 0; cpu++)
+        if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &one);
+    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
+    assert_int_equal(parallel_workers(), 1);
+    Rig rig = done(PIECES);
+    assert_int_equal(sched_setaffinity(0, sizeof before, &before), 0);
+    for (int32_t k = 0; k < PIECES; k++) assert_int_equal(rig.worker[k], 0);
+}
+
+// A stack that no machine has room for.
+static void test_no_second_thread(void **state)
+{
+    (void)state;
+    pthread_attr_t before, endless;
+    assert_int_equal(pthread_getattr_default_np(&before), 0);
+    pthread_attr_init(&endless);
+    assert_int_equal(pthread_attr_setstacksize(&endless, (size_t)1 << 60), 0);
+    assert_int_equal(pthread_setattr_default_np(&endless), 0);
+    Rig rig = done(PIECES);
+    pthread_setattr_default_np(&before);
+    pthread_attr_destroy(&before);
+    pthread_attr_destroy(&endless);
+    for (int32_t k = 0; k < PIECES; k++) assert_int_equal(rig.worker[k], 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_are_done),
+        cmocka_unit_test(test_one_processor),
+        cmocka_unit_test(test_no_second_thread),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
