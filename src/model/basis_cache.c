@@ -3,28 +3,32 @@
 // bytes over. Modes are several times as large and seldom wanted, so they have a file of their own.
 #include "model/basis_cache.h"
 
+#include <math.h>
+
 // Of `count` unknowns of `whole`; T = 1 where these are all.
-static void archive_pairs(Transform *by, int32_t count, int32_t whole, Archive *archive)
+static void archive_images(Transform *by, int32_t count, int32_t whole, Archive *archive)
 {
     if (archive_fills(archive)) *by = (Transform){.size = whole, .count = count};
     if (count == whole) return;
     if (archive_fills(archive))
         archive_require(archive, transform_create(whole, count, whole, by, archive->err));
     for (int32_t k = 0; k < count; k++) {
-        int32_t pair[2] = {0};
-        double sign = 1;
+        int32_t rows[REDUCED_PARTS_MAX] = {0}, size = 1;
+        double signs[REDUCED_PARTS_MAX] = {0};
         if (!archive_reads(archive)) {
             const TransformBlock *block = &by->blocks[k];
-            pair[0] = block->rows[0];
-            pair[1] = block->rows[block->size - 1];
-            sign = block->values[block->size - 1];
+            size = block->size;
+            for (int32_t i = 0; i < size; i++) rows[i] = block->rows[i];
+            for (int32_t i = 0; i < size; i++) signs[i] = block->values[i] < 0 ? -1 : 1;
         }
-        archive_indices(archive, pair, 2, 0, whole);
-        archive_number(archive, &sign);
-        if (!archive_fills(archive)) continue;
-        archive_require(archive,
-                        by->block_of[pair[0]] == NO_BLOCK && by->block_of[pair[1]] == NO_BLOCK);
-        if (archive_fills(archive)) transform_append_pair(by, pair[0], pair[1], sign < 0 ? -1 : 1);
+        archive_index(archive, &size, 1, REDUCED_PARTS_MAX + 1);
+        if (archive->failed) return;
+        archive_indices(archive, rows, size, 0, whole);
+        archive_numbers(archive, signs, size);
+        if (archive_reads(archive)) archive_require(archive, by->row_count + size <= whole);
+        for (int32_t i = 0; archive_fills(archive) && i < size; i++)
+            archive_require(archive, by->block_of[rows[i]] == NO_BLOCK && fabs(signs[i]) == 1);
+        if (archive_fills(archive)) transform_append_images(by, rows, size, signs);
     }
 }
 
@@ -44,8 +48,7 @@ static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
     archive_lend_numbers(archive, &part->mass, all * all);
     archive_lend_numbers(archive, &part->damping, all * all);
     archive_lend_numbers(archive, &part->stiffness, m * m);
-    archive_lend_numbers(archive, &part->viscous, m * m);
-    archive_pairs(&part->border, part->border_count, border, archive);
+    archive_images(&part->border, part->border_count, border, archive);
 }
 
 static void archive_basis(void *self, Archive *archive)
@@ -79,7 +82,7 @@ static void archive_modes(void *self, Archive *archive)
     for (int p = 0; p < reduced->part_count; p++) {
         ReducedPart *part = &reduced->part[p];
         archive_new_numbers(archive, &part->modes, (int64_t)part->full_dofs * part->count);
-        archive_pairs(&part->mesh, part->full_dofs, reduced->full_dofs, archive);
+        archive_images(&part->mesh, part->full_dofs, reduced->full_dofs, archive);
     }
 }
 

@@ -10,7 +10,7 @@ typedef struct ChoiceSizes {
     double unknowns;   // of the mesh
     double interface;   // of those on floor and rod
     double stages;   // of the run (model/stages)
-    double parts;   // 2: the block is likely its own mirror image (reduction/mirror); else 1
+    double parts;   // that it is likely reduced in (reduction/mirror)
     double runs;   // that the basis will serve, this one too
     bool several;   // the block is of several materials
     bool held;   // the basis is in the cache

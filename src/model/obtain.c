@@ -209,16 +209,16 @@ static bool expect(Model *model, bool held, Error *err)
 {
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
-    bool mirrored = model->reduced.part_count > 1;
+    int32_t parts = held ? model->reduced.part_count : 1;
     if (!held && is_reducible(scene))
-        TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
-                             model->interface.count, &mirrored, err));
+        TRY(mirror_likely_parts(&model->bulk, mesh->position, model->interface.dofs,
+                                model->interface.count, &parts, err));
     Drive drive = stages_drive(model);
     model->choice =
         (ChoiceSizes){.unknowns = model->full_dofs,
                       .interface = model->interface.count,
                       .stages = stages_expect(scene, &drive),
-                      .parts = mirrored ? 2 : 1,
+                      .parts = parts,
                       .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
                       .several = model->materials.count > 1,
                       .held = held};

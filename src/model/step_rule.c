@@ -10,8 +10,8 @@
 
 static const double STEP_MAX_SLIP = 0.2;   // rung 0: the drive moves this part of that slip, and
     // of what the machine yields meanwhile
-static const double STEPS_AT_LEAST = 50;   // without a rod a run has at least so many
-static const double STEP_RANGE = 1e-10;   // step_min over step_max
+static const double STEPS_LEAST_LIMIT = 50;   // without a rod a run has at least so many
+static const double STEP_RANGE_LIMIT = 1e-10;   // step_min over step_max
 
 // Before an explicit run the block relaxes by SDIRK2; the line knows no explicit steps.
 static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
@@ -41,7 +41,7 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
     double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance : sizes->tolerance;
     StepControlDef def = {.scheme = TABLEAUS[scene->time.scheme],
                           .tolerance = tolerance * sizes->slip,
-                          .step_max = step_rule_end(scene) / STEPS_AT_LEAST,
+                          .step_max = step_rule_end(scene) / STEPS_LEAST_LIMIT,
                           .wave_step = scene->time.wave_step * sizes->crossing,
                           .watch_time = scene->time.watch * sizes->crossing,
                           .energy_tolerance = scene->time.energy_tolerance,
@@ -53,7 +53,7 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
         def.step_max = def.wave_step * exp2(ceil(log2(longest / def.wave_step)));
     }
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
-    def.step_min = STEP_RANGE * fmin(def.step_max, def.wave_step);
+    def.step_min = STEP_RANGE_LIMIT * fmin(def.step_max, def.wave_step);
     if (implicit && scene->time.step_min > 0) def.step_min = scene->time.step_min;
     return def;
 }

@@ -9,7 +9,7 @@
 
 // Velocities of contact are judged against the rod's, and this many times what rounding leaves of a
 // displacement divided by the step: less cannot be told from nothing.
-static const double ROUNDINGS = 1e6;
+static const double ROUNDINGS_LIMIT = 1e6;
 
 // The velocity that counts as 1 in the conditions of the last stage.
 static double judged_velocity(const StepControl *control, const ObservationScales *scales)
@@ -17,7 +17,7 @@ static double judged_velocity(const StepControl *control, const ObservationScale
     const State *state = &control->now;
     double rounding = DBL_EPSILON * dense_max_abs(state->displacement, state->dof_count) /
                       control->scheme.reach;
-    return fmax(scales->slip_velocity, ROUNDINGS * rounding);
+    return fmax(scales->slip_velocity, ROUNDINGS_LIMIT * rounding);
 }
 
 // x of the last node of the run of nodes from the trailing edge that do not stick: l.

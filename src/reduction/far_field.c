@@ -63,7 +63,7 @@ static bool list_modes(const Bulk *mesh, const FarPatches *patches, Transform *b
         entries += (int64_t)patches->modes[p].size * patches->modes[p].count;
     TRY(transform_create(dofs, dofs, entries, by, err));
     for (int32_t dof = 0; dof < dofs; dof++)
-        if (patches->of[dof] == NO_PATCH) transform_append_pair(by, dof, dof, 1);
+        if (patches->of[dof] == NO_PATCH) *transform_append(by, &dof, 1, 1) = 1;
     for (int32_t p = 0; p < patches->count; p++)
         TRY(append_patch(mesh, &patches->modes[p], by, err));
 cleanup:

@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "reduction/factored_points.h"
-#include "reduction/inertias.h"
 
 #include <math.h>
 #include <stdatomic.h>

@@ -18,7 +18,7 @@ typedef struct FarFieldDef {
 typedef struct FarSamples {
     FarPatches *patches;   // begun and filled; not owned
     double *stiffness;   // [interface_count^2] S of K/E; owned by who calls
-    double slowest;   // inertia of the interior's slowest mode (reduction/inertias)
+    double slowest;   // inertia of the interior's slowest mode (reduction/training_points)
     OperatorTerms compared;   // where S is compared
     double allowed;   // error of it there
 } FarSamples;

@@ -197,8 +197,7 @@ static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, E
 }
 
 // Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns, of two
-// parts m^2 and half of the rest; of a full one the sparse factor and 2 m^2. That of C alone, for
-// the certificate, is taken from the reduction.
+// parts m^2 and half of the rest; of a full one the sparse factor and 2 m^2.
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
     int64_t m = system->interface_count;
@@ -207,13 +206,11 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     condensed->system = system;
     condensed->schur = NEW_ARRAY(double, terms.lower_only ? 0 : m *m, err);
     if (!condensed->schur) goto cleanup;
-    bool taken = false;
     if (system->bulk)
         TRY(condense_sparse(condensed, terms, err));
     else
-        TRY(condensed->small =
-                condensed_bulk_create(system->small, terms, condensed->schur, &taken, err));
-    system->factorisations += !taken;
+        TRY(condensed->small = condensed_bulk_create(system->small, terms, condensed->schur, err));
+    system->factorisations++;
     if (system->machine.stiffness > 0)
         TRY(machine_soften(&system->machine, terms.stiffness, (int32_t)m, condensed->schur,
                            &condensed->machine, err));

@@ -17,30 +17,29 @@ static const double ALIKE = 1e-9, NEARLY_ALIKE = 1e-3;
 // little.
 static const double MIRRORED_MAX = 0.25;
 
-enum { NONE = -1 };
+enum { NONE = -1, AXES_MAX = DIM_MAX - 1 };
 
 typedef struct Finder {
     const Bulk *bulk;
-    int32_t *image;   // [dof_count] mirror image of each unknown
+    int32_t axes, axis[AXES_MAX];   // [axes] across which it is its own image
+    int32_t *image[AXES_MAX];   // [axes][dof_count] mirror image of each unknown
     int32_t border_count, *border;   // the interface, then mirror images that are not on it
     int32_t *place;   // [dof_count] of each on that list, or NONE
     double *root[2];   // [dof_count] of the diagonal of K and of C
-    bool found;
 } Finder;
 
 static void finder_destroy(Finder *find)
 {
-    memory_free(find->image);
+    for (int32_t k = 0; k < AXES_MAX; k++) memory_free(find->image[k]);
     memory_free(find->border);
     memory_free(find->place);
-    for (int p = 0; p < 2; p++) {
-        memory_free(find->root[p]);
-    }
+    memory_free(find->root[0]);
+    memory_free(find->root[1]);
 }
 
 void mirror_destroy(Mirror *mirror)
 {
-    for (int p = 0; p < 2; p++) {
+    for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
         MirrorPart *part = &mirror->part[p];
         bulk_destroy(&part->bulk);
         transform_destroy(&part->unknowns);
@@ -51,10 +50,10 @@ void mirror_destroy(Mirror *mirror)
     *mirror = (Mirror){0};
 }
 
-// u_x, and no other, has another sign in the image of a motion.
-static double sign_of(const Bulk *bulk, int32_t dof)
+// What moves along the axis, and nothing else, has another sign in the image of a motion.
+static double sign_of(const Finder *find, int32_t k, int32_t dof)
 {
-    return dof_axis(bulk->dim, dof) == 0 ? -1 : 1;
+    return dof_axis(find->bulk->dim, dof) == find->axis[k] ? -1 : 1;
 }
 
 // The roots of the diagonal of K and of C.
@@ -70,21 +69,23 @@ static bool find_roots(Finder *find, Error *err)
     return error_is_clean(err);
 }
 
-// K, C and M are their own images, but for `tolerance`.
+// K, C and M are their own images across the last axis, but for `tolerance`.
 static bool is_alike(const Finder *find, double tolerance)
 {
+    int32_t last = find->axes - 1;
+    const int32_t *image = find->image[last];
     const Bulk *bulk = find->bulk;
     const SparsePattern *pattern = &bulk->pattern;
     for (int32_t j = 0; j < pattern->size; j++) {
-        int32_t across = find->image[j], first = pattern->start[across];
+        int32_t across = image[j], first = pattern->start[across];
         int32_t end = pattern->start[across + 1];
         if (pattern->start[j + 1] - pattern->start[j] != end - first) return false;
         if (!(fabs(bulk->mass[j] - bulk->mass[across]) <= tolerance * bulk->mass[j])) return false;
         for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
             int32_t row = pattern->index[k], at = first;
-            while (at < end && pattern->index[at] != find->image[row]) at++;
+            while (at < end && pattern->index[at] != image[row]) at++;
             if (at == end) return false;
-            double sign = sign_of(bulk, row) * sign_of(bulk, j);
+            double sign = sign_of(find, last, row) * sign_of(find, last, j);
             double stiffness = fabs(bulk->stiffness[k] - sign * bulk->stiffness[at]);
             double damping = fabs(bulk->damping[k] - sign * bulk->damping[at]);
             if (!(stiffness <= tolerance * find->root[0][row] * find->root[0][j] &&
@@ -95,20 +96,45 @@ static bool is_alike(const Finder *find, double tolerance)
     return true;
 }
 
-// Part 0: alike on both sides. The sign of what moves in one direction is the other's in part 1.
-static double sign_in(const Bulk *bulk, int part, int32_t dof)
+// An unknown, its images and their signs in part p, in which motions are opposite across the axes
+// that are bits of p; how many, 0: they cancel.
+static int32_t list_images(const Finder *find, int p, int32_t dof, int32_t *rows, double *signs)
 {
-    return part == 0 ? sign_of(bulk, dof) : -sign_of(bulk, dof);
+    int32_t count = 0;
+    for (int across = 0; across < 1 << find->axes; across++) {
+        int32_t at = dof, same = 0;
+        double sign = 1;
+        for (int32_t k = 0; k < find->axes; k++) {
+            if (!(across >> k & 1)) continue;
+            at = find->image[k][at];
+            sign *= sign_of(find, k, dof) * (p >> k & 1 ? -1 : 1);
+        }
+        while (same < count && rows[same] != at) same++;
+        if (same < count && signs[same] != sign) return 0;
+        if (same < count) continue;
+        rows[count] = at;
+        signs[count++] = sign;
+    }
+    return count;
+}
+
+static int32_t least_of(const int32_t *list, int32_t count)
+{
+    int32_t least = list[0];
+    for (int32_t k = 1; k < count; k++)
+        if (list[k] < least) least = list[k];
+    return least;
 }
 
 static bool list_unknowns(const Finder *find, int p, Transform *by, Error *err)
 {
-    int32_t dofs = find->bulk->dof_count;
+    int32_t dofs = find->bulk->dof_count, rows[REDUCED_PARTS_MAX];
+    double signs[REDUCED_PARTS_MAX];
     if (!transform_create(dofs, dofs, dofs, by, err)) return false;
     for (int32_t dof = 0; dof < dofs; dof++) {
-        double sign = sign_in(find->bulk, p, dof);
-        if (find->image[dof] > dof || (find->image[dof] == dof && sign > 0))
-            transform_append_pair(by, dof, find->image[dof], sign);
+        int32_t count = list_images(find, p, dof, rows, signs);
+        if (count > 0 && least_of(rows, count) == dof)
+            transform_append_images(by, rows, count, signs);
     }
     return true;
 }
@@ -116,90 +142,102 @@ static bool list_unknowns(const Finder *find, int p, Transform *by, Error *err)
 // The border's unknowns as those of a part.
 static bool list_border_unknowns(const Finder *find, int p, MirrorPart *part, Error *err)
 {
-    int32_t count = find->border_count;
-    part->border_dofs = NEW_ARRAY(int32_t, count, err);
-    if (!transform_create(count, count, count, &part->border, err)) return false;
-    for (int32_t k = 0; k < count; k++) {
-        int32_t dof = find->border[k], image = find->place[find->image[dof]];
-        int32_t unknown = transform_column(&part->unknowns, dof);
-        if (unknown == NO_BLOCK || image < k) continue;
-        int32_t first = part->unknowns.blocks[unknown].rows[0] == dof ? k : image;
+    int32_t border = find->border_count, rows[REDUCED_PARTS_MAX];
+    double signs[REDUCED_PARTS_MAX];
+    part->border_dofs = NEW_ARRAY(int32_t, border, err);
+    if (!transform_create(border, border, border, &part->border, err)) return false;
+    for (int32_t k = 0; k < border; k++) {
+        int32_t unknown = transform_column(&part->unknowns, find->border[k]);
+        if (unknown == NO_BLOCK) continue;
+        int32_t count = list_images(find, p, part->unknowns.blocks[unknown].rows[0], rows, signs);
+        for (int32_t i = 0; i < count; i++) rows[i] = find->place[rows[i]];
+        if (least_of(rows, count) != k) continue;
         part->border_dofs[part->border.count] = unknown;
-        transform_append_pair(&part->border, first, k + image - first, sign_in(find->bulk, p, dof));
+        transform_append_images(&part->border, rows, count, signs);
     }
     return true;
 }
 
-static bool list_border(Finder *find, const int32_t *interface_dofs, int32_t m, Error *err)
+// The interface and all images of it.
+static void list_border(Finder *find, const int32_t *interface_dofs, int32_t m)
 {
-    int32_t dofs = find->bulk->dof_count;
-    find->border = NEW_ARRAY(int32_t, 2 * (int64_t)m, err);
-    find->place = NEW_ARRAY(int32_t, dofs, err);
-    if (!error_is_clean(err)) return false;
-    for (int32_t k = 0; k < dofs; k++) find->place[k] = NONE;
+    for (int32_t k = 0; k < find->bulk->dof_count; k++) find->place[k] = NONE;
     for (int32_t k = 0; k < m; k++) {
         find->border[k] = interface_dofs[k];
         find->place[interface_dofs[k]] = k;
     }
     find->border_count = m;
-    for (int32_t k = 0; k < m; k++) {
-        int32_t image = find->image[interface_dofs[k]];
-        if (find->place[image] != NONE) continue;
-        find->place[image] = find->border_count;
-        find->border[find->border_count++] = image;
+    for (int32_t k = 0; k < find->border_count; k++) {
+        for (int32_t j = 0; j < find->axes; j++) {
+            int32_t image = find->image[j][find->border[k]];
+            if (find->place[image] != NONE) continue;
+            find->place[image] = find->border_count;
+            find->border[find->border_count++] = image;
+        }
     }
-    return true;
 }
 
-// find->found: the bulk is its own image but for `tolerance`, and the interface is not on one side.
-static bool look(const int32_t *node_image, const int32_t *interface_dofs, int32_t m,
+// Finds the axes across which the bulk is its own image but for `tolerance`, and the interface not
+// on one side.
+static bool look(int32_t *const *node_image, const int32_t *interface_dofs, int32_t m,
                  double tolerance, Finder *find, Error *err)
 {
     int32_t dofs = find->bulk->dof_count, dim = find->bulk->dim;
-    find->image = NEW_ARRAY(int32_t, dofs, err);
-    if (!find->image) return false;
-    for (int32_t dof = 0; dof < dofs; dof++)
-        find->image[dof] = node_dof(dim, node_image[dof_node(dim, dof)], dof_axis(dim, dof));
-    if (!list_border(find, interface_dofs, m, err) || !find_roots(find, err)) return false;
-    find->found = find->border_count - m <= MIRRORED_MAX * m && is_alike(find, tolerance);
+    find->border = NEW_ARRAY(int32_t, (int64_t)REDUCED_PARTS_MAX * m, err);
+    find->place = NEW_ARRAY(int32_t, dofs, err);
+    if (!find_roots(find, err)) return false;
+    for (int32_t axis = 0; axis < dim - 1; axis++) {
+        if (!node_image[axis]) continue;
+        int32_t last = find->axes++, *image = find->image[last];
+        if (!image) image = find->image[last] = NEW_ARRAY(int32_t, dofs, err);
+        if (!image) return false;
+        find->axis[last] = axis;
+        for (int32_t dof = 0; dof < dofs; dof++)
+            image[dof] = node_dof(dim, node_image[axis][dof_node(dim, dof)], dof_axis(dim, dof));
+        list_border(find, interface_dofs, m);
+        if (find->border_count - m > MIRRORED_MAX * m || !is_alike(find, tolerance)) find->axes--;
+    }
+    list_border(find, interface_dofs, m);
     return true;
 }
 
-bool mirror_is_likely(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
-                      int32_t m, bool *likely, Error *err)
+bool mirror_likely_parts(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
+                         int32_t m, int32_t *parts, Error *err)
 {
     Finder find = {.bulk = bulk};
-    int32_t nodes = bulk->dof_count / bulk->dim, *image = NEW_ARRAY(int32_t, nodes, err);
+    int32_t dim = bulk->dim, *image[AXES_MAX] = {0};
     double *places = NEW_ARRAY(double, bulk->dof_count, err);
-    *likely = false;
-    if (!places || !image) goto cleanup;
-    memcpy(places, position, (size_t)bulk->dof_count * sizeof *places);
-    TRY(mirror_nodes_find(bulk->dim, places, nodes, image, likely, err));
-    if (*likely) TRY(look(image, interface_dofs, m, NEARLY_ALIKE, &find, err));
-    *likely = find.found;
+    if (!places) goto cleanup;
+    for (int32_t axis = 0; axis < dim - 1; axis++) {
+        memcpy(places, position, (size_t)bulk->dof_count * sizeof *places);
+        TRY(mirror_nodes_find(dim, axis, places, bulk->dof_count / dim, &image[axis], err));
+    }
+    TRY(look(image, interface_dofs, m, NEARLY_ALIKE, &find, err));
+    *parts = 1 << find.axes;
 cleanup:
     finder_destroy(&find);
     memory_free(places);
-    memory_free(image);
+    for (int32_t axis = 0; axis < AXES_MAX; axis++) memory_free(image[axis]);
     return error_is_clean(err);
 }
 
-bool mirror_find(const Bulk *bulk, const int32_t *node_image, const int32_t *interface_dofs,
+bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
                  int32_t m, Mirror *mirror, Error *err)
 {
     Finder find = {.bulk = bulk};
     *mirror = (Mirror){0};
     TRY(look(node_image, interface_dofs, m, ALIKE, &find, err));
-    mirror->found = find.found;
+    if (find.axes == 0) goto cleanup;
+    mirror->part_count = 1 << find.axes;
     mirror->mirrored = find.border_count - m;
-    for (int p = 0; find.found && p < 2; p++) {
+    for (int p = 0; p < mirror->part_count; p++) {
         MirrorPart *part = &mirror->part[p];
         TRY(list_unknowns(&find, p, &part->unknowns, err));
         TRY(list_border_unknowns(&find, p, part, err));
         TRY(bulk_transform(bulk, &part->unknowns, &part->bulk, err));
     }
-    if (find.found) mirror->border = find.border;
-    if (find.found) find.border = NULL;
+    mirror->border = find.border;
+    find.border = NULL;
 cleanup:
     finder_destroy(&find);
     return error_is_clean(err);

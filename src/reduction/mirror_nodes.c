@@ -69,42 +69,48 @@ static int32_t node_at(const Nodes *nodes, const double *at)
     return -1;
 }
 
-// Both into the middle: x over the mirror, all else alike.
-static void put_together(int32_t dim, double sum, double *here, double *there)
+// Both into the middle: across the mirror along `axis`, else alike.
+static void put_together(const Nodes *nodes, int32_t axis, double sum, double *here, double *there)
 {
-    here[0] = (here[0] + (sum - there[0])) / 2;
-    there[0] = sum - here[0];
-    for (int32_t d = 1; d < dim; d++) there[d] = here[d] = (here[d] + there[d]) / 2;
+    here[axis] = (here[axis] + (sum - there[axis])) / 2;
+    there[axis] = sum - here[axis];
+    for (int32_t d = 0; d < nodes->dim; d++)
+        if (d != axis) there[d] = here[d] = (here[d] + there[d]) / 2;
 }
 
-bool mirror_nodes_find(int32_t dim, double *position, int32_t nodes, int32_t *image, bool *found,
+bool mirror_nodes_find(int32_t dim, int32_t axis, double *position, int32_t nodes, int32_t **out,
                        Error *err)
 {
     double least = INFINITY, most = -INFINITY;
     Nodes all = {dim, nodes, position, NEW_ARRAY(Place, nodes, err), 0};
-    if (!all.places) return false;
+    int32_t *image = *out = NEW_ARRAY(int32_t, nodes, err);
+    bool found = error_is_clean(err);
+    if (!found) goto cleanup;
     for (int32_t i = 0; i < nodes; i++) {
         const double *at = position + node_dof(dim, i, 0);
         all.places[i] = (Place){along(dim, at), i};
-        least = fmin(least, at[0]);
-        most = fmax(most, at[0]);
+        least = fmin(least, at[axis]);
+        most = fmax(most, at[axis]);
     }
     double sum = least + most;
     all.apart = APART * (most - least);
     qsort(all.places, (size_t)nodes, sizeof *all.places, by_place);
-    *found = true;
-    for (int32_t i = 0; *found && i < nodes; i++) {
+    for (int32_t i = 0; found && i < nodes; i++) {
         MeshPlace across;
         memcpy(across, position + node_dof(dim, i, 0), (size_t)dim * sizeof(double));
-        across[0] = sum - across[0];
+        across[axis] = sum - across[axis];
         image[i] = node_at(&all, across);
-        *found = image[i] >= 0;
+        found = image[i] >= 0;
     }
-    for (int32_t i = 0; *found && i < nodes; i++) *found = image[image[i]] == i;
-    for (int32_t i = 0; *found && i < nodes; i++)
+    for (int32_t i = 0; found && i < nodes; i++) found = image[image[i]] == i;
+    for (int32_t i = 0; found && i < nodes; i++)
         if (image[i] >= i)
-            put_together(dim, sum, position + node_dof(dim, i, 0),
+            put_together(&all, axis, sum, position + node_dof(dim, i, 0),
                          position + node_dof(dim, image[i], 0));
+cleanup:
     memory_free(all.places);
-    return true;
+    if (found) return true;
+    memory_free(image);
+    *out = NULL;
+    return error_is_clean(err);
 }

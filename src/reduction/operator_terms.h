@@ -13,7 +13,6 @@ typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A
     bool lift;   // A may be singular in the interface's own motion (C or K alone): its interface
         // diagonal is raised to factor it, and S lowered again
-    bool schur_only;   // nothing but S will be asked for
     bool lower_only;   // of a mesh: S will not be asked for, its Cholesky factor may be
 } OperatorTerms;
 

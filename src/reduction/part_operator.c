@@ -60,27 +60,14 @@ static void combine_column(const ReducedPart *part, OperatorTerms terms, int64_t
         out[row] = terms.mass * mass[row] + terms.damping * damping[row];
 }
 
-// S of C alone, where the reduction has it and nothing else will be asked for.
-static bool take_viscous(const ReducedPart *part, OperatorTerms terms, double *schur)
-{
-    if (!part->viscous || !terms.schur_only || terms.mass != 0 || terms.stiffness != 0)
-        return false;
-    int64_t entries = (int64_t)part->border_count * part->border_count;
-    for (int64_t k = 0; k < entries; k++) schur[k] = terms.damping * part->viscous[k];
-    return true;
-}
-
 // The formulas at the head. The inverse itself, not a factor: a product with it is one pass over
 // memory for each of many right-hand sides, and A_qq is well conditioned (K_qq = 1).
 bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, CondensedPart *condensed,
-                           double *schur, bool *taken, Error *err)
+                           double *schur, Error *err)
 {
     int64_t m = part->border_count, r = part->interior_count;
-    double *coupling = NULL;
     *condensed = (CondensedPart){0};
-    *taken = take_viscous(part, terms, schur);
-    if (*taken) goto cleanup;
-    coupling = NEW_ARRAY(double, r *m, err);
+    double *coupling = NEW_ARRAY(double, r *m, err);
     condensed->inverse = NEW_ARRAY(double, r *r, err);
     condensed->map = NEW_ARRAY(double, r *m, err);
     condensed->half = NEW_ARRAY(double, r, err);

@@ -29,9 +29,9 @@ typedef struct CondensedPart {
     double *half;   // [interior] A_qq^-1 rhs_q; owned
 } CondensedPart;
 
-// Fills schur [border^2]. *taken: it was at hand, and nothing but S can be asked for.
+// Fills schur [border^2].
 bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, CondensedPart *condensed,
-                           double *schur, bool *taken, Error *err);
+                           double *schur, Error *err);
 void condensed_part_destroy(CondensedPart *condensed);
 void condensed_part_condense(const ReducedPart *part, const CondensedPart *condensed,
                              const double *rhs, double *g);

@@ -26,7 +26,6 @@ void reduced_part_destroy(ReducedPart *part)
     memory_free(part->mass);
     memory_free(part->damping);
     memory_free(part->stiffness);
-    memory_free(part->viscous);
     memory_free(part->load);
     memory_free(part->modes);
     transform_destroy(&part->border);
@@ -38,8 +37,7 @@ void reduced_bulk_destroy(ReducedBulk *reduced)
 {
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
         ReducedPart *part = &reduced->part[p];
-        if (reduced->storage)
-            part->mass = part->damping = part->stiffness = part->viscous = part->load = NULL;
+        if (reduced->storage) part->mass = part->damping = part->stiffness = part->load = NULL;
         reduced_part_destroy(part);
     }
     if (!reduced->storage) memory_free(reduced->load);

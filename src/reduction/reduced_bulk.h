@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The bulk as a sum of small dense systems, which share no entry: itself, or its symmetric and its
-// antisymmetric part (reduction/mirror). A part has its unknowns z on the border first, then the
-// coordinates q of an interior basis,
+// antisymmetric part, of each of which there may be two likewise (reduction/mirror). A part has its
+// unknowns z on the border first, then the coordinates q of an interior basis,
 //
 //     u = [ I   0   ] [ z ]      K = [ S_K 0 ]      M = [ M_bb M_bq ]    C full,
 //         [ Psi Phi ] [ q ]          [ 0   I ]          [ M_qb T    ],
@@ -47,7 +47,6 @@ typedef struct ReducedPart {
     int32_t count;   // m + r
     double *mass, *damping;   // [count^2] symmetric, both triangles, normalised; owned
     double *stiffness;   // [m^2] S_K; the interior block is the unit matrix; owned
-    double *viscous;   // [m^2] S of C alone; owned; NULL: not at hand
     double *load;   // [count] of the unit load; owned
     double *modes;   // [full_dofs * count] u = modes [z; q]; owned; NULL: not at hand
     ReductionErrors errors;
@@ -55,7 +54,7 @@ typedef struct ReducedPart {
     Transform mesh;   // of the whole mesh's unknowns; where the modes are at hand
 } ReducedPart;
 
-enum { REDUCED_PARTS_MAX = 2 };
+enum { REDUCED_PARTS_MAX = 1 << (DIM_MAX - 1) };   // two for each axis of the floor
 
 typedef struct ReducedBulk {
     int32_t dim;
@@ -68,7 +67,7 @@ typedef struct ReducedBulk {
     double *load;   // [count] of the unit load; owned
     double
         *rigid;   // [rigid_count(dim)][interface + mirrored] lengths over L, from the trailing end
-        // on; all interior stays at 0; owned; NULL: none are asked for
+    // on; all interior stays at 0; owned; NULL: none are asked for
     double *storage;   // the array that loads and the parts' matrices lie in (a file's); NULL: none
     BulkScales scales;
 } ReducedBulk;

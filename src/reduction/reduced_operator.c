@@ -111,7 +111,7 @@ cleanup:
 }
 
 CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerms terms,
-                                     double *schur, bool *taken, Error *err)
+                                     double *schur, Error *err)
 {
     const ReducedBulk *reduced = system->reduced;
     int64_t m = reduced->interface_count, size = m + reduced->mirrored;
@@ -124,7 +124,7 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
     terms.damping *= reduced->scales.damping;
     terms.mass *= reduced->scales.mass;
     for (int p = 0; p < reduced->part_count; p++) {
-        TRY(condensed_part_create(&reduced->part[p], terms, &condensed->part[p], part, taken, err));
+        TRY(condensed_part_create(&reduced->part[p], terms, &condensed->part[p], part, err));
         transform_add_square(&reduced->part[p].border, part, border);
     }
     TRY(condense_mirrored(border, (int32_t)m, reduced->mirrored, &condensed->mirrored, schur, err));

@@ -19,9 +19,9 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
 
 // A of one set of terms, condensed.
 typedef struct CondensedBulk CondensedBulk;
-// Fills schur [interface_count^2]. *taken: it was at hand, and no interior was factored.
+// Fills schur [interface_count^2].
 CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerms terms,
-                                     double *schur, bool *taken, Error *err);
+                                     double *schur, Error *err);
 void condensed_bulk_destroy(CondensedBulk *condensed);   // NULL is fine
 // rhs [count] -> g [interface_count]; what is inside is kept for the expand that follows.
 void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double *g);

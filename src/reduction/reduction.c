@@ -18,7 +18,6 @@
 #include "reduction/basis.h"
 #include "reduction/factored_points.h"
 #include "reduction/far_field.h"
-#include "reduction/inertias.h"
 #include "reduction/training_points.h"
 
 #include <math.h>
@@ -27,13 +26,12 @@
 // A new mode is what is left of a response when the others are taken out. If its energy is smaller
 // than the response's by more than this, it is formed by the mesh, which takes three times as long
 // as all else: rounding of the reduced matrices stays below some 4e-14 of this. At a tolerance of
-// 2e-2 the factor is 3e4 at most, at 2e-3 1e7. Where energies differ as it is (several materials,
-// or C unlike K by more than UNLIKE) it is always done.
-static const double LOSS_MAX = 5e4, UNLIKE = 4;
+// 2e-2 the factor is 3e4 at most, at 2e-3 1e7.
+static const double LOSS_LIMIT = 5e4;
 
 // S_r - S has no negative eigenvalue but for rounding. From this part of the allowed error on the
-// basis has lost too many digits.
-static const double NEGATIVE_MAX = 1e-3;
+// basis has lost too many digits, as by materials of unlike energies: then all modes are formed.
+static const double NEGATIVE_LIMIT = 1e-3;
 
 // Work of one build.
 typedef struct Builder {
@@ -180,7 +178,7 @@ static bool condense_basis(Builder *work, ParameterPoint point, bool *definite, 
 static bool compare_at(Builder *work, ParameterPoint point, const double *schur, Error *err)
 {
     double allowed = allowed_error(work, point);
-    double least = -NEGATIVE_MAX * allowed - parameter_error_allowed(&work->training, point, 0);
+    double least = -NEGATIVE_LIMIT * allowed - parameter_error_allowed(&work->training, point, 0);
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
     if (definite) TRY(compare(work, schur, allowed, least, err));
@@ -259,25 +257,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// S of C alone.
-static bool find_viscous(Builder *work, Error *err)
-{
-    int64_t m = work->basis.interface_count;
-    double *viscous = work->part->viscous = NEW_ARRAY(double, m *m, err);
-    bool definite = false;
-    if (!viscous || !condense_basis(work, (ParameterPoint){1, 0}, &definite, err)) return false;
-    if (!definite) FAIL(err, ERROR_COMPUTE, "the viscous interior is not positive definite");
-    memcpy(viscous, work->excess, (size_t)(m * m) * sizeof *viscous);
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool is_uniform(const Materials *materials)
-{
-    ViscousTimes times = materials_viscous_range(materials);
-    return materials->count == 1 && fabs(log(times.volume / times.shear)) < log(UNLIKE);
-}
-
 // What is far from the interface comes back into the modes.
 static bool expand_modes(Builder *work, Error *err)
 {
@@ -332,16 +311,15 @@ static bool build_on(Builder *work, Error *err)
 {
     const ReductionDef *def = work->def;
     TRY(builder_create(work, err));
-    work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
-    if (!train_basis(work, err) && work->spoiled && work->basis.loss_max > 0) {
+    work->basis.loss_max = LOSS_LIMIT;
+    if (!train_basis(work, err) && work->spoiled) {
         error_clear(err);
         basis_destroy(&work->basis);
         work->part->errors = (ReductionErrors){0};
-        TRY(basis_create(work->full, &def->scales, &work->basis, err));
+        TRY(basis_create(work->full, &def->scales, &work->basis, err));   // loss_max is 0
         train_basis(work, err);
     }
     if (!error_is_clean(err)) goto cleanup;
-    TRY(find_viscous(work, err));
     TRY(basis_finish(&work->basis, def->modes, work->part, err));
     if (def->modes && work->far.used) TRY(expand_modes(work, err));
     if (work->far.used) add_far_field(work);

@@ -33,7 +33,8 @@ typedef struct ReductionDef {
     BulkScales scales;   // of the bulk to reduce
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
-    const int32_t *node_image;   // [nodes] of the block (reduction/mirror_nodes); NULL: none
+    int32_t *const
+        *node_image;   // [DIM_MAX - 1] of the block (reduction/reduction_block); NULL: none
     const double
         *position;   // [dof_count] of its nodes, for rigid motions; NULL: none are asked for
 } ReductionDef;

@@ -52,22 +52,9 @@ static Materials normalise(const Materials *given)
 void reduction_block_destroy(ReductionBlock *block)
 {
     memory_free(block->position);
-    memory_free(block->image);
+    for (int32_t axis = 0; axis < DIM_MAX - 1; axis++) memory_free(block->image[axis]);
     bulk_destroy(&block->bulk);
     *block = (ReductionBlock){0};
-}
-
-// A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
-static bool find_images(ReductionBlock *block, int32_t dim, int32_t nodes, Error *err)
-{
-    bool found = false;
-    block->image = NEW_ARRAY(int32_t, nodes, err);
-    if (!block->image || !mirror_nodes_find(dim, block->position, nodes, block->image, &found, err))
-        return false;
-    if (found) return true;
-    memory_free(block->image);
-    block->image = NULL;
-    return true;
 }
 
 // Assembled from the rounded positions and viscosities: M, C and K are exactly those of one block,
@@ -85,7 +72,10 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
         double start = k % mesh->dim == 0 ? mesh->x_min : 0;
         block->position[k] = put_on_grid((mesh->position[k] - start) / length);
     }
-    TRY(find_images(block, mesh->dim, mesh->node_count, err));
+    // A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
+    for (int32_t axis = 0; axis < mesh->dim - 1; axis++)
+        TRY(mirror_nodes_find(mesh->dim, axis, block->position, mesh->node_count,
+                              &block->image[axis], err));
     Mesh scaled = *mesh;   // borrows all but the positions
     scaled.position = block->position;
     TRY(bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err));

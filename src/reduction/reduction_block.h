@@ -12,7 +12,9 @@
 
 typedef struct ReductionBlock {
     double *position;   // [nodes * dim] over L, from the trailing end on; owned
-    int32_t *image;   // [nodes] at the mirror image of each; NULL: some have none; owned
+    int32_t
+        *image[DIM_MAX - 1];   // [nodes] at the mirror image of each across that axis; NULL: some
+    // have none; owned
     Materials materials;   // normalised: means of 1
     Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
 } ReductionBlock;

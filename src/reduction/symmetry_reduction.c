@@ -40,13 +40,13 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     *reduced = (ReducedBulk){
         .dim = bulk->dim, .interface_count = m, .part_count = 1, .scales = def->scales};
     if (def->node_image) TRY(mirror_find(bulk, def->node_image, interface_dofs, m, &mirror, err));
-    if (mirror.found) {
-        reduced->part_count = 2;
+    if (mirror.part_count > 0) {
+        reduced->part_count = mirror.part_count;
         reduced->mirrored = mirror.mirrored;
     } else {
         TRY(reduction_build(bulk, interface_dofs, m, def, &reduced->part[0], err));
     }
-    for (int p = 0; mirror.found && p < 2; p++) {
+    for (int p = 0; p < mirror.part_count; p++) {
         MirrorPart *from = &mirror.part[p];
         ReducedPart *part = &reduced->part[p];
         TRY(reduction_build(&from->bulk, from->border_dofs, from->border.count, def, part, err));
@@ -58,7 +58,7 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     }
     TRY(join(reduced, err));
     if (def->position)
-        TRY(list_rigid_motions(bulk, mirror.found ? mirror.border : interface_dofs, def, reduced,
+        TRY(list_rigid_motions(bulk, mirror.border ? mirror.border : interface_dofs, def, reduced,
                                err));
 cleanup:
     mirror_destroy(&mirror);

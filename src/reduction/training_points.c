@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "reduction/training_points.h"
 
+#include "base/dense.h"
+#include "base/memory.h"
+
 #include <math.h>
 
-// Levels of inertia that the basis is built at, a factor of LEVEL_RATIO apart at most, from
+// Levels of inertia that the basis is built at, a factor of LEVEL_RATIO_LIMIT apart at most, from
 // LEVEL_LOWEST times the slowest mode of the interior, below which it follows like a spring, to
 // that of one element. Then those between two of them are treated likewise, so that two levels are
 // a factor of 10 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
-static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1;
+static const double LEVEL_RATIO_LIMIT = 100, LEVEL_LOWEST = 0.1;
 
 // The last level stands for infinity: there the error is only checked.
 static const double BEYOND_LIMIT = 1e6;
@@ -40,8 +43,8 @@ static void widen(const Materials *materials, double unit, double *slowest, doub
 static void list_levels(double slowest, double element_inertia, ReductionErrors *errors)
 {
     // On a mesh of a few elements the slowest mode is hardly below that of one element.
-    double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO);
-    double parts = log(element_inertia / lowest) / log(LEVEL_RATIO);
+    double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO_LIMIT);
+    double parts = log(element_inertia / lowest) / log(LEVEL_RATIO_LIMIT);
     int32_t steps = (int32_t)fmin(ceil(parts), (REDUCTION_LEVELS_MAX - 2) / 2);
     for (int32_t k = 0; k <= 2 * steps; k++)
         errors->inertia[k] = lowest * pow(element_inertia / lowest, k / (2.0 * steps));
@@ -124,4 +127,44 @@ void training_points_list(const Materials *materials, const BulkScales *scales, 
         for (int32_t k = 0; pass == 0 && k < steps; k++)
             add(training, errors, viscosity_at((k + 0.5) / steps, volume, shear), 0);
     }
+}
+
+// Inverse ones, for the slowest mode.
+enum { SLOWEST_ITERATIONS = 4 };
+
+// Inverse iteration, x'M x = 1 before each.
+bool inertia_slowest(const BulkOperator *full, const BulkScales *scales, InterfaceOperator *statics,
+                     double *slowest, Error *err)
+{
+    int32_t dofs = full->dof_count;
+    double *x = NEW_ARRAY(double, dofs, err), *rhs = NEW_ARRAY(double, dofs, err);
+    double *pull = NEW_ARRAY(double, full->interface_count, err);
+    if (!x || !rhs || !pull) goto cleanup;
+    for (int32_t k = 0; k < dofs; k++) x[k] = 1;
+    for (int32_t j = 0; j < full->interface_count; j++) x[full->interface_dofs[j]] = 0;
+    for (int32_t round = 0; round < SLOWEST_ITERATIONS; round++) {
+        bulk_operator_apply(full, BULK_MASS, x, rhs);
+        for (int32_t k = 0; k < dofs; k++) rhs[k] /= scales->mass;
+        double size = sqrt(dense_dot(x, rhs, dofs));
+        for (int32_t k = 0; k < dofs; k++) rhs[k] /= size;
+        TRY(interface_operator_respond_held(statics, rhs, x, pull, err));
+        *slowest = 1 / dense_dot(x, rhs, dofs);
+    }
+cleanup:
+    memory_free(x);
+    memory_free(rhs);
+    memory_free(pull);
+    return error_is_clean(err);
+}
+
+double inertia_element(const Bulk *bulk, const BulkScales *scales, const int32_t *interface_dofs,
+                       int32_t interface_count)
+{
+    double largest = 0;
+    for (int32_t j = 0; j < interface_count; j++) {
+        int32_t dof = interface_dofs[j];
+        double stiffness = bulk->stiffness[sparse_entry(&bulk->pattern, dof, dof)];
+        largest = fmax(largest, stiffness / bulk->mass[dof] * scales->mass / scales->stiffness);
+    }
+    return largest;
 }

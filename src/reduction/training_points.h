@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The points of the parameter domain of reduction/reduction at which a basis is built and its error
-// is measured. Called by
-// reduction/reduction.
+// is measured, and the two ends of its inertia. Called by reduction/reduction and
+// reduction/far_samples.
 #ifndef AMONTONS_REDUCTION_TRAINING_POINTS_H
 #define AMONTONS_REDUCTION_TRAINING_POINTS_H
 
@@ -46,5 +46,14 @@ double parameter_error_allowed(const TrainingPoints *training, ParameterPoint po
 
 // The point as factors of the scene's own M, C and K.
 OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales);
+
+// The inertia at which the slowest mode of the interior is in balance, K x = slowest M x. statics:
+// `full` at K/E alone.
+bool inertia_slowest(const BulkOperator *full, const BulkScales *scales, InterfaceOperator *statics,
+                     double *slowest, Error *err);
+
+// That at which inertia takes over within one element: the largest K_jj / M_jj of the interface.
+double inertia_element(const Bulk *bulk, const BulkScales *scales, const int32_t *interface_dofs,
+                       int32_t interface_count);
 
 #endif

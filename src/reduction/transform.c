@@ -6,10 +6,9 @@
 #include "base/dense.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double ROOT_HALF = 0.70710678118654752440;
 
 bool transform_create(int32_t size, int32_t blocks, int64_t entries, Transform *by, Error *err)
 {
@@ -53,12 +52,10 @@ double *transform_append(Transform *by, const int32_t *rows, int32_t size, int32
     return block->values;
 }
 
-void transform_append_pair(Transform *by, int32_t one, int32_t image, double sign)
+void transform_append_images(Transform *by, const int32_t *rows, int32_t count, const double *signs)
 {
-    const int32_t both[] = {one, image};
-    double *values = transform_append(by, both, one == image ? 1 : 2, 1);
-    values[0] = one == image ? 1 : ROOT_HALF;
-    if (one != image) values[1] = sign * ROOT_HALF;
+    double *values = transform_append(by, rows, count, 1);
+    for (int32_t k = 0; k < count; k++) values[k] = signs[k] * sqrt(1.0 / count);
 }
 
 int32_t transform_column(const Transform *by, int32_t row)

@@ -31,8 +31,9 @@ bool transform_create(int32_t size, int32_t blocks, int64_t entries, Transform *
 void transform_destroy(Transform *by);
 // The values of one more block, to be filled; each row is new.
 double *transform_append(Transform *by, const int32_t *rows, int32_t size, int32_t count);
-// One more column, (x + sign x*) / sqrt(2) of an unknown and its image; of its own image: x.
-void transform_append_pair(Transform *by, int32_t one, int32_t image, double sign);
+// One more column, the sum of signs x over sqrt(count), of an unknown and its images.
+void transform_append_images(Transform *by, const int32_t *rows, int32_t count,
+                             const double *signs);
 // Where an unknown's block begins among y, NO_BLOCK: nowhere.
 int32_t transform_column(const Transform *by, int32_t row);
 

@@ -30,7 +30,7 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
     certificate->vector = NEW_ARRAY(double, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
     if (!error_is_clean(err)) goto cleanup;
-    OperatorTerms terms = {.damping = 1, .lift = true, .schur_only = true};
+    OperatorTerms terms = {.damping = 1, .lift = true};
     certificate->damping = interface_operator_create(block->system, terms, err);
     // Without viscosity (or with eta1 = 0) there is nothing that could certify a weakening slip.
     if (err->code == ERROR_COMPUTE) error_clear(err);

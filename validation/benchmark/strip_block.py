@@ -9,7 +9,7 @@ import scipy.sparse
 from scipy.sparse.linalg import splu
 
 POISSON, HEIGHT, STRIP = 0.34, 0.5, (0.225, 0.275)
-MESH_SHARE, LEVEL_RATIO, LEVEL_LOWEST = 2.5, 100, 0.1   # of src/reduction/reduction.c, training_points.c
+MESH_SHARE, LEVEL_RATIO_LIMIT, LEVEL_LOWEST = 2.5, 100, 0.1   # of src/reduction/reduction.c, training_points.c
 GAUSS = 1 / math.sqrt(3)
 
 
@@ -129,7 +129,7 @@ class Strip:
             x = solve(right)
             self.slowest = 1 / (x @ right)
         self.element = (block.stiffness.diagonal() / block.mass)[block.interface].max()
-        self.lowest = min(LEVEL_LOWEST * self.slowest, self.element / LEVEL_RATIO)
+        self.lowest = min(LEVEL_LOWEST * self.slowest, self.element / LEVEL_RATIO_LIMIT)
 
     def level(self, part):
         return self.lowest * (self.element / self.lowest) ** part
@@ -139,7 +139,7 @@ class Strip:
 
     def visits(self):
         """In the program's order, for this material: its moduli's quotient changes by less than 2 from K to C."""
-        steps = math.ceil(math.log(self.element / self.lowest) / math.log(LEVEL_RATIO))
+        steps = math.ceil(math.log(self.element / self.lowest) / math.log(LEVEL_RATIO_LIMIT))
         points = []
         for first in (0, 1):
             for k in range(first, 2 * steps + 1, 2):

@@ -8,7 +8,7 @@
 #include "unit/reduction/reduced_block.h"
 
 // Of matrices that come from products of responses, whose energies agree in up to log10(5e4) digits
-// (LOSS_MAX of reduction/reduction): 4e-14 times that.
+// (LOSS_LIMIT of reduction/reduction): 4e-14 times that.
 static const double ROUNDING = 2e-9;
 
 // [full_dofs * count] what each coordinate moves.

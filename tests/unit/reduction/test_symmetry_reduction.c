@@ -25,16 +25,12 @@ enum { SHAPE_COUNT = sizeof SHAPES / sizeof *SHAPES };
 static int32_t *node_images(const ReducedBlock *block)
 {
     Error err = {0};
-    bool paired;
-    int32_t nodes = block->mesh.node_count;
+    int32_t nodes = block->mesh.node_count, *image;
     double *position = hand_matrix(2 * nodes, 1);
-    int32_t *image = calloc((size_t)nodes, sizeof *image);
     memcpy(position, block->mesh.position, 2 * (size_t)nodes * sizeof *position);
-    assert_true(mirror_nodes_find(2, position, nodes, image, &paired, &err));
+    assert_true(mirror_nodes_find(2, 0, position, nodes, &image, &err));
     free(position);
-    if (paired) return image;
-    free(image);
-    return NULL;
+    return image;
 }
 
 static void find_mirror(const ReducedBlock *block, Mirror *mirror)
@@ -44,13 +40,13 @@ static void find_mirror(const ReducedBlock *block, Mirror *mirror)
     *mirror = (Mirror){0};
     if (image)
         assert_true(
-            mirror_find(&block->bulk, image, block->dofs, block->interface_count, mirror, &err));
-    free(image);
+            mirror_find(&block->bulk, &image, block->dofs, block->interface_count, mirror, &err));
+    memory_free(image);
 }
 
-static bool reduce(ReducedBlock *block, const int32_t *image, Error *err)
+static bool reduce(ReducedBlock *block, int32_t *image, Error *err)
 {
-    block->def.node_image = image;
+    block->def.node_image = &image;
     return symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
                                     &block->reduced, err);
 }
@@ -63,7 +59,7 @@ static void build(const BlockDef *shape, ReducedBlock *block)
     reduced_block_build(shape, &MATERIAL, LOAD, 0, block);
     block->def.tolerance = TOLERANCE;
     find_mirror(block, &mirror);
-    assert_true(mirror.found);
+    assert_int_equal(mirror.part_count, 2);
     assert_int_equal(mirror.mirrored, 1);   // of the rod node's x
     assert_int_equal(mirror.part[0].bulk.dof_count + mirror.part[1].bulk.dof_count,
                      block->bulk.dof_count);
@@ -71,7 +67,7 @@ static void build(const BlockDef *shape, ReducedBlock *block)
     int32_t *image = node_images(block);
     if (!reduce(block, image, &err)) fail_msg("%s", err.message);
     assert_int_equal(block->reduced.part_count, 2);
-    free(image);
+    memory_free(image);
 }
 
 static void test_response(void **state)
@@ -133,24 +129,24 @@ static void test_what_is_none(void **state)
     shaken.distortion = 0.1;
     reduced_block_build(&shaken, &MATERIAL, LOAD, 0, &block);
     find_mirror(&block, &mirror);
-    assert_false(mirror.found);
+    assert_int_equal(mirror.part_count, 0);
     reduced_block_destroy(&block);
 
     reduced_block_build(&SHAPES[0], &MATERIAL, LOAD, 0, &block);
     block.bulk.stiffness[0] *= 1 + 1e-6;
     find_mirror(&block, &mirror);
-    assert_false(mirror.found);
+    assert_int_equal(mirror.part_count, 0);
     block.bulk.stiffness[0] /= 1 + 1e-6;
     block.bulk.mass[0] *= 1 + 1e-6;
     find_mirror(&block, &mirror);
-    assert_false(mirror.found);
+    assert_int_equal(mirror.part_count, 0);
     block.bulk.mass[0] /= 1 + 1e-6;
     find_mirror(&block, &mirror);
-    assert_true(mirror.found);
+    assert_int_equal(mirror.part_count, 2);
     mirror_destroy(&mirror);
     bulk_hold(1, &block.bulk);   // a support on one side
     find_mirror(&block, &mirror);
-    assert_false(mirror.found);
+    assert_int_equal(mirror.part_count, 0);
     reduced_block_destroy(&block);
 
     // Triangles whose diagonals all lean to one side.
@@ -158,7 +154,7 @@ static void test_what_is_none(void **state)
     leaning.kind = ELEMENT_T3;
     reduced_block_build(&leaning, &MATERIAL, LOAD, 0, &block);
     find_mirror(&block, &mirror);
-    assert_false(mirror.found);
+    assert_int_equal(mirror.part_count, 0);
     reduced_block_destroy(&block);
 }
 
@@ -170,21 +166,21 @@ static void test_mirrored(void **state)
     Error err = {0};
     ReducedBlock block;
     Mirror mirror;
-    bool likely;
+    int32_t likely;
     reduced_block_build(&SHAPES[0], &MATERIAL, LOAD, 0, &block);
     block.def.tolerance = TOLERANCE;
     for (int32_t less = 0; less < 2; less++) {
         block.interface_count -= less == 0 ? 1 : 2;   // the rod's x, then contact nodes at one end
         find_mirror(&block, &mirror);
-        assert_true(mirror.found);
+        assert_int_equal(mirror.part_count, 2);
         assert_int_equal(mirror.mirrored, 2 * less);
-        assert_true(mirror_is_likely(&block.bulk, block.mesh.position, block.dofs,
-                                     block.interface_count, &likely, &err));
-        assert_true(likely);
+        assert_true(mirror_likely_parts(&block.bulk, block.mesh.position, block.dofs,
+                                        block.interface_count, &likely, &err));
+        assert_int_equal(likely, 2);
         int32_t *image = node_images(&block);
         assert_true(reduce(&block, image, &err));
         assert_int_equal(block.reduced.part_count, 2);
-        free(image);
+        memory_free(image);
         OperatorTerms terms = {.stiffness = 1, .mass = 3};
         double least, largest, *full = full_schur(&block, terms);
         double *reduced = reduced_schur(&block.reduced, terms);
@@ -196,11 +192,152 @@ static void test_mirrored(void **state)
     }
     block.interface_count = 8;   // four nodes on one side
     find_mirror(&block, &mirror);
-    assert_false(mirror.found);
-    assert_true(mirror_is_likely(&block.bulk, block.mesh.position, block.dofs,
-                                 block.interface_count, &likely, &err));
-    assert_false(likely);
+    assert_int_equal(mirror.part_count, 0);
+    assert_true(mirror_likely_parts(&block.bulk, block.mesh.position, block.dofs,
+                                    block.interface_count, &likely, &err));
+    assert_int_equal(likely, 1);
     reduced_block_destroy(&block);
+}
+
+// --- a lattice of springs in space, its own image along both axes of the floor -------------------
+
+enum { NX = 5, NY = 4, NZ = 3, NODES = NX * NY * NZ, DOFS = 3 * NODES, FLOOR = 3 * NX * NY };
+
+typedef struct Lattice {
+    double place[DOFS];
+    double stiffness[DOFS * DOFS], damping[DOFS * DOFS], mass[DOFS], load[DOFS];
+    int32_t start[DOFS + 1], index[DOFS * DOFS], dofs[FLOOR + 1];
+    uint8_t held[DOFS];
+    Bulk bulk;
+    ReductionDef def;
+} Lattice;
+
+static void add_spring(double k, const double *way, int32_t one, int32_t other, double *a)
+{
+    for (int32_t i = 0; i < 3; i++)
+        for (int32_t j = 0; j < 3; j++) {
+            double force = k * way[i] * way[j];
+            a[(3 * one + i) * DOFS + 3 * one + j] += force;
+            a[(3 * other + i) * DOFS + 3 * other + j] += force;
+            a[(3 * one + i) * DOFS + 3 * other + j] -= force;
+            a[(3 * other + i) * DOFS + 3 * one + j] -= force;
+        }
+}
+
+// The floor's nodes, and x of a node on one side (the rod's).
+static void build_lattice(Lattice *lattice)
+{
+    memset(lattice, 0, sizeof *lattice);
+    for (int32_t n = 0; n < NODES; n++) {
+        double *at = lattice->place + 3 * n;
+        at[0] = 0.25 * (n % NX), at[1] = 0.2 * (n / NX % NY), at[2] = 0.3 * (n / (NX * NY));
+        for (int32_t d = 0; d < 3; d++) lattice->mass[3 * n + d] = 1.0 / NODES;
+        lattice->load[3 * n] = 0.1 * n;
+    }
+    for (int32_t one = 0; one < NODES; one++)
+        for (int32_t other = 0; other < one; other++) {
+            double way[3], square = 0;
+            for (int32_t d = 0; d < 3; d++) {
+                way[d] = lattice->place[3 * one + d] - lattice->place[3 * other + d];
+                square += way[d] * way[d];
+            }
+            if (square > 0.2) continue;   // diagonals, too
+            add_spring(1 / square, way, one, other, lattice->stiffness);
+            add_spring(0.5 / square + 1, way, one, other, lattice->damping);
+        }
+    for (int32_t k = 0; k < DOFS * DOFS; k++) lattice->index[k] = k % DOFS;
+    for (int32_t k = 0; k <= DOFS; k++) lattice->start[k] = k * DOFS;
+    for (int32_t k = 0; k < FLOOR; k++) lattice->dofs[k] = k;
+    lattice->dofs[FLOOR] = FLOOR;
+    lattice->bulk = (Bulk){.dim = 3,
+                           .dof_count = DOFS,
+                           .pattern = {DOFS, lattice->start, lattice->index},
+                           .stiffness = lattice->stiffness,
+                           .damping = lattice->damping,
+                           .mass = lattice->mass,
+                           .load = lattice->load,
+                           .held = lattice->held};
+    lattice->def = (ReductionDef){.tolerance = TOLERANCE,
+                                  .scales = {1, 1, 1, 1},
+                                  .materials = materials_of(&MATERIAL),
+                                  .modes = true,
+                                  .position = lattice->place};
+}
+
+static void expect_rigid_motions(const Lattice *lattice, const ReducedBulk *reduced)
+{
+    Error err = {0};
+    BulkOperator system;
+    double full[DOFS], wanted[DOFS];
+    assert_true(bulk_operator_reduce(reduced, 1, 1, &system, &err));
+    for (int32_t motion = 0; motion < 6; motion++) {
+        static const int32_t PLANES[][2] = {{0, 2}, {0, 1}, {1, 2}};
+        for (int32_t dof = 0; dof < DOFS; dof++) {
+            const double *at = lattice->place + dof / 3 * 3;
+            wanted[dof] = motion == dof % 3;
+            if (motion < 3) continue;
+            const int32_t *plane = PLANES[motion - 3];
+            wanted[dof] = dof % 3 == plane[0]   ? -at[plane[1]]
+                          : dof % 3 == plane[1] ? at[plane[0]]
+                                                : 0;
+        }
+        recover_state(reduced, system.rigid + motion * reduced->count, full);
+        assert_all_near("rigid", full, wanted, DOFS, 1e-10);
+    }
+    bulk_operator_destroy(&system);
+}
+
+// Four parts, from which S of the whole comes back; with a spring more on one side, two.
+static void test_two_mirrors(void **state)
+{
+    (void)state;
+    static Lattice lattice;
+    Error err = {0};
+    if (DIM_MAX < 3) skip();
+    build_lattice(&lattice);
+    for (int32_t whole = 0; whole < 2; whole++) {
+        ReducedBlock block = {
+            .bulk = lattice.bulk, .dofs = lattice.dofs, .interface_count = FLOOR + 1};
+        int32_t *found[2], parts = 0;
+        Mirror mirror;
+        for (int32_t axis = 0; axis < 2; axis++) {
+            assert_true(mirror_nodes_find(3, axis, lattice.place, NODES, &found[axis], &err));
+            assert_non_null(found[axis]);
+        }
+        const double along_y[] = {0, 0.2, 0};
+        if (whole) add_spring(0.1, along_y, NX / 2, NX / 2 + NX, lattice.stiffness);
+        assert_true(mirror_find(&lattice.bulk, found, block.dofs, FLOOR + 1, &mirror, &err));
+        assert_int_equal(mirror.part_count, whole ? 2 : 4);
+        assert_int_equal(mirror.mirrored, whole ? 1 : 3);
+        mirror_destroy(&mirror);
+        assert_true(
+            mirror_likely_parts(&lattice.bulk, lattice.place, block.dofs, FLOOR + 1, &parts, &err));
+        assert_int_equal(parts, whole ? 2 : 4);
+        lattice.def.node_image = found;
+        if (!symmetry_reduction_build(&lattice.bulk, block.dofs, FLOOR + 1, &lattice.def,
+                                      &block.reduced, &err))
+            fail_msg("%s", err.message);
+        assert_int_equal(block.reduced.full_dofs, DOFS);
+        expect_rigid_motions(&lattice, &block.reduced);
+        for (int32_t k = 0; k < 3; k++) {
+            OperatorTerms terms = {.stiffness = 1, .damping = k, .mass = k == 2 ? 30 : 0.3};
+            BulkOperator system;
+            assert_true(
+                bulk_operator_create(&lattice.bulk, NULL, block.dofs, FLOOR + 1, &system, &err));
+            InterfaceOperator *full = interface_operator_create(&system, terms, &err);
+            assert_non_null(full);
+            double least, largest, *reduced = reduced_schur(&block.reduced, terms);
+            energy_differences(reduced, interface_operator_schur(full), FLOOR + 1, &least,
+                               &largest);
+            assert_true(least > -ROUNDING && largest < 2 * TOLERANCE);
+            free(reduced);
+            interface_operator_destroy(full);
+            bulk_operator_destroy(&system);
+        }
+        memory_free(found[0]);
+        memory_free(found[1]);
+        reduced_bulk_destroy(&block.reduced);
+    }
 }
 
 static void test_memory_faults(void **state)
@@ -229,7 +366,7 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 4000);
     }
-    free(image);
+    memory_free(image);
     reduced_block_destroy(&block);
 }
 
@@ -241,6 +378,7 @@ int main(void)
         cmocka_unit_test(test_rigid_motions_and_load),
         cmocka_unit_test(test_what_is_none),
         cmocka_unit_test(test_mirrored),
+        cmocka_unit_test(test_two_mirrors),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,6 +11,12 @@ static const Material MATERIAL = {.young = 2, .poisson = 0.3, .density = 3, .eta
 static const BlockDef SHAPE = {.kind = ELEMENT_Q4, .nx = 9, .nz = 7, .length = 2, .height = 1.3};
 enum { COLUMNS = 3, LARGE = 20, MODES = 6 };
 
+// (x + sign x*) / sqrt(2) of an unknown and its image; of its own image: x.
+static void append_pair(Transform *by, int32_t one, int32_t image, double sign)
+{
+    transform_append_images(by, (int32_t[]){one, image}, one == image ? 1 : 2, (double[]){1, sign});
+}
+
 // Unknowns from both ends in pairs, from the first on; then of the rest each of three in turn as it
 // is, in one of two blocks in turns, or in none.
 static void make_transform(int32_t size, Transform *by)
@@ -19,10 +25,10 @@ static void make_transform(int32_t size, Transform *by)
     Random random = {.state = 3};
     int32_t pairs = 15, rows[2][LARGE], filled[2] = {0};
     assert_true(transform_create(size, size, (int64_t)size * MODES, by, &err));
-    for (int32_t k = 0; k < pairs; k++) transform_append_pair(by, k, size - 1 - k, k % 2 ? 1 : -1);
+    for (int32_t k = 0; k < pairs; k++) append_pair(by, k, size - 1 - k, k % 2 ? 1 : -1);
     for (int32_t k = pairs; k < size - pairs; k++) {
         int32_t which = k / 3 % 2;
-        if (k % 3 == 0) transform_append_pair(by, k, k, -1);
+        if (k % 3 == 0) append_pair(by, k, k, -1);
         if (k % 3 == 1 && filled[which] < LARGE) rows[which][filled[which]++] = k;
     }
     for (int32_t which = 0; which < 2; which++) {
@@ -134,7 +140,7 @@ static void test_vectors(void **state)
     free(t);
     assert_true(transform_create(SIZE, SIZE, SIZE, &pairs, &err));
     for (int32_t k = 0; k < SIZE / 2 - 2; k++)
-        transform_append_pair(&pairs, k, k % 3 ? SIZE - 1 - k : k, k % 2 ? 1 : -1);
+        append_pair(&pairs, k, k % 3 ? SIZE - 1 - k : k, k % 2 ? 1 : -1);
     t = written_out(&pairs);
     hand_apply(t, SIZE, pairs.count, y, wanted);
     for (int32_t k = 0; k < SIZE; k++) found[k] = x[k], wanted[k] += x[k];
@@ -164,9 +170,9 @@ static void test_square(void **state)
     Transform by;
     enum { SIZE = 9, COUNT = 5 };
     assert_true(transform_create(SIZE, SIZE, SIZE, &by, &err));
-    for (int32_t k = 0; k < 3; k++) transform_append_pair(&by, k, 8 - k, k % 2 ? 1 : -1);
-    transform_append_pair(&by, 5, 5, 1);
-    transform_append_pair(&by, 3, 3, 1);
+    for (int32_t k = 0; k < 3; k++) append_pair(&by, k, 8 - k, k % 2 ? 1 : -1);
+    append_pair(&by, 5, 5, 1);
+    append_pair(&by, 3, 3, 1);
     assert_int_equal(by.count, COUNT);
     double *t = written_out(&by), s[COUNT * COUNT], a[SIZE * SIZE], wanted[SIZE * SIZE];
     for (int32_t j = 0; j < COUNT; j++)
@@ -202,7 +208,7 @@ static void test_memory_faults(void **state)
         double y = 1, *x = NULL;
         memory_fail_after(k);
         done = transform_create(block.bulk.dof_count, 1, 1, &by, &err) &&
-               (transform_append_pair(&by, 2, 2, 1), bulk_transform(&block.bulk, &by, &to, &err)) &&
+               (append_pair(&by, 2, 2, 1), bulk_transform(&block.bulk, &by, &to, &err)) &&
                (x = NEW_ARRAY(double, by.size, &err)) && transform_apply_many(&by, &y, 1, x, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
