@@ -16,7 +16,8 @@
 typedef struct Datum {
     int32_t condition;
     char name[STUDY_NAME_SIZE];   // as the table has it
-    char along[STUDY_NAME_SIZE];   // of a curve: the series at whose value `at` it is read; "": none
+    char
+        along[STUDY_NAME_SIZE];   // of a curve: the series at whose value `at` it is read; "": none
     double at;
     double value, error;   // one standard deviation
 } Datum;
@@ -26,7 +27,6 @@ typedef struct Measured {
     Datum *list;   // [room] owned
     int32_t condition_count, condition_room;
     char **conditions;   // [condition_room] "load.pressure: 0.003, mesh.set.length: 1"; owned
-    bool has_curves;   // runs must keep a history
 } Measured;
 
 // The tables that `fit: measured` names, seen from the study.
