@@ -45,8 +45,8 @@ typedef struct FitSummary {
     double seconds;
 } FitSummary;
 
-// Chooses values of the keys that the study file `path` searches, computes them under all conditions
-// that were measured, and finds which of them agree with the measurements. The rest as above.
+// Chooses values of the keys that the study file `path` searches, computes them under all
+// conditions that were measured, and finds which agree with the measurements. The rest as above.
 bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err);
 
 #ifdef __cplusplus

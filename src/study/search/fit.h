@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A fit under way. Shared by fit and fit_report.
+// A fit under way. Shared by the files of its name.
 #ifndef AMONTONS_STUDY_SEARCH_FIT_H
 #define AMONTONS_STUDY_SEARCH_FIT_H
 
@@ -31,5 +31,8 @@ double fit_unscaled(const Fit *fit, int32_t k, double scaled);
 // Of the misfit, above its least: of a region of one key, or of two together.
 double fit_threshold(const Fit *fit, int32_t keys);
 int32_t fit_freedom(const Fit *fit);   // measurements less keys
+// Of all keys, by the responses about the best. *stays: no end has moved by more than a part of its
+// region.
+void fit_find_regions(Fit *fit, bool *stays);
 
 #endif

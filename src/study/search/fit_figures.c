@@ -168,7 +168,7 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
     return search_draw(&fit->search, &frame, curves, 2, err);
 }
 
-// --- found over measured ------------------------------------------------------------------------
+// --- found less measured ------------------------------------------------------------------------
 
 static bool draw_measured(const Fit *fit, Error *err)
 {

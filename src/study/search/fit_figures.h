@@ -5,8 +5,8 @@
 
 #include "study/search/fit.h"
 
-// figures/measured.png: found over measured; profile_KEY.png: the misfit along a key, least over the
-// others; region_KEY_KEY.png: two keys together.
+// figures/measured.png: found less measured; profile_KEY.png: the misfit along a key, least over
+// the others; region_KEY_KEY.png: two keys together.
 bool fit_figures(const Fit *fit, Error *err);
 
 #endif

@@ -4,8 +4,8 @@
 //     load.pressure, ...       keys of the scene: under which condition
 //     mu_M, l_c, ...           results, as `record` of a study names them
 //     mu_M_error, ...          one standard deviation of each; a result must have it
-//     series/rod_displacement  a series of history.h5, without an error: where it first comes to this,
-//     series/mu                another one is read, which has an error: a curve, a row a point
+//     series/rod_displacement  a series of history.h5, without an error: where it first comes to
+//     series/mu                this value another is read, with an error: a curve, a row a point
 //
 // An empty cell: nothing was measured there. Called by fit.
 #ifndef AMONTONS_STUDY_SEARCH_MEASURED_H

@@ -87,7 +87,7 @@ static void test_profile(void **state)
     response_destroy(&response);
 }
 
-// Runs that scatter by 0.05 are smoothed, and the scatter is told; with few designs the order falls.
+// Runs that scatter by 0.05 are smoothed, which is told; with few designs the order falls.
 static void test_scatter_and_order(void **state)
 {
     (void)state;
