@@ -5,7 +5,7 @@
 //
 // Misfit: -2 ln of the likelihood, sum of (found - measured)^2 / (s^2 + e^2) + ln(1 + e^2 / s^2),
 // with s the error of a measurement and e that of the program.
-#include "study/search/fit.h"
+#include "study/search/fit_regions.h"
 
 #include "base/clock.h"
 #include "base/memory.h"

@@ -3,7 +3,7 @@
 #ifndef AMONTONS_STUDY_SEARCH_FIT_REPORT_H
 #define AMONTONS_STUDY_SEARCH_FIT_REPORT_H
 
-#include "study/search/fit.h"
+#include "study/search/fit_regions.h"
 
 // Words to options->out; fit.csv has a row a measurement; figures: measured.png, course.png,
 // profile_KEY.png, region_KEY_KEY.png.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A fit under way. Shared by the files of its name.
-#ifndef AMONTONS_STUDY_SEARCH_FIT_H
-#define AMONTONS_STUDY_SEARCH_FIT_H
+// A fit under way, and how well each key is known. Shared by the files of its name.
+#ifndef AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
+#define AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
 
 #include "amontons_optimise.h"
 #include "study/search/measured.h"
