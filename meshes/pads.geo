@@ -27,6 +27,8 @@ DefineConstant[
     pad_ratio = 1,          // length of the last pad over that of the first, in geometric steps
     gap = 0,                // between neighbours, the row of pads in the middle of the block;
                             // 0: as wide as `ends` makes it
+    first_gap = 1,          // width of the first gap, by the trailing pad, over that of the others; all
+                            // gaps together are as wide as before
     ends = "flush",         // "flush": first and last pad end with the block (n = 1: in the middle)
                             // "open": half a gap at either end of the block
     fillet = 0,             // radius at the roots of the pads; 0: sharp
@@ -75,6 +77,10 @@ If (contact_length < 0 || contact_length > length || (n > 1 && contact_length ==
 EndIf
 If (pad_ratio <= 0)
     Error("pad_ratio must be above 0 (1: equal pads), found %g", pad_ratio);
+    Abort;
+EndIf
+If (first_gap <= 0)
+    Error("first_gap must be above 0 (1: equal gaps), found %g", first_gap);
     Abort;
 EndIf
 If (gap < 0)
@@ -161,6 +167,16 @@ If (margin < 0)
     Abort;
 EndIf
 
+gap_lengths[] = {};
+narrowest = gap_length;
+For k In {0 : n - 2}
+    gap_lengths[] += gap_length;
+    If (first_gap != 1 && n > 2)
+        gap_lengths[k] = (n - 1) * gap_length / (n - 2 + first_gap) * (k == 0 ? first_gap : 1);
+        narrowest = gap_lengths[k] < narrowest ? gap_lengths[k] : narrowest;
+    EndIf
+EndFor
+
 // Pads in geometric progression: the last pad_ratio times the first.
 step = 1;
 If (n > 1)
@@ -177,11 +193,11 @@ If (size_contact > shortest / 2)
     Abort;
 EndIf
 
-If (fillet >= pad_height || (margin > 0 && fillet >= margin) || (n > 1 && 2 * fillet >= gap_length))
+If (fillet >= pad_height || (margin > 0 && fillet >= margin) || (n > 1 && 2 * fillet >= narrowest))
     If (fillet > 0)
         Error(StrCat("fillet must be below pad_height = %g, half a gap = %g and the free end of ",
                      "the underside = %g (0: none), found %g"),
-              pad_height, gap_length / 2, margin, fillet);
+              pad_height, narrowest / 2, margin, fillet);
         Abort;
     EndIf
 EndIf
@@ -203,7 +219,7 @@ For k In {0 : n - 1}
     xs[] += x;
     solid[] += 1;
     If (k < n - 1)
-        x = x + gap_length;
+        x = x + gap_lengths[k];
         xs[] += x;
         solid[] += 0;
     EndIf

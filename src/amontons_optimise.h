@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `amontons optimise`: the best design of a study that searches. Public, as amontons.h.
+// `amontons optimise` and `amontons fit`: the best design of a study that searches, and the numbers
+// that measurements speak for. Public, as amontons.h.
 #ifndef AMONTONS_OPTIMISE_H
 #define AMONTONS_OPTIMISE_H
 
@@ -9,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { OPTIMISE_WORDS_SIZE = 512 };
+enum { OPTIMISE_WORDS_SIZE = 512, FIT_KEYS_MAX = 12, FIT_KEY_SIZE = 96 };
 
 typedef struct OptimiseSummary {
     int32_t designs, computed;   // with a value; points computed
@@ -27,6 +28,26 @@ typedef struct OptimiseSummary {
 // came to a value.
 bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSummary *summary,
                        Error *err);
+
+typedef struct FitParameter {
+    char key[FIT_KEY_SIZE];   // of the scene
+    double value, low, high;   // the best, and its region: the profile of the misfit
+    bool low_open, high_open;   // the region goes on beyond the range that was searched
+} FitParameter;
+
+typedef struct FitSummary {
+    int32_t parameter_count, measurements;
+    FitParameter parameters[FIT_KEYS_MAX];
+    int32_t designs, computed;   // with all that was measured; points computed
+    double misfit;   // sum of squares of (found - measured), each over its errors
+    double widened;   // regions, as the misfit is above what errors explain; 1: it is not
+    double own_share;   // of the errors' squares, the program's own: 0 to 1, the mean
+    double seconds;
+} FitSummary;
+
+// Chooses values of the keys that the study file `path` searches, computes them under all
+// conditions that were measured, and finds which agree with the measurements. The rest as above.
+bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err);
 
 #ifdef __cplusplus
 }

@@ -5,12 +5,12 @@
     result = amontons.run("scene.yaml", {"load.pressure": 0.006})
     print(result.mu_M, result.history.mu.max())
 
-run, forecast, static, stability, model1d, sweep, optimise, render, film, info, cache are the commands of the program `amontons`;
+run, forecast, static, stability, model1d, sweep, optimise, fit, render, film, info, cache are the commands of the program `amontons`;
 Simulation steps one simulation; errors are AmontonsError and what is derived from it. docs/python.md shows all of it.
 """
 from ._library import AmontonsError, ComputeError, FileError, InputError, LibraryError
 from ._structs import NODE_OPEN, NODE_SLIPS, NODE_STICKS, NODE_WEAKENS
-from .commands import (cache, clean_cache, data_folder, film, forecast, info, kernels, keys, model1d,
+from .commands import (cache, clean_cache, data_folder, film, fit, forecast, info, kernels, keys, model1d,
                        open_result, optimise, read_table, render, render_plot, render_sweep, run, stability, static, sweep,
                        version)
 from .results import Answer, Field, History, Result
@@ -19,5 +19,5 @@ from .simulation import Simulation
 __version__ = version()
 __all__ = ["AmontonsError", "Answer", "ComputeError", "Field", "FileError", "History", "InputError", "LibraryError",
            "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "Result", "Simulation", "cache", "clean_cache",
-           "data_folder", "film", "forecast", "info", "kernels", "keys", "model1d", "open_result",
+           "data_folder", "film", "fit", "forecast", "info", "kernels", "keys", "model1d", "open_result",
            "optimise", "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static", "sweep", "version"]

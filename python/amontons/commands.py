@@ -208,6 +208,25 @@ def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *
             "designs": summary.designs, "computed": summary.computed, "seconds": summary.seconds}
 
 
+def fit(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
+        slurm: str | None = None, progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
+    """The numbers of a scene that measurements speak for: `amontons fit`. A dict: "keys" ({key: {"value", "low", "high",
+    "low_open", "high_open"}}: the best, its region, and whether that goes on beyond the range), "misfit", "measurements",
+    "widened" (regions, as the misfit is above what errors explain), "own_share" (of the errors' squares, the program's own),
+    "designs", "computed" (points), "seconds". A row a measurement is in `folder`/fit.csv (read_table). The rest as for `optimise`."""
+    if folder is None:
+        with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
+            return fit(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
+    summary = c.FitSummary()
+    _compute_study(lib.amontons_fit, summary, study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
+                   slurm=c_text_or_none(slurm), retry=retry)
+    found = summary.parameters[:summary.parameter_count]
+    return {"keys": {one.key.decode(): {"value": one.value, "low": one.low, "high": one.high, "low_open": bool(one.low_open),
+                                        "high_open": bool(one.high_open)} for one in found},
+            "misfit": summary.misfit, "measurements": summary.measurements, "widened": summary.widened,
+            "own_share": summary.own_share, "designs": summary.designs, "computed": summary.computed, "seconds": summary.seconds}
+
+
 def _picture_style(style: dict[str, Any]) -> Any:
     given = {**style, "format": c_text(style.get("format", "png"))}
     return c.PictureStyle(**given)

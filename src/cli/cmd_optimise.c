@@ -5,9 +5,6 @@
 #include "cli/say.h"
 #include "cli/study_run.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 static const char ENDING[] = "-best";
 static const CommandText text = {
     .name = "optimise",
@@ -59,11 +56,5 @@ int command_optimise(int argc, char **argv)
     if (done && !run.quiet)
         say("%s%d points computed in %.1f s; table in %s: sweep.csv; figures/course.png\n",
             run.answer, summary.computed, summary.seconds, run.options.folder);
-    if (done && run.failures > 0) {
-        fflush(stdout);
-        tell("amontons: points failed, the first of them:\n  %s\n", run.failed[0]);
-    }
-    free(run.answer);
-    if (!done) return report_error(&err);
-    return run.failures > 0 ? amontons_error_exit_status(ERROR_COMPUTE) : 0;
+    return study_run_status(&run, done, &err);
 }

@@ -10,6 +10,7 @@ int command_stability(int argc, char **argv);
 int command_model1d(int argc, char **argv);
 int command_sweep(int argc, char **argv);
 int command_optimise(int argc, char **argv);
+int command_fit(int argc, char **argv);
 int command_render(int argc, char **argv);
 int command_report(int argc, char **argv);
 int command_film(int argc, char **argv);

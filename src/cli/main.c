@@ -50,6 +50,7 @@ static const Command commands[] = {
      "computes the 1D model of the paper: theory and simulation"},
     {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table"},
     {"optimise", command_optimise, "STUDY", "searches the best design of a study"},
+    {"fit", command_fit, "STUDY", "finds the numbers of a scene that measurements speak for"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"report", command_report, "RESULT", "writes a page about a run, a sweep or several runs"},
     {"film", command_film, "RESULT", "films a stored result: block, slip, force"},

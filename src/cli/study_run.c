@@ -5,6 +5,7 @@
 #include "cli/say.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 int study_words_read(const CommandText *text, const char *ending, bool has_elements, int argc,
@@ -88,4 +89,15 @@ void study_run_end(StudyRun *run)
 {
     if (run->options.out) fclose(run->options.out);
     if (run->bar && !run->quiet) tell_over("", 0);
+}
+
+int study_run_status(StudyRun *run, bool done, const Error *err)
+{
+    if (done && run->failures > 0) {
+        fflush(stdout);
+        tell("amontons: points failed, the first of them:\n  %s\n", run->failed[0]);
+    }
+    free(run->answer);
+    if (!done) return report_error(err);
+    return run->failures > 0 ? amontons_error_exit_status(ERROR_COMPUTE) : 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What commands that compute a study's points share: their options, a line on standard error for
-// each point, and an answer that is printed when the last of those has gone. Called by cmd_sweep
-// and cmd_optimise.
+// each point, and an answer that is printed when the last of those has gone. Called by
+// cmd_sweep, cmd_optimise and cmd_fit.
 #ifndef AMONTONS_CLI_STUDY_RUN_H
 #define AMONTONS_CLI_STUDY_RUN_H
 
@@ -32,5 +32,7 @@ int study_words_read(const CommandText *text, const char *ending, bool has_eleme
 // Signals are taken from here on. Status 0 or 2.
 int study_run_begin(const StudyWords *words, const char *ending, StudyRun *run);
 void study_run_end(StudyRun *run);   // the answer is whole, no line stands half written
+// The exit status of a search, of which points may have failed; frees the answer.
+int study_run_status(StudyRun *run, bool done, const Error *err);
 
 #endif

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char SERIES[] = "series/", ERROR_ENDING[] = "_error";
 
@@ -173,7 +174,6 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
         if (!(datum.error > 0))
             FAIL(err, ERROR_INPUT, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
                  ERROR_ENDING);
-        measured->has_curves |= is_series(name);
         TRY(add_datum(measured, &datum, err));
     }
 cleanup:
@@ -241,8 +241,13 @@ static bool find_on_curve(const Datum *datum, const char *history, double *value
     int64_t rows = 0, other = 0;
     int32_t width = 0;
     Error ignored = {0};   // it is only read
-    ArrayFile *file = array_file_open(history, err);
-    TRY(file);
+    ArrayFile *file = NULL;
+    if (access(history, R_OK) != 0)
+        FAIL(err, ERROR_INPUT,
+             "%s is read from the history of a run, which none was kept of: say `set: "
+             "{output.history: true}` and `keep: points`",
+             datum->name);
+    TRY(file = array_file_open(history, err));
     TRY(array_file_read(file, datum->along, &x, &rows, &width, err));
     if (width == 1) TRY(array_file_read(file, datum->name, &y, &other, &width, err));
     if (width != 1 || rows != other)

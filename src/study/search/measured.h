@@ -4,8 +4,8 @@
 //     load.pressure, ...       keys of the scene: under which condition
 //     mu_M, l_c, ...           results, as `record` of a study names them
 //     mu_M_error, ...          one standard deviation of each; a result must have it
-//     series/rod_displacement  a series of history.h5, without an error: where it first comes to this,
-//     series/mu                another one is read, which has an error: a curve, a row a point
+//     series/rod_displacement  a series of history.h5, without an error: where it first comes to
+//     series/mu                this value another is read, with an error: a curve, a row a point
 //
 // An empty cell: nothing was measured there. Called by fit.
 #ifndef AMONTONS_STUDY_SEARCH_MEASURED_H
@@ -16,7 +16,8 @@
 typedef struct Datum {
     int32_t condition;
     char name[STUDY_NAME_SIZE];   // as the table has it
-    char along[STUDY_NAME_SIZE];   // of a curve: the series at whose value `at` it is read; "": none
+    char
+        along[STUDY_NAME_SIZE];   // of a curve: the series at whose value `at` it is read; "": none
     double at;
     double value, error;   // one standard deviation
 } Datum;
@@ -26,7 +27,6 @@ typedef struct Measured {
     Datum *list;   // [room] owned
     int32_t condition_count, condition_room;
     char **conditions;   // [condition_room] "load.pressure: 0.003, mesh.set.length: 1"; owned
-    bool has_curves;   // runs must keep a history
 } Measured;
 
 // The tables that `fit: measured` names, seen from the study.

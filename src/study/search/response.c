@@ -13,7 +13,8 @@
 enum { STEPS_MAX = 200 };
 static const double MORE = 1.5;   // designs that count, for each term
 static const double RIDGE = 1e-10;   // of a term's own weight: designs on a line leave terms open
-static const double DAMPED = 1e-3, DAMPED_MAX = 1e12, SETTLED = 1e-12;   // damping; change of misfit
+static const double DAMPED = 1e-3, DAMPED_MAX = 1e12,
+                    SETTLED = 1e-12;   // damping; change of misfit
 
 // --- terms --------------------------------------------------------------------------------------
 
@@ -123,13 +124,14 @@ static void solve_datum(const ResponseDef *def, const double *weights, const dou
 static bool solve(const ResponseDef *def, const double *weights, Response *r, Error *err)
 {
     int32_t n = r->terms;
-    double *rows = NEW_ARRAY(double, (int64_t)def->designs * n, err);
-    double *matrix = NEW_ARRAY(double, (int64_t)n * n, err);
+    double *rows = NEW_ARRAY(double, (int64_t)def->designs *n, err);
+    double *matrix = NEW_ARRAY(double, (int64_t)n *n, err);
     TRY(rows && matrix);
     for (int32_t d = 0; d < def->designs; d++) {
         double *row = &rows[(int64_t)d * n];
         terms_at(r, &def->places[d * r->keys], row, NULL);
-        for (int32_t k = 0; k < n; k++) dense_add_scaled(weights[d] * row[k], row, n, &matrix[k * n]);
+        for (int32_t k = 0; k < n; k++)
+            dense_add_scaled(weights[d] * row[k], row, n, &matrix[k * n]);
     }
     for (int32_t k = 0; k < n; k++) matrix[k * n + k] *= 1 + RIDGE;
     if (!dense_cholesky(matrix, n))
@@ -149,8 +151,8 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
     if (def->designs < MORE * r->terms) r->terms = 1 + 2 * n;
     if (def->designs < MORE * r->terms) r->terms = 1 + n;
     if (def->designs <= r->terms)
-        FAIL(err, ERROR_COMPUTE,
-             "only %d designs have all that was measured: too few for %d keys", def->designs, n);
+        FAIL(err, ERROR_COMPUTE, "only %d designs have all that was measured: too few for %d keys",
+             def->designs, n);
     TRY(weights = NEW_ARRAY(double, def->designs, err));
     TRY(r->coefficients = NEW_ARRAY(double, (int64_t)r->data * r->terms, err));
     TRY(r->measured = NEW_ARRAY(double, 3 * (int64_t)r->data, err));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Each measured result as a polynomial of the keys, through the designs computed so far: smooth where
-// runs scatter, and cheap where they are not, so that the misfit has a least value and a profile.
+// Each measured result as a polynomial of the keys, through the designs computed so far: smooth
+// where runs scatter, and cheap where they are not: the misfit gets a least value and a profile.
 // Keys are scaled: 0 and 1 are the ends of their ranges. Called by fit.
 //
 // Least squares with weights that fall with a design's misfit. The polynomial is of second order

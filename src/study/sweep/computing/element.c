@@ -3,7 +3,8 @@
 // has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
-//      "design_count": 0, "designs": [], "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "runs": [2, 2],
+//      "design_count": 0, "designs": [],
+//      "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "runs": [2, 2],
 //      "hashes": ["97e1...", "62f1..."]}
 //
 // Element e computes points[e], with `keep: table` the share first + e. Its scene is made anew and

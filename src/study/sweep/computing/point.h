@@ -91,8 +91,8 @@ void points_note_place(void *points, const char *hash, ReportPlace place);
 bool points_find_same(Sweep *sweep, Error *err);
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
-// The number at `path` in a run.json, and its error: `bar` with the mesh's part, `known_to` with what
-// a mesh usually leaves where that is not known. NaN: none, also where `report` is NULL.
+// The number at `path` in a run.json, and its error: `bar` with the mesh's part, `known_to` with
+// what a mesh usually leaves where that is not known. NaN: none, also where `report` is NULL.
 typedef struct PointValue {
     double value, bar, known_to;
 } PointValue;

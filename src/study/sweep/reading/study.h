@@ -14,16 +14,7 @@
 //     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
 //
-// One that searches (study/search) has `search`, and `where` and `best` where they are wanted, in
-// place of `cases`: designs, each computed at all points of `vary`.
-//
-//     search: {mesh.set.n: {whole: [1, 12]}, mesh.set.pad_height: {log: [0.01, 0.2]}}
-//     where: [{value: = mesh.set.n * mesh.set.pad_height, most: 0.6}]
-//     best: {over: worst, designs: 40, seed: 1}
-//
-// Or it fits measurements (study/search/fit):
-//
-//     fit: {measured: measured.csv, sure: 95%, designs: 40, seed: 1}
+// One that searches has a goal in place of `cases` (study_goal).
 //
 // A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
@@ -35,6 +26,7 @@
 #include "io/text/yaml_document.h"
 #include "scene/scene.h"
 #include "study/sweep/reading/plot_words.h"
+#include "study/sweep/reading/study_goal.h"
 
 enum {
     STUDY_AXES_MAX = 16,
@@ -45,9 +37,6 @@ enum {
     STUDY_RANGE_MAX = 10000,   // points of a range
     STUDY_POINTS_MAX = 1000000,
     STUDY_PLOTS_MAX = 8,
-    STUDY_SEARCH_MAX = 12,   // keys that are searched
-    STUDY_LIMITS_MAX = 16,
-    STUDY_DESIGNS_MAX = 1000,
 };
 
 // A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
@@ -86,33 +75,6 @@ typedef struct StudyRank {
     YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else
     double refine;   // smallest accuracy.mu that points without a decided rank may get; 0: none
 } StudyRank;
-
-typedef enum SearchScale { SEARCH_LINEAR, SEARCH_LOG, SEARCH_WHOLE } SearchScale;
-
-typedef struct SearchKey {
-    char key[STUDY_NAME_SIZE];
-    SearchScale scale;
-    double least, most;
-} SearchKey;
-
-// Of `where`: a design is computed only if the formula's value is between.
-typedef struct SearchLimit {
-    YamlNode formula;
-    double least, most;   // infinite: no limit
-} SearchLimit;
-
-typedef struct StudySearch {
-    YamlNode node;   // of `search`; YAML_NO_NODE: the study does not search
-    int32_t key_count, limit_count;
-    SearchKey keys[STUDY_SEARCH_MAX];
-    SearchLimit limits[STUDY_LIMITS_MAX];
-    bool mean;   // over the points of `vary`; else the worst of them counts
-    int32_t designs;   // that are chosen by the search
-    uint32_t seed;
-    bool fits;   // measurements: it has `fit`, not `best`
-    YamlNode measured;   // of `fit`: a path, or a list of them
-    double sure;   // of its regions: 0.95
-} StudySearch;
 
 typedef struct Study {
     char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];

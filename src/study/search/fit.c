@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// measurements read -> designs chosen where the misfit may be small (search) -> each result as a
+// polynomial of the keys (response) -> its least misfit and profile -> designs at the ends of the
+// regions, until these stay -> answer and figures.
+//
+// Misfit: -2 ln of the likelihood, sum of (found - measured)^2 / (s^2 + e^2) + ln(1 + e^2 / s^2),
+// with s the error of a measurement and e that of the program.
+#include "study/search/fit_regions.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "study/search/fit_report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { ROUNDS_MAX = 6 };
+static const double FAR = 5;   // thresholds above the least misfit, where designs count half
+
+// --- what a design is worth ---------------------------------------------------------------------
+
+static bool take_results(Search *search, int32_t d, int32_t c, const char *report, Error *err)
+{
+    Fit *fit = search->judge.context;
+    int32_t count = fit->measured.count;
+    char history[AMONTONS_PATH_SIZE];
+    search_run_path(search, d, c, history);
+    size_t length = strlen(history);
+    if (length > 8 && length < sizeof history - 8)
+        strcpy(history + length - 8, "history.h5");   // beside run.json
+    for (int32_t k = 0; k < count; k++) {
+        const Datum *datum = &fit->measured.list[k];
+        int64_t at = (int64_t)d * count + k;
+        if (datum->condition != c) continue;
+        TRY(measured_find(datum, report, history, &fit->found[at], &fit->own[at], err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// NaN where it lacks anything that was measured.
+static void judge_misfit(Search *search, int32_t d)
+{
+    const Fit *fit = search->judge.context;
+    Design *design = &search->designs.list[d];
+    design->value = 0;
+    for (int32_t k = 0; k < fit->measured.count; k++) {
+        const Datum *datum = &fit->measured.list[k];
+        int64_t at = (int64_t)d * fit->measured.count + k;
+        double own = fit->own[at] / datum->error, square = 1 + own * own;
+        double off = (fit->found[at] - datum->value) / datum->error;
+        design->value += off * off / square + log(square);
+    }
+}
+
+// Misfits differ by powers of ten.
+static double tell_logarithm(double misfit)
+{
+    return log1p(misfit);
+}
+
+// --- the best -----------------------------------------------------------------------------------
+
+static bool make_response(Fit *fit, Error *err)
+{
+    const Designs *designs = &fit->search.designs;
+    int32_t n = fit->search.study->search.key_count, data = fit->measured.count, count = 0;
+    double *room = NEW_ARRAY(double, (int64_t)designs->count *(n + 2 * data + 1) + 2 * data, err);
+    TRY(room);
+    double *places = room, *found = places + (int64_t)designs->count * n;
+    double *own = found + (int64_t)designs->count * data;
+    double *misfit = own + (int64_t)designs->count * data, *measured = misfit + designs->count;
+    for (int32_t d = 0; d < designs->count; d++) {
+        if (isnan(designs->list[d].value)) continue;
+        for (int32_t k = 0; k < n; k++)
+            places[count * n + k] = fit_scaled(fit, k, designs->list[d].x[k]);
+        memcpy(&found[(int64_t)count * data], &fit->found[(int64_t)d * data],
+               (size_t)data * sizeof *found);
+        memcpy(&own[(int64_t)count * data], &fit->own[(int64_t)d * data],
+               (size_t)data * sizeof *own);
+        misfit[count++] = designs->list[d].value;
+    }
+    for (int32_t k = 0; k < data; k++) {
+        measured[k] = fit->measured.list[k].value;
+        measured[data + k] = fit->measured.list[k].error;
+    }
+    response_destroy(&fit->response);
+    ResponseDef def = {n,   count,  data,     places,          found,
+                       own, misfit, measured, measured + data, FAR * fit_threshold(fit, 1)};
+    TRY(response_make(&def, &fit->response, err));
+cleanup:
+    memory_free(room);
+    return error_is_clean(err);
+}
+
+// From the best design on, and from the best place before.
+static void find_best(Fit *fit)
+{
+    const Designs *designs = &fit->search.designs;
+    int32_t n = fit->response.keys, first = designs_best(designs), freedom = fit_freedom(fit);
+    double other[STUDY_SEARCH_MAX];
+    memcpy(other, fit->best, sizeof other);
+    double least = response_least(&fit->response, NULL, other);
+    for (int32_t k = 0; k < n; k++) fit->best[k] = fit_scaled(fit, k, designs->list[first].x[k]);
+    fit->misfit = response_least(&fit->response, NULL, fit->best);
+    if (least < fit->misfit) {
+        memcpy(fit->best, other, sizeof other);
+        fit->misfit = least;
+    }
+    fit->widened = freedom > 0 ? sqrt(fmax(1, fit->misfit / freedom)) : 1;
+}
+
+// --- the whole ----------------------------------------------------------------------------------
+
+// place: scaled. One that is new and allowed is added.
+static bool add_place(Fit *fit, const double *place, Error *err)
+{
+    double x[STUDY_SEARCH_MAX] = {0};
+    int32_t added = -1;
+    for (int32_t k = 0; k < fit->response.keys; k++) x[k] = fit_unscaled(fit, k, place[k]);
+    return search_add(&fit->search, x, &added, err);
+}
+
+// Designs at the best place and at the ends of the regions, where polynomials would be guesses.
+static bool refine_regions(Fit *fit, Error *err)
+{
+    bool stays = false;
+    fit->widened = 1;
+    for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
+        int32_t first = fit->search.designs.count;
+        TRY(make_response(fit, err));
+        find_best(fit);
+        fit_find_regions(fit, &stays);
+        if ((stays && round > 0) || round == ROUNDS_MAX) break;
+        TRY(add_place(fit, fit->best, err));
+        for (int32_t k = 0; k < fit->response.keys; k++) {
+            TRY(add_place(fit, fit->regions[k].low_place, err));
+            TRY(add_place(fit, fit->regions[k].high_place, err));
+        }
+        if (fit->search.designs.count == first) break;
+        TRY(search_compute_from(&fit->search, first, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Error *err)
+{
+    Search *search = &fit->search;
+    TRY(search_open(search, path, options, true, err));
+    TRY(measured_read(search->study, &fit->measured, err));
+    if (fit->measured.count < search->study->search.key_count)
+        FAIL(err, ERROR_INPUT, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
+             search->study->search.key_count);
+    search->judge = (SearchJudge){take_results, judge_misfit, tell_logarithm, fit};
+    TRY(search_begin(search, fit->measured.condition_count, fit->measured.conditions, err));
+    int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;
+    TRY(fit->found = NEW_ARRAY(double, room, err));
+    TRY(fit->own = NEW_ARRAY(double, room, err));
+    search->planned += search->designs.conditions * 2 * (1 + 2 * search->study->search.key_count);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void summarise(const Fit *fit, FitSummary *summary)
+{
+    const Search *search = &fit->search;
+    int32_t data = fit->measured.count;
+    *summary = (FitSummary){.parameter_count = fit->response.keys,
+                            .measurements = data,
+                            .computed = search->computed,
+                            .misfit = fit->misfit,
+                            .widened = fit->widened,
+                            .seconds = clock_seconds() - search->started};
+    for (int32_t k = 0; k < fit->response.keys; k++) {
+        const Region *region = &fit->regions[k];
+        FitParameter *parameter = &summary->parameters[k];
+        snprintf(parameter->key, sizeof parameter->key, "%s", search->study->search.keys[k].key);
+        parameter->value = fit_unscaled(fit, k, fit->best[k]);
+        parameter->low = fit_unscaled(fit, k, region->low);
+        parameter->high = fit_unscaled(fit, k, region->high);
+        parameter->low_open = region->low_open;
+        parameter->high_open = region->high_open;
+    }
+    for (int32_t d = 0; d < search->designs.count; d++)
+        summary->designs += !isnan(search->designs.list[d].value);
+    for (int32_t k = 0; k < data; k++) {
+        double own = fit->response.own[k] * fit->response.own[k];
+        summary->own_share += own / (own + fit->response.error[k] * fit->response.error[k]) / data;
+    }
+}
+
+bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err)
+{
+    *summary = (FitSummary){.misfit = NAN};
+    Fit *fit = NEW_ARRAY(Fit, 1, err);
+    TRY(fit);
+    TRY(open_fit(fit, path, options, err));
+    TRY(search_designs(&fit->search, err));
+    TRY(refine_regions(fit, err));
+    summarise(fit, summary);
+    TRY(fit_report(fit, summary, err));
+cleanup:
+    if (fit) {
+        search_close(&fit->search, err);
+        measured_destroy(&fit->measured);
+        response_destroy(&fit->response);
+        memory_free(fit->found);
+        memory_free(fit->own);
+    }
+    memory_free(fit);
+    return error_is_clean(err);
+}

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/search/fit_figures.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+#include "study/search/search_figure.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    PROFILE_POINTS = 81,
+    REGION_POINTS = 97,
+    BISECTIONS = 30,
+    STEPS_MAX = 200,
+    PAIRS_KEYS_MAX = 4
+};
+static const double BEYOND = 0.6;   // of a region's width that its figure shows on either side
+static const double RAY_FIRST = 1e-4, RAY_GROWS = 1.3;   // steps along a ray
+
+// --- profiles -----------------------------------------------------------------------------------
+
+// From the best outwards, so that each place begins beside the last.
+static void fill_profile(const Fit *fit, int32_t k, double *x, double *y)
+{
+    const Region *region = &fit->regions[k];
+    double wide = region->high - region->low, from = fmax(0, region->low - BEYOND * wide);
+    double to = fmin(1, region->high + BEYOND * wide);
+    int32_t middle = (int32_t)((fit->best[k] - from) / (to - from) * (PROFILE_POINTS - 1));
+    bool fixed[STUDY_SEARCH_MAX] = {0};
+    fixed[k] = true;
+    for (int way = -1; way <= 1; way += 2) {
+        double place[STUDY_SEARCH_MAX];
+        memcpy(place, fit->best, sizeof place);
+        for (int32_t i = way < 0 ? middle : middle + 1; i >= 0 && i < PROFILE_POINTS; i += way) {
+            place[k] = from + (to - from) * i / (PROFILE_POINTS - 1);
+            x[i] = fit_unscaled(fit, k, place[k]);
+            y[i] = response_least(&fit->response, fixed, place) - fit->misfit;
+        }
+    }
+}
+
+// Designs that lie in the frame.
+static int32_t fill_designs(const Fit *fit, int32_t k, const double *x, double top, double *at,
+                            double *above)
+{
+    const Designs *designs = &fit->search.designs;
+    int32_t n = fit->response.keys, count = 0;
+    for (int32_t d = 0; d < designs->count; d++) {
+        double place[STUDY_SEARCH_MAX], value = designs->list[d].x[k];
+        if (isnan(designs->list[d].value) || value < x[0] || value > x[PROFILE_POINTS - 1])
+            continue;
+        for (int32_t i = 0; i < n; i++) place[i] = fit_scaled(fit, i, designs->list[d].x[i]);
+        double misfit = response_misfit(&fit->response, place) - fit->misfit;
+        if (misfit > top) continue;
+        at[count] = value;
+        above[count++] = misfit;
+    }
+    return count;
+}
+
+static bool draw_profile(const Fit *fit, int32_t k, Error *err)
+{
+    char name[STUDY_NAME_SIZE + 8], label[60];
+    double x[PROFILE_POINTS], y[PROFILE_POINTS], limit[2], ends[2];
+    double *at = NEW_ARRAY(double, 2 * (int64_t)fit->search.designs.count, err);
+    TRY(at);
+    double *above = at + fit->search.designs.count;
+    fill_profile(fit, k, x, y);
+    ends[0] = x[0], ends[1] = x[PROFILE_POINTS - 1];
+    limit[0] = limit[1] = fit_threshold(fit, 1);
+    int32_t count = fill_designs(fit, k, x, 3 * limit[0], at, above);
+    snprintf(name, sizeof name, "profile_%s", fit->search.study->search.keys[k].key);
+    snprintf(label, sizeof label, "below: %.0f %% sure", 100 * fit->search.study->search.sure);
+    Curve curves[] = {search_dots("designs, other keys as they are", count, at, above),
+                      search_line("least over the other keys", PROFILE_POINTS, x, y),
+                      search_line(label, 2, ends, limit)};
+    curves[2].line = "dashed";
+    curves[2].color = COLOR_BEST;
+    Frame frame = {name,
+                   search_key_scale(&fit->search, k),
+                   "linear",
+                   search_key_label(&fit->search, k),
+                   {.words = "misfit above its least"}};
+    TRY(search_draw(&fit->search, &frame, count ? curves : curves + 1, count ? 3 : 2, err));
+cleanup:
+    memory_free(at);
+    return error_is_clean(err);
+}
+
+// --- regions of two keys ------------------------------------------------------------------------
+
+// Whether the misfit, least over the other keys, is below `most` so far along a ray from the best.
+static bool is_inside(const Fit *fit, const int32_t keys[2], const double ray[2], double reach,
+                      double most)
+{
+    bool fixed[STUDY_SEARCH_MAX] = {0};
+    double place[STUDY_SEARCH_MAX];
+    memcpy(place, fit->best, sizeof place);
+    for (int32_t i = 0; i < 2; i++) {
+        fixed[keys[i]] = true;
+        place[keys[i]] += reach * ray[i];
+        if (place[keys[i]] < 0 || place[keys[i]] > 1) return false;
+    }
+    return response_least(&fit->response, fixed, place) <= most;
+}
+
+static double along_ray(const Fit *fit, const int32_t keys[2], const double ray[2], double most)
+{
+    double inside = 0, step = RAY_FIRST;
+    for (int32_t k = 0; k < STEPS_MAX && is_inside(fit, keys, ray, inside + step, most); k++) {
+        inside += step;
+        step *= RAY_GROWS;
+    }
+    for (int32_t k = 0; k < BISECTIONS; k++) {
+        step /= 2;
+        if (is_inside(fit, keys, ray, inside + step, most)) inside += step;
+    }
+    return inside;
+}
+
+// Directions that a circle of `cos` and `sin` turns into the ellipse of the curvature; else the
+// regions' widths.
+static void find_axes(const Fit *fit, const int32_t keys[2], double axes[2][2])
+{
+    double inverse[STUDY_SEARCH_MAX * STUDY_SEARCH_MAX];
+    int32_t n = fit->response.keys, a = keys[0], b = keys[1];
+    memset(axes, 0, 4 * sizeof axes[0][0]);
+    axes[0][0] = fit->regions[a].high - fit->regions[a].low;
+    axes[1][1] = fit->regions[b].high - fit->regions[b].low;
+    response_curvature(&fit->response, fit->best, inverse);
+    if (!dense_cholesky(inverse, n) || !dense_invert_factored(inverse, n)) return;
+    double first = sqrt(inverse[a * n + a]), both = inverse[a * n + b] / first;
+    double second = inverse[b * n + b] - both * both;
+    if (!(second > 0)) return;
+    axes[0][0] = first;
+    axes[0][1] = both;
+    axes[1][1] = sqrt(second);
+}
+
+static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
+{
+    const double full = 6.283185307179586;
+    double x[REGION_POINTS], y[REGION_POINTS], best[2], axes[2][2];
+    double most = fit->misfit + fit_threshold(fit, 2);
+    char name[2 * STUDY_NAME_SIZE + 10], label[60];
+    find_axes(fit, keys, axes);
+    for (int32_t i = 0; i < REGION_POINTS; i++) {
+        double angle = full * i / (REGION_POINTS - 1), ray[2];
+        for (int32_t k = 0; k < 2; k++) ray[k] = cos(angle) * axes[0][k] + sin(angle) * axes[1][k];
+        double reach = along_ray(fit, keys, ray, most);
+        x[i] = fit_unscaled(fit, keys[0], fit->best[keys[0]] + reach * ray[0]);
+        y[i] = fit_unscaled(fit, keys[1], fit->best[keys[1]] + reach * ray[1]);
+    }
+    for (int32_t i = 0; i < 2; i++) best[i] = fit_unscaled(fit, keys[i], fit->best[keys[i]]);
+    snprintf(name, sizeof name, "region_%s_%s", fit->search.study->search.keys[keys[0]].key,
+             fit->search.study->search.keys[keys[1]].key);
+    snprintf(label, sizeof label, "%.0f %% sure, both together",
+             100 * fit->search.study->search.sure);
+    Curve curves[] = {search_line(label, REGION_POINTS, x, y),
+                      search_dots("best", 1, &best[0], &best[1])};
+    curves[1].marker = "square";
+    curves[1].color = COLOR_BEST;
+    Frame frame = {name, search_key_scale(&fit->search, keys[0]),
+                   search_key_scale(&fit->search, keys[1]), search_key_label(&fit->search, keys[0]),
+                   search_key_label(&fit->search, keys[1])};
+    return search_draw(&fit->search, &frame, curves, 2, err);
+}
+
+// --- found less measured ------------------------------------------------------------------------
+
+static bool draw_measured(const Fit *fit, Error *err)
+{
+    int32_t count = fit->measured.count;
+    const Response *response = &fit->response;
+    double *room = NEW_ARRAY(double, 3 * (int64_t)count, err);
+    TRY(room);
+    double *number = room, *off = room + count, *error = off + count;
+    for (int32_t k = 0; k < count; k++) {
+        double both = hypot(response->error[k], response->own[k]);
+        number[k] = k + 1;
+        off[k] = (response_at(response, k, fit->best) - response->measured[k]) / both;
+        error[k] = 1;
+    }
+    double ends[] = {0, count + 1}, none[] = {0, 0};
+    Curve curves[] = {search_line("measured", 2, ends, none),
+                      search_dots("found, with one error", count, number, off)};
+    curves[1].error = error;
+    Frame frame = {"measured",
+                   "linear",
+                   "linear",
+                   {.words = "measurement, in the order of fit.csv"},
+                   {.words = "found less measured, over the error"}};
+    TRY(search_draw(&fit->search, &frame, curves, 2, err));
+cleanup:
+    memory_free(room);
+    return error_is_clean(err);
+}
+
+bool fit_figures(const Fit *fit, Error *err)
+{
+    int32_t n = fit->response.keys;
+    TRY(draw_measured(fit, err));
+    for (int32_t k = 0; k < n; k++) TRY(draw_profile(fit, k, err));
+    for (int32_t k = 0; k < n && n <= PAIRS_KEYS_MAX; k++)
+        for (int32_t i = k + 1; i < n; i++) TRY(draw_region(fit, (int32_t[2]){k, i}, err));
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A fit under way, and how well each key is known. Shared by the files of its name.
+#ifndef AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
+#define AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
+
+#include "amontons_optimise.h"
+#include "study/search/measured.h"
+#include "study/search/response.h"
+#include "study/search/search.h"
+
+// The region of a key: where the misfit, the least over all other keys, is at most `most`.
+typedef struct Region {
+    double low, high;   // scaled
+    bool low_open, high_open;   // an end of the range
+    double low_place[STUDY_SEARCH_MAX], high_place[STUDY_SEARCH_MAX];   // of all keys, there
+} Region;
+
+typedef struct Fit {
+    Search search;
+    Measured measured;   // owned, as all below
+    double *found, *own;   // [DESIGNS_MAX][measured.count] of each design, and its error
+    Response response;
+    double best[STUDY_SEARCH_MAX];   // scaled
+    double misfit;   // there
+    double widened;   // regions: the root of misfit over what is to be expected, at least 1
+    Region regions[STUDY_SEARCH_MAX];
+} Fit;
+
+double fit_scaled(const Fit *fit, int32_t k, double value);   // 0 to 1 over the range of key k
+double fit_unscaled(const Fit *fit, int32_t k, double scaled);
+// Of the misfit, above its least: of a region of one key, or of two together.
+double fit_threshold(const Fit *fit, int32_t keys);
+int32_t fit_freedom(const Fit *fit);   // measurements less keys
+// Of all keys, by the responses about the best. *stays: no end has moved by more than a part of its
+// region.
+void fit_find_regions(Fit *fit, bool *stays);
+
+#endif
