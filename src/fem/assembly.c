@@ -133,18 +133,20 @@ static const ElementMatrices *matrices_of(const Mesh *mesh, const ElementGroup *
                                           const Material *materials, KnownShape known[SHAPES_KEPT])
 {
     MeshPlace offset[ELEMENT_NODES_MAX] = {0};
+    size_t size = (size_t)group->node_count * sizeof *offset;
     mesh_offsets(mesh, group->node, group->node_count, offset);
     Hash hash = hash_start();
-    hash_bytes(&hash, offset, sizeof offset);
+    hash_bytes(&hash, offset, size);
     KnownShape *shape = &known[hash.low % SHAPES_KEPT];
     ElementKind kind = mesh->kind[group->element[0]];
     int32_t region = mesh_region(mesh, group->element[0]);
     if (group->count == 1 && shape->nodes == group->node_count && shape->kind == kind &&
-        shape->region == region && memcmp(shape->offset, offset, sizeof offset) == 0)
+        shape->region == region && memcmp(shape->offset, offset, size) == 0)
         return &shape->matrices;
-    *shape = (KnownShape){
-        .nodes = group->count == 1 ? group->node_count : 0, .kind = kind, .region = region};
-    memcpy(shape->offset, offset, sizeof offset);
+    shape->nodes = group->count == 1 ? group->node_count : 0;
+    shape->kind = kind;
+    shape->region = region;
+    memcpy(shape->offset, offset, size);
     element_group_matrices(mesh, materials, group, &shape->matrices);
     return &shape->matrices;
 }

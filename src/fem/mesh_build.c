@@ -140,8 +140,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Positions of the nodes of element e, and their mean; returns the square of the longest distance
-// from node 0, the scale of its Jacobian.
+// Positions of the nodes of element e, and their mean; returns the longest distance from node 0 to
+// the power of the dimension, the scale of its Jacobian.
 static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace centre)
 {
     int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
@@ -157,7 +157,7 @@ static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace
         }
         scale = fmax(scale, square);
     }
-    return scale;
+    return pow(scale, mesh->dim / 2.0);
 }
 
 // Shape functions at the nodes and quadrature points of each kind, where Jacobians are looked at.
@@ -172,6 +172,7 @@ typedef struct ProbePoints {
 static void set_probes(ProbePoints *probes)
 {
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+        if (element_dim((ElementKind)kind) < 2) continue;   // a face
         Quadrature rule = shape_quadrature((ElementKind)kind);
         int32_t count = 0;
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
@@ -201,18 +202,23 @@ static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32
     for (int32_t k = 0; k < 2; k++) range[k] = scale > 0 ? range[k] / scale : 0;
 }
 
+// Where node a of a kind goes when the first two axes of its reference element are exchanged.
+static int32_t exchanged_node(ElementKind kind, int32_t a)
+{
+    const double *at = shape_node(kind, a);
+    for (int32_t b = 0; b < element_node_count(kind); b++) {
+        const double *other = shape_node(kind, b);
+        if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2]) return b;
+    }
+    return a;
+}
+
 // Exchanges nodes so that the element runs the other way round, from the same first corner.
 static void reverse_element(ElementKind kind, int32_t *nodes)
 {
-    static const uint8_t order[ELEMENT_KIND_COUNT][ELEMENT_NODES_MAX] = {
-        [ELEMENT_T3] = {0, 2, 1},
-        [ELEMENT_T6] = {0, 2, 1, 5, 4, 3},
-        [ELEMENT_Q4] = {0, 3, 2, 1},
-        [ELEMENT_Q8] = {0, 3, 2, 1, 7, 6, 5, 4},
-        [ELEMENT_Q9] = {0, 3, 2, 1, 7, 6, 5, 4, 8}};
     int32_t old[ELEMENT_NODES_MAX], count = element_node_count(kind);
     memcpy(old, nodes, (size_t)count * sizeof *nodes);
-    for (int32_t a = 0; a < count; a++) nodes[a] = old[order[kind][a]];
+    for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(kind, a)];
 }
 
 // Clockwise throughout is a reversed surface, which is turned round; a clockwise element among

@@ -73,18 +73,16 @@ double model_machine_yield(const Model *model)
 }
 
 // 4 mu (lambda + mu)/(lambda + 2 mu) of sigma = D eps: what a half-plane sets against a pressure.
-static double half_plane(double d[3][3])
+static double half_plane(Moduli moduli)
 {
-    return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
+    double axial = moduli_axial(moduli), shear = moduli_shear(moduli);
+    return axial > 0 ? 4 * shear * (axial - shear) / axial : 0;
 }
 
 static RodGround ground_of(const Model *model, double region)
 {
     const Material *face = &model->materials.list[(int32_t)region];
-    double elastic[3][3], viscous[3][3];
-    material_elastic(face, elastic);
-    material_viscous(face, viscous);
-    return (RodGround){half_plane(elastic), half_plane(viscous)};
+    return (RodGround){half_plane(material_elastic(face)), half_plane(material_viscous(face))};
 }
 
 // Where materials meet within what the strip's end covers: as their pieces yield one after the

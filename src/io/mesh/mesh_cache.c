@@ -40,7 +40,7 @@ static void archive_group(MeshGroup *group, const MeshFile *mesh, Archive *archi
     archive_index(archive, &group->dimension, 0, 3);
     archive_index(archive, &group->number, 0, INT32_MAX);
     archive_length(archive, &group->edge_count);
-    archive_index(archive, &group->nodes_per_edge, 0, EDGE_NODES_MAX + 1);
+    archive_index(archive, &group->nodes_per_edge, 0, 4);
     archive_length(archive, &group->node_count);
     archive_length(archive, &group->element_count);
     archive_flag(archive, &group->blurred);

@@ -244,7 +244,7 @@ static bool store_group_nodes(const RawElements *elements, const NodeTable *tabl
                               Error *err)
 {
     int32_t count = 0;
-    group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * EDGE_NODES_MAX, err);
+    group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * ELEMENT_NODES_MAX, err);
     if (!group->nodes) goto cleanup;
     for (int32_t k = 0; k < elements->count; k++)
         for (int32_t a = 0; a < elements->items[k].count; a++) {

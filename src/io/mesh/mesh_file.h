@@ -8,14 +8,22 @@
 
 #include <stdint.h>
 
-// kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's and
-// VTK's: corners, mid-sides, centre.
+// kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's:
+// corners, mid-sides, faces, centre; VTK's, where it is another, is known to io/fields. Those of one
+// dimension are faces of a mesh in the plane.
 #define ELEMENT_KINDS(X)                                                                           \
     X(ELEMENT_T3, 2, 3, 3, 2, 5, "T3")                                                             \
     X(ELEMENT_T6, 2, 6, 3, 9, 22, "T6")                                                            \
     X(ELEMENT_Q4, 2, 4, 4, 3, 9, "Q4")                                                             \
     X(ELEMENT_Q8, 2, 8, 4, 16, 23, "Q8")                                                           \
-    X(ELEMENT_Q9, 2, 9, 4, 10, 28, "Q9")
+    X(ELEMENT_Q9, 2, 9, 4, 10, 28, "Q9")                                                           \
+    X(ELEMENT_L2, 1, 2, 2, 1, 3, "L2")                                                             \
+    X(ELEMENT_L3, 1, 3, 2, 8, 21, "L3")                                                            \
+    X(ELEMENT_TET4, 3, 4, 4, 4, 10, "TET4")                                                        \
+    X(ELEMENT_TET10, 3, 10, 4, 11, 24, "TET10")                                                    \
+    X(ELEMENT_WEDGE6, 3, 6, 6, 6, 13, "WEDGE6")                                                    \
+    X(ELEMENT_HEX8, 3, 8, 8, 5, 12, "HEX8")                                                        \
+    X(ELEMENT_HEX27, 3, 27, 8, 12, 29, "HEX27")
 
 typedef enum ElementKind {
 #define X(kind, ...) kind,
@@ -23,9 +31,9 @@ typedef enum ElementKind {
 #undef X
 } ElementKind;
 
-enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3, DIM_MAX = 2 };
+enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3 };
 
-// x to z in as many numbers as the mesh has dimensions; in the plane (x, z).
+// x to z in as many numbers as the mesh has dimensions: (x, z) in the plane, (x, y, z) in space.
 typedef double MeshPlace[DIM_MAX];
 
 // One physical group: of surfaces (dimension 2), of curves (1) or of points (0).

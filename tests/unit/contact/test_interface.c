@@ -24,7 +24,7 @@ static void test_nodes_and_weights(void **state)
     (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         BlockDef block = block_of((ElementKind)kind);
         InterfaceDef def = def_with_rod(0.25, 0.3);   // 0.1 .. 0.4: rows 1 to 4 of order 1
         Mesh mesh;
