@@ -30,6 +30,7 @@ static int by_length(const void *left, const void *right)
     return by_edge(left, right);
 }
 
+// 0 of order 2, which does not lock.
 static int32_t corners_of(const Mesh *mesh, int32_t e)
 {
     int32_t corners = element_corner_count(mesh->kind[e]);
@@ -42,7 +43,8 @@ static int32_t list_sides(const Mesh *mesh, const uint8_t *is_mean, Side *sides)
 {
     int32_t count = 0, kept = 0;
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        int32_t corners = is_mean[mesh_region(mesh, e)] ? corners_of(mesh, e) : 0;
+        bool plane = element_dim((ElementKind)mesh->kind[e]) == 2;
+        int32_t corners = plane && is_mean[mesh_region(mesh, e)] ? corners_of(mesh, e) : 0;
         const int32_t *node = mesh->element_nodes + mesh->first_node[e];
         for (int32_t a = 0; a < corners; a++) {
             int32_t one = node[a], two = node[(a + 1) % corners];

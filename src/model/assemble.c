@@ -89,13 +89,13 @@ static bool add_loads(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     Bulk *bulk = &model->bulk;
-    MeshCurve curve;
+    MeshBoundary curve;
     double reference = load_reference(scene), unit = 0;
     int32_t up = bulk->dim - 1;
     if (scene->load.pressure != 0) {
         MeshPlace traction = {0};
         traction[up] = -scene->load.pressure / reference;
-        bool found = mesh_curve(&model->mesh, scene->groups.top, &curve, err);
+        bool found = mesh_boundary(&model->mesh, scene->groups.top, &curve, err);
         TRY(scene_blame(scene, "groups.top", found, err));
         bulk_add_traction(&model->mesh, &curve, traction, bulk);
     }
@@ -103,7 +103,7 @@ static bool add_loads(Model *model, Error *err)
         const SceneTraction *given = &scene->load.tractions[k];
         MeshPlace traction = {given->x / reference};
         traction[up] = given->z / reference;
-        bool found = mesh_curve(&model->mesh, given->group, &curve, err);
+        bool found = mesh_boundary(&model->mesh, given->group, &curve, err);
         TRY(scene_blame(scene, "load.tractions", found, err));
         bulk_add_traction(&model->mesh, &curve, traction, bulk);
     }
@@ -151,8 +151,8 @@ bool model_hold_supports(Model *model, Error *err)
     const Scene *scene = model->scene;
     for (int32_t k = 0; k < scene->load.support_count; k++) {
         const SceneSupport *support = &scene->load.supports[k];
-        MeshCurve curve;
-        bool found = mesh_curve(&model->mesh, support->group, &curve, err);
+        MeshBoundary curve;
+        bool found = mesh_boundary(&model->mesh, support->group, &curve, err);
         if (!scene_blame(scene, "load.supports", found, err)) return false;
         for (int32_t i = 0; i < curve.node_count; i++) {
             int32_t first = node_dof(model->mesh.dim, curve.nodes[i], 0);

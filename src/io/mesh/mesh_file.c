@@ -43,7 +43,7 @@ const char *element_name(ElementKind kind)
 void mesh_file_destroy(MeshFile *mesh)
 {
     for (int32_t k = 0; k < mesh->group_count; k++) {
-        memory_free(mesh->groups[k].edge_nodes);
+        memory_free(mesh->groups[k].face_nodes);
         memory_free(mesh->groups[k].nodes);
         memory_free(mesh->groups[k].elements);
     }

@@ -24,8 +24,8 @@ static BlockDef distorted(int32_t kind)
 static void press_on(const Mesh *mesh, const char *name, double x, double z, Bulk *bulk)
 {
     Error err = {0};
-    MeshCurve curve;
-    assert_true(mesh_curve(mesh, name, &curve, &err));
+    MeshBoundary curve;
+    assert_true(mesh_boundary(mesh, name, &curve, &err));
     bulk_add_traction(mesh, &curve, (double[2]){x, z}, bulk);
 }
 
@@ -139,17 +139,17 @@ static void test_weights_and_tractions(void **state)
         BlockDef def = distorted(kind);
         Mesh mesh;
         Bulk bulk;
-        MeshCurve top;
+        MeshBoundary top;
         block_build(&def, &mesh);
         assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
         for (int32_t k = 0; k < bulk.dof_count; k++) assert_true(bulk.load[k] == 0);
-        assert_true(mesh_curve(&mesh, "top", &top, &err));
+        assert_true(mesh_boundary(&mesh, "top", &top, &err));
         double *weight = hand_matrix(mesh.node_count, 1);
-        curve_add_weights(&mesh, &top, weight);
+        boundary_add_weights(&mesh, &top, true, weight);
         double cell = 1.3 / 4, sum = 0;
         for (int32_t k = 0; k < top.node_count; k++) {   // by ascending x
             bool end = k == 0 || k == top.node_count - 1;
-            double wanted = top.nodes_per_edge == 2 ? (end ? cell / 2 : cell)
+            double wanted = top.nodes_per_face == 2 ? (end ? cell / 2 : cell)
                                                     : (end          ? cell / 6
                                                        : k % 2 == 1 ? cell * 4 / 6
                                                                     : cell / 3);
