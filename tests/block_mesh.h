@@ -63,17 +63,17 @@ static inline void block_add_curve(const BlockLattice *lattice, BlockRow row, Me
     snprintf(group->name, sizeof group->name, "%s", row.name);
     group->dimension = 1;
     group->number = file->group_count;
-    group->edge_count = row.count;
-    group->nodes_per_edge = width;
-    group->edge_nodes = NEW_ARRAY(int32_t, width * row.count, &err);
+    group->face_count = row.count;
+    group->nodes_per_face = width;
+    group->face_nodes = NEW_ARRAY(int32_t, width * row.count, &err);
     group->nodes = NEW_ARRAY(int32_t, order * row.count + 1, &err);
     for (int32_t m = 0; m <= order * row.count; m++)
         group->nodes[group->node_count++] = row.upwards ? lattice_node(lattice, row.i, row.k + m)
                                                         : lattice_node(lattice, row.i + m, row.k);
     for (int32_t e = 0; e < row.count; e++) {
-        group->edge_nodes[width * e] = group->nodes[order * e];
-        group->edge_nodes[width * e + 1] = group->nodes[order * (e + 1)];
-        if (order == 2) group->edge_nodes[width * e + 2] = group->nodes[order * e + 1];
+        group->face_nodes[width * e] = group->nodes[order * e];
+        group->face_nodes[width * e + 1] = group->nodes[order * (e + 1)];
+        if (order == 2) group->face_nodes[width * e + 2] = group->nodes[order * e + 1];
     }
     qsort(group->nodes, (size_t)group->node_count, sizeof(int32_t), ascending);
 }

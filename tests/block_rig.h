@@ -45,7 +45,7 @@ static inline RigDef rig_def(void)
 static inline void rig_build(const RigDef *def, BlockRig *rig)
 {
     Error err = {0};
-    MeshCurve top;
+    MeshBoundary top;
     dense_use_one_thread();
     memset(rig, 0, sizeof *rig);
     block_build(&def->block, &rig->mesh);
@@ -55,7 +55,7 @@ static inline void rig_build(const RigDef *def, BlockRig *rig)
                               .rod_height = def->rod_height,
                               .rod_width = def->rod_width};
     bool done = bulk_assemble(&rig->mesh, &def->material, &rig->bulk, &err) &&
-                mesh_curve(&rig->mesh, "top", &top, &err);
+                mesh_boundary(&rig->mesh, "top", &top, &err);
     if (done) bulk_add_traction(&rig->mesh, &top, def->traction, &rig->bulk);
     done = done && interface_build(&rig->mesh, &interface, &rig->interface, &err) &&
            bulk_operator_create(&rig->bulk, rig->mesh.position, rig->interface.dofs,

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The interface unknowns of contact node i in the plane, where tests give numbers by hand.
+// What tests in the plane count by hand: the interface unknowns of contact node i, and the kinds of
+// elements, which come first.
 #ifndef AMONTONS_TESTS_PLANE_H
 #define AMONTONS_TESTS_PLANE_H
 
+#include "io/mesh/mesh_file.h"
+
 #include <stdint.h>
+
+enum { PLANE_KINDS = ELEMENT_Q9 + 1 };
 
 static inline int32_t plane_tangent(int32_t i)
 {

@@ -165,8 +165,8 @@ static Color group_color(const MeshGroup *group, int32_t contact)
 static Box curve_extent(const MeshPage *map, const MeshGroup *group)
 {
     Box extent = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    for (int32_t k = 0; k < group->nodes_per_edge * group->edge_count; ++k) {
-        Point place = node_place(map, group->edge_nodes[k]);
+    for (int32_t k = 0; k < group->nodes_per_face * group->face_count; ++k) {
+        Point place = node_place(map, group->face_nodes[k]);
         extent.left = fmin(extent.left, place.x);
         extent.right = fmax(extent.right, place.x);
         extent.top = fmin(extent.top, place.y);
@@ -178,10 +178,10 @@ static Box curve_extent(const MeshPage *map, const MeshGroup *group)
 static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color)
 {
     Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
-    for (int32_t k = 0; k < group->edge_count; ++k) {
-        const int32_t *nodes = group->edge_nodes + (int64_t)k * group->nodes_per_edge;
+    for (int32_t k = 0; k < group->face_count; ++k) {
+        const int32_t *nodes = group->face_nodes + (int64_t)k * group->nodes_per_face;
         Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
-        Point through = group->nodes_per_edge == 3 ? node_place(map, nodes[2]) : to;
+        Point through = group->nodes_per_face == 3 ? node_place(map, nodes[2]) : to;
         const Point line[3] = {from, through, to};
         draw_line(map->page->canvas, &stroke, line, 3);
     }
@@ -204,7 +204,7 @@ static int32_t choose_form(const MeshPage *map)
     int32_t form = 0;
     for (int32_t g = 0; g < map->mesh->group_count; ++g) {
         const MeshGroup *group = &map->mesh->groups[g];
-        if (group->dimension != 1 || group->edge_count == 0 || !is_contact(group)) continue;
+        if (group->dimension != 1 || group->face_count == 0 || !is_contact(group)) continue;
         Box extent = curve_extent(map, group);
         while (form < 2 && text_width(page->text, NUMBER_SIZE * page->point,
                                       group_name(group, form, name)) > extent.right - extent.left)
@@ -242,7 +242,7 @@ static void draw_groups(const MeshPage *map)
     int32_t contact = 0, form = choose_form(map);
     for (int32_t g = 0; g < map->mesh->group_count; ++g) {
         const MeshGroup *group = &map->mesh->groups[g];
-        if (group->dimension != 1 || group->edge_count == 0) continue;
+        if (group->dimension != 1 || group->face_count == 0) continue;
         Color color = group_color(group, contact);
         contact += is_contact(group);
         draw_curve(map, group, color);

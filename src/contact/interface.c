@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact nodes come from the mesh's contact curves (fem/mesh_contact: one a pad), rod nodes from
+// Contact nodes come from the mesh's contact boundaries (fem/mesh_contact: one a pad), rod nodes from
 // the strip of the face that is named. Weights are lumped: w_i is the integral of node i's shape
-// function along its curve, so that a pressure field p gives the nodal force p_i w_i (consistent
+// function over its boundary, so that a pressure field p gives the nodal force p_i w_i (consistent
 // integration gave a resultant 17 % wrong).
 #include "contact/interface.h"
 
@@ -16,12 +16,34 @@
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
 
+// Below that a node has no weight: the integral is 0 but for rounding.
+static double least_weight(const Mesh *mesh, const double *weight)
+{
+    static const double ROUNDING = 1e-9;   // over the largest
+    double largest = 0;
+    for (int32_t i = 0; i < mesh->node_count; i++) largest = fmax(largest, weight[i]);
+    return ROUNDING * largest;
+}
+
 static bool is_flat(const Mesh *mesh, const MeshContact *contact)
 {
     bool flat = true;
     for (int32_t i = 0; i < contact->node_count; i++)
         flat = flat && mesh_gap(mesh, contact->nodes[i]) == 0;
     return flat;
+}
+
+// Nodes without weight leave the list.
+static void drop_weightless(const Mesh *mesh, const double *weight, MeshContact *contact)
+{
+    double least = least_weight(mesh, weight);
+    int32_t kept = 0;
+    for (int32_t i = 0; i < contact->node_count; i++) {
+        if (weight[contact->nodes[i]] < least) continue;
+        contact->nodes[kept] = contact->nodes[i];
+        contact->pad_of[kept++] = contact->pad_of[i];
+    }
+    contact->node_count = kept;
 }
 
 // Fills all that belongs to the contact: nodes by ascending x, places, weights, pads and their
@@ -33,27 +55,28 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
     double *weight = NEW_ARRAY(double, mesh->node_count, err);
     if (!weight) goto cleanup;
     TRY(mesh_contact(mesh, def->contact_names, def->contact_name_count, &contact, err));
-    for (int32_t c = 0; c < contact.curve_count; c++)
-        curve_add_weights(mesh, &contact.curves[c], weight);
+    for (int32_t c = 0; c < contact.pad_count; c++)
+        boundary_add_weights(mesh, &contact.pads[c], true, weight);
+    drop_weightless(mesh, weight, &contact);
     int32_t count = contact.node_count;
     interface->contact_count = count;
-    interface->pad_count = contact.curve_count;
+    interface->pad_count = contact.pad_count;
     interface->node = NEW_ARRAY(int32_t, count, err);
     interface->x = NEW_ARRAY(double, count, err);
     interface->weight = NEW_ARRAY(double, count, err);
+    if (mesh->dim > 2) interface->y = NEW_ARRAY(double, count, err);
     interface->pad = NEW_ARRAY(int32_t, count, err);
-    interface->pad_name = memory_array(contact.curve_count, sizeof *interface->pad_name, err);
-    if (!interface->node || !interface->x || !interface->weight || !interface->pad ||
-        !interface->pad_name)
-        goto cleanup;
-    for (int32_t c = 0; c < contact.curve_count; c++)
-        snprintf(interface->pad_name[c], GROUP_NAME_SIZE, "%s", contact.curves[c].name);
+    interface->pad_name = memory_array(contact.pad_count, sizeof *interface->pad_name, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t c = 0; c < contact.pad_count; c++)
+        snprintf(interface->pad_name[c], GROUP_NAME_SIZE, "%s", contact.pads[c].name);
     for (int32_t i = 0; i < count; i++) {
         int32_t node = contact.nodes[i];
         interface->node[i] = node;
         interface->x[i] = mesh_place(mesh, node)[0];
+        if (interface->y) interface->y[i] = mesh_place(mesh, node)[1];
         interface->weight[i] = weight[node];
-        interface->pad[i] = contact.curve_of[i];
+        interface->pad[i] = contact.pad_of[i];
     }
     if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
         for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
@@ -72,77 +95,180 @@ static bool is_contact_node(const Interface *interface, int32_t node)
     return false;
 }
 
-// All nodes of the rod's curve, by ascending z.
-// Insertion sort into rod_z and rod_node, which have room for the whole face: a face of n cells
-// costs n^2/4 moves at the worst, nothing beside meshing.
-static void sort_face(const Mesh *mesh, const MeshCurve *curve, Interface *interface)
+// The face that the rod touches, by ascending z of its nodes. Each stands for a stretch that reaches
+// half way to the nodes beside it on the face, along z and, where the strip has a breadth, along y.
+typedef struct Face {
+    int32_t count;
+    int32_t *node;   // [count]; owned
+    double *from[2], *to[2];   // [count] of the stretches along z and y, length; owned
+    double *area;   // [nodes of the mesh] integral of the shape function; owned
+    double rounding;   // of a place, length
+} Face;
+
+static void face_destroy(Face *face)
 {
-    for (int32_t k = 0; k < curve->node_count; k++) {
-        double z = mesh_height(mesh, curve->nodes[k]);
-        int32_t j = k;
-        for (; j > 0 && interface->rod_z[j - 1] > z; j--) {
-            interface->rod_z[j] = interface->rod_z[j - 1];
-            interface->rod_node[j] = interface->rod_node[j - 1];
-        }
-        interface->rod_z[j] = z;
-        interface->rod_node[j] = curve->nodes[k];
+    memory_free(face->node);
+    memory_free(face->area);
+    for (int k = 0; k < 2; k++) {
+        memory_free(face->from[k]);
+        memory_free(face->to[k]);
     }
 }
 
-// The heights of a face's nodes.
-typedef struct Face {
-    double *z;   // [count] ascending, length
-    int32_t count;
-    double rounding;   // of a height, length
-} Face;
-
-// How much of the stretch of node k lies in the strip, 0 to 1.
-// The stretch of a node reaches half way to its neighbours, at the ends of the face to the node
-// itself. Without rod_in_part a node is in or out: 1 or 0.
-static double strip_share(const InterfaceDef *def, Face face, int32_t k)
+// Insertion sort: a face of n nodes costs n^2/4 moves at the worst, nothing beside meshing.
+static void sort_face(const Mesh *mesh, const MeshBoundary *boundary, Face *face)
 {
-    const double *z = face.z;
-    double low = def->rod_height - 0.5 * def->rod_width, rounding = face.rounding;
-    double high = def->rod_height + 0.5 * def->rod_width;
-    double from = k > 0 ? 0.5 * (z[k - 1] + z[k]) : z[k];
-    double to = k + 1 < face.count ? 0.5 * (z[k] + z[k + 1]) : z[k];
+    for (int32_t k = 0; k < boundary->node_count; k++) {
+        double z = mesh_height(mesh, boundary->nodes[k]);
+        int32_t j = k;
+        for (; j > 0 && mesh_height(mesh, face->node[j - 1]) > z; j--)
+            face->node[j] = face->node[j - 1];
+        face->node[j] = boundary->nodes[k];
+    }
+}
+
+// Widens the stretch of each node along an axis by those beside it on its faces. place: [nodes of
+// the mesh] in the face's list.
+static void find_stretches(const Mesh *mesh, const MeshBoundary *boundary, int32_t axis,
+                           const int32_t *place, Face *face)
+{
+    int32_t which = axis == mesh->dim - 1 ? 0 : 1;
+    double *from = face->from[which], *to = face->to[which];
+    for (int32_t k = 0; k < face->count; k++)
+        from[k] = to[k] = mesh_place(mesh, face->node[k])[axis];
+    for (int32_t f = 0; f < boundary->face_count; f++) {
+        FaceNodes nodes = mesh_boundary_face(boundary, f);
+        for (int32_t a = 0; a < element_node_count(nodes.kind); a++) {
+            double here = mesh_place(mesh, nodes.node[a])[axis], below = -INFINITY,
+                   above = INFINITY;
+            for (int32_t b = 0; b < element_node_count(nodes.kind); b++) {
+                double there = mesh_place(mesh, nodes.node[b])[axis];
+                if (there < here - face->rounding) below = fmax(below, there);
+                if (there > here + face->rounding) above = fmin(above, there);
+            }
+            int32_t k = place[nodes.node[a]];
+            if (isfinite(below)) from[k] = fmin(from[k], 0.5 * (below + here));
+            if (isfinite(above)) to[k] = fmax(to[k], 0.5 * (here + above));
+        }
+    }
+}
+
+static bool face_build(const Mesh *mesh, const MeshBoundary *boundary, Face *face, Error *err)
+{
+    int32_t *place = NEW_ARRAY(int32_t, mesh->node_count, err);
+    *face = (Face){.count = boundary->node_count,
+                   .rounding = STRIP_TOLERANCE * (mesh->z_max - mesh->z_min)};
+    face->node = NEW_ARRAY(int32_t, face->count, err);
+    face->area = NEW_ARRAY(double, mesh->node_count, err);
+    for (int k = 0; k < 2; k++) {
+        face->from[k] = NEW_ARRAY(double, face->count, err);
+        face->to[k] = NEW_ARRAY(double, face->count, err);
+    }
+    if (!error_is_clean(err)) goto cleanup;
+    sort_face(mesh, boundary, face);
+    for (int32_t k = 0; k < face->count; k++) place[face->node[k]] = k;
+    for (int32_t axis = 1; axis < mesh->dim; axis++)
+        find_stretches(mesh, boundary, axis, place, face);
+    boundary_add_weights(mesh, boundary, false, face->area);
+cleanup:
+    memory_free(place);
+    return error_is_clean(err);
+}
+
+// Where the strip lies along z and, in space, along y.
+typedef struct Strip {
+    double low[2], high[2];   // length
+    bool in_part;
+} Strip;
+
+// All of the face along y, unless the scene says how much of it.
+static Strip strip_of(const Mesh *mesh, const InterfaceDef *def, const Face *face)
+{
+    Strip strip = {.low = {def->rod_height - 0.5 * def->rod_width, -INFINITY},
+                   .high = {def->rod_height + 0.5 * def->rod_width, INFINITY},
+                   .in_part = def->rod_in_part};
+    if (def->rod_whole) strip.low[0] = -INFINITY, strip.high[0] = INFINITY;
+    if (!(def->rod_breadth > 0) || mesh->dim < 3) return strip;
+    double least = INFINITY, most = -INFINITY;
+    for (int32_t k = 0; k < face->count; k++) {
+        least = fmin(least, mesh_place(mesh, face->node[k])[1]);
+        most = fmax(most, mesh_place(mesh, face->node[k])[1]);
+    }
+    strip.low[1] = 0.5 * (least + most - def->rod_breadth);
+    strip.high[1] = 0.5 * (least + most + def->rod_breadth);
+    return strip;
+}
+
+// How much of the stretch of node k along one of the axes lies in the strip, 0 to 1. Without
+// in_part a node is in or out: 1 or 0.
+static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face, int32_t k,
+                          int32_t which)
+{
+    double at = mesh_place(mesh, face->node[k])[which == 0 ? mesh->dim - 1 : 1];
+    double low = strip->low[which], high = strip->high[which], rounding = face->rounding;
+    double from = face->from[which][k], to = face->to[which][k];
     bool level = to - from <= rounding;   // a face along x
-    if (level || !def->rod_in_part) return z[k] >= low - rounding && z[k] <= high + rounding;
+    if (level || !strip->in_part) return at >= low - rounding && at <= high + rounding;
     double covered = fmin(to, high) - fmax(from, low);
     if (covered <= rounding) return 0;
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
-// Keeps the face's nodes that lie in the strip, in place: first the whole face is listed, then what
-// is outside is dropped. A node of the contact line is left out, as the plane holds it.
+// Of node k: its extent along the end that it is at, the upper and lower ones unless it is at none.
+static double end_length(const Face *face, int32_t k, bool at_side)
+{
+    double height = face->to[0][k] - face->from[0][k];
+    return at_side ? height : face->area[face->node[k]] / height;
+}
+
+static bool make_rod(const Mesh *mesh, int32_t room, Interface *interface, Error *err)
+{
+    interface->rod_node = NEW_ARRAY(int32_t, room, err);
+    interface->rod_z = NEW_ARRAY(double, room, err);
+    interface->rod_share = NEW_ARRAY(double, room, err);
+    if (mesh->dim > 2) {
+        interface->rod_y = NEW_ARRAY(double, room, err);
+        interface->rod_length = NEW_ARRAY(double, room, err);
+    }
+    return error_is_clean(err);
+}
+
+// Appends node k of the face, if the strip has some of it. *nearest: of those that may be led, the
+// height next to the strip's.
+static void add_rod_node(const Mesh *mesh, const InterfaceDef *def, const Face *face, int32_t k,
+                         Interface *interface)
+{
+    Strip strip = strip_of(mesh, def, face);
+    double up = strip_share(mesh, &strip, face, k, 0);
+    double across = mesh->dim > 2 ? strip_share(mesh, &strip, face, k, 1) : 1;
+    if (up * across == 0) return;
+    int32_t j = interface->rod_count++;
+    interface->rod_node[j] = face->node[k];
+    interface->rod_z[j] = mesh_height(mesh, face->node[k]);
+    interface->rod_share[j] = up * across;
+    if (mesh->dim == 2) return;
+    interface->rod_y[j] = mesh_place(mesh, face->node[k])[1];
+    interface->rod_length[j] = end_length(face, k, up == 1 && across < 1);
+}
+
+// Those of the face's nodes that lie in the strip. A node of the contact is left out, as the plane
+// holds it.
 static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     if (!def->has_rod) return true;
-    MeshCurve curve;
-    Face face = {.rounding = STRIP_TOLERANCE * (mesh->z_max - mesh->z_min)};
-    TRY(mesh_curve(mesh, def->rod_name, &curve, err));
-    interface->rod_node = NEW_ARRAY(int32_t, curve.node_count, err);
-    interface->rod_z = NEW_ARRAY(double, curve.node_count, err);
-    interface->rod_share = NEW_ARRAY(double, curve.node_count, err);
-    face.z = NEW_ARRAY(double, curve.node_count, err);
-    if (!interface->rod_node || !interface->rod_z || !interface->rod_share || !face.z) goto cleanup;
-    sort_face(mesh, &curve, interface);
-    face.count = curve.node_count;
-    memcpy(face.z, interface->rod_z, (size_t)face.count * sizeof(double));
-    interface->rod_face[0] = face.z[0];
-    interface->rod_face[1] = face.z[face.count - 1];
-    double nearest = INFINITY;
+    MeshBoundary boundary;
+    Face face = {0};
+    TRY(mesh_boundary(mesh, def->rod_name, &boundary, err));
+    TRY(make_rod(mesh, boundary.node_count, interface, err));
+    TRY(face_build(mesh, &boundary, &face, err));
+    double least = least_weight(mesh, face.area), nearest = INFINITY;
+    interface->rod_face[0] = mesh_height(mesh, face.node[0]);
+    interface->rod_face[1] = mesh_height(mesh, face.node[face.count - 1]);
     for (int32_t k = 0; k < face.count; k++) {
-        int32_t node = interface->rod_node[k];
-        if (is_contact_node(interface, node)) continue;
-        if (fabs(face.z[k] - def->rod_height) < fabs(nearest - def->rod_height))
-            nearest = face.z[k];
-        double share = strip_share(def, face, k);
-        if (share == 0) continue;
-        int32_t j = interface->rod_count++;   // never beyond k: what is overwritten was looked at
-        interface->rod_node[j] = node;
-        interface->rod_z[j] = face.z[k];
-        interface->rod_share[j] = share;
+        double z = mesh_height(mesh, face.node[k]);
+        if (is_contact_node(interface, face.node[k]) || face.area[face.node[k]] < least) continue;
+        if (fabs(z - def->rod_height) < fabs(nearest - def->rod_height)) nearest = z;
+        add_rod_node(mesh, def, &face, k, interface);
     }
     if (interface->rod_count == 0)
         FAIL(err, ERROR_INPUT,
@@ -151,7 +277,7 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
              mesh->path, def->rod_name, def->rod_height - 0.5 * def->rod_width,
              def->rod_height + 0.5 * def->rod_width, nearest);
 cleanup:
-    memory_free(face.z);
+    face_destroy(&face);
     return error_is_clean(err);
 }
 
@@ -189,7 +315,10 @@ void interface_destroy(Interface *interface)
     memory_free(interface->pad);
     memory_free(interface->pad_name);
     memory_free(interface->rod_node);
+    memory_free(interface->y);
     memory_free(interface->rod_z);
+    memory_free(interface->rod_y);
+    memory_free(interface->rod_length);
     memory_free(interface->rod_share);
     memory_free(interface->dofs);
     *interface = (Interface){0};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where the block meets the world: contact nodes over the rigid plane z = 0, on it or with a gap,
 // each straight above its place (right where slopes are small), and rod nodes on the
-// trailing face. Lumped (nodal): one weight and one vector of reaction a contact node. Consistent
+// trailing face. Nodes of no weight, the corners of T6 faces, touch nothing: a pressure has no nodal
+// force there, and the mid-sides are the points of a rule that integrates to second order. Lumped (nodal): one weight and one vector of reaction a contact node. Consistent
 // integration of the contact gave a 17 % wrong resultant in a static test.
 //
 // Interface unknowns, in this order: u_x to u_z of contact node 0, of node 1, ...; u_x of the rod
@@ -14,30 +15,38 @@
 typedef struct Interface {
     int32_t dim;   // unknowns of a contact node: its tangents, then its normal
     int32_t contact_count;
-    int32_t *node;   // [contact_count] mesh node, ascending x; owned
-    double *x;   // [contact_count] position, length; owned
-    double *weight;   // [contact_count] integral of the shape function, length; owned
+    int32_t *node;   // [contact_count] mesh node, ascending x, then y; owned
+    double *x;   // [contact_count] position along the drive, length; owned
+    double *y;   // [contact_count] across it, length; NULL in the plane; owned
+    double *weight;   // [contact_count] integral of the shape function, length, in space length^2;
+        // owned
     double *gap;   // [contact_count] over the substrate before anything moves, length; NULL: 0
         // everywhere; owned
-    int32_t *pad;   // [contact_count] which contact curve, from 0; owned
+    int32_t *pad;   // [contact_count] which contact boundary, from 0; owned
     int32_t pad_count;
-    char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact curves; owned
+    char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact boundaries; owned
     int32_t rod_count;
-    int32_t *rod_node;   // [rod_count] mesh node, ascending z; owned
+    int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
     double *rod_z;   // [rod_count] height, length; owned
+    double *rod_y;   // [rod_count] across the drive, length; NULL in the plane; owned
     double *rod_share;   // [rod_count] in (0, 1]: how much of the node's stretch of the face, half
         // way to its neighbours, lies in the strip; owned
+    double
+        *rod_length;   // [rod_count] how long the strip's end is at the node, length; NULL in the
+        // plane, where it is the unit width; owned
     double rod_face[2];   // from which z to which the whole face reaches, length
     int32_t count;   // dim * contact_count + rod_count
     int32_t *dofs;   // [count] unknowns of the bulk; owned
 } Interface;
 
 typedef struct InterfaceDef {
-    int32_t contact_name_count;   // 0: every curve called contact or contact_...
+    int32_t contact_name_count;   // 0: every boundary called contact or contact_...
     const char (*contact_names)[GROUP_NAME_SIZE];
     bool has_rod;
     const char *rod_name;
+    bool rod_whole;   // the strip is all of the boundary
     double rod_height, rod_width;   // centre of the strip and its extent along z, length
+    double rod_breadth;   // its extent along y around the face's middle, length; 0: all of it
     bool rod_in_part;   // nodes whose stretch lies in the strip in part belong to it, with a share;
         // else those inside it, wholly
 } InterfaceDef;
@@ -70,7 +79,7 @@ static inline double interface_gap(const Interface *interface, int32_t i)
     return interface->gap ? interface->gap[i] : 0;
 }
 
-// ERROR_INPUT: no such curve, contact not on z = 0, no rod node inside the strip (says where the
+// ERROR_INPUT: no such boundary, contact not on z = 0, no rod node inside the strip (says where the
 // nearest are), or the strip misses the face. A rod node that is a contact node is left out: the
 // plane holds it already.
 bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err);

@@ -38,9 +38,11 @@ void rod_destroy(Rod *rod)
 void rod_soften(const Interface *interface, const RodGround ground[2], Rod *rod)
 {
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        const RodGround *at = &ground[j > 0];
+        const double *z = interface->rod_z;
+        const RodGround *at = &ground[z[j] > 0.5 * (z[0] + z[interface->rod_count - 1])];
+        double length = interface->rod_length ? interface->rod_length[j] : 1;
         double share = interface->rod_share[j] > WHOLE ? 1 : interface->rod_share[j];
-        rod->softness[j] = -END_SOFTNESS * log(share) / (PI * at->modulus);
+        rod->softness[j] = -END_SOFTNESS * (log(share) / length) / (PI * at->modulus);
         rod->lag[j] = rod->softness[j] > 0 ? at->viscosity / at->modulus : 0;
     }
 }

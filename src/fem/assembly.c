@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "fem/element_group.h"
+#include "io/mesh/element_faces.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,18 +134,20 @@ static const ElementMatrices *matrices_of(const Mesh *mesh, const ElementGroup *
                                           const Material *materials, KnownShape known[SHAPES_KEPT])
 {
     MeshPlace offset[ELEMENT_NODES_MAX] = {0};
+    size_t size = (size_t)group->node_count * sizeof *offset;
     mesh_offsets(mesh, group->node, group->node_count, offset);
     Hash hash = hash_start();
-    hash_bytes(&hash, offset, sizeof offset);
+    hash_bytes(&hash, offset, size);
     KnownShape *shape = &known[hash.low % SHAPES_KEPT];
     ElementKind kind = mesh->kind[group->element[0]];
     int32_t region = mesh_region(mesh, group->element[0]);
     if (group->count == 1 && shape->nodes == group->node_count && shape->kind == kind &&
-        shape->region == region && memcmp(shape->offset, offset, sizeof offset) == 0)
+        shape->region == region && memcmp(shape->offset, offset, size) == 0)
         return &shape->matrices;
-    *shape = (KnownShape){
-        .nodes = group->count == 1 ? group->node_count : 0, .kind = kind, .region = region};
-    memcpy(shape->offset, offset, sizeof offset);
+    shape->nodes = group->count == 1 ? group->node_count : 0;
+    shape->kind = kind;
+    shape->region = region;
+    memcpy(shape->offset, offset, size);
     element_group_matrices(mesh, materials, group, &shape->matrices);
     return &shape->matrices;
 }
@@ -222,35 +225,53 @@ static void share_edge(double length, int32_t nodes, double weight[3])
     weight[2] = length * 4 / 6;
 }
 
-static void edge_weights(const Mesh *mesh, const MeshCurve *curve, int32_t edge, double weight[3])
+// share += int N_a dA of a face, or of its shadow on the floor, [its nodes].
+static void share_face(const Mesh *mesh, FaceNodes face, bool shadow, double share[FACE_NODES_MAX])
 {
-    const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
-    share_edge(mesh_distance(mesh, nodes[0], nodes[1]), curve->nodes_per_edge, weight);
-}
-
-// w_i = int N_i dx of the curve, at its mesh nodes: what turns a nodal reaction into a stress.
-void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
-{
-    for (int32_t edge = 0; edge < curve->edge_count; edge++) {
-        const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
-        double share[3] = {0};
-        share_edge(fabs(mesh_place(mesh, nodes[1])[0] - mesh_place(mesh, nodes[0])[0]),
-                   curve->nodes_per_edge, share);
-        for (int32_t a = 0; a < curve->nodes_per_edge; a++)
-            weight[curve->edge_nodes[edge * curve->nodes_per_edge + a]] += share[a];
+    const int32_t *nodes = face.node;
+    if (mesh->dim == 2) {
+        double along = fabs(mesh_place(mesh, nodes[1])[0] - mesh_place(mesh, nodes[0])[0]);
+        share_edge(shadow ? along : mesh_distance(mesh, nodes[0], nodes[1]),
+                   element_node_count(face.kind), share);
+        return;
+    }
+    MeshPlace position[FACE_NODES_MAX], normal;
+    int32_t count = element_node_count(face.kind);
+    Quadrature rule = shape_mass_quadrature(face.kind);
+    mesh_places(mesh, nodes, count, position);
+    for (int32_t q = 0; q < rule.count; q++) {
+        ShapeValues shape = shape_at(face.kind, rule.point[q]);
+        double size = 0;
+        shape_normal(face.kind, &shape, (const MeshPlace *)position, normal);
+        for (int32_t d = shadow ? mesh->dim - 1 : 0; d < mesh->dim; d++)
+            size = hypot(size, normal[d]);
+        for (int32_t a = 0; a < count; a++) share[a] += rule.weight[q] * size * shape.value[a];
     }
 }
 
-// Exact on straight edges of either order. traction: stress, on the block.
-void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double *traction, Bulk *bulk)
+// w_i = int N_i dA, at its mesh nodes: what turns a nodal reaction into a stress.
+void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
+                          double *weight)
 {
-    for (int32_t edge = 0; edge < curve->edge_count; edge++) {
-        double share[3] = {0};
-        edge_weights(mesh, curve, edge, share);
-        for (int32_t a = 0; a < curve->nodes_per_edge; a++) {
-            int32_t node = curve->edge_nodes[edge * curve->nodes_per_edge + a];
+    for (int32_t k = 0; k < boundary->face_count; k++) {
+        FaceNodes face = mesh_boundary_face(boundary, k);
+        double share[FACE_NODES_MAX] = {0};
+        share_face(mesh, face, shadow, share);
+        for (int32_t a = 0; a < element_node_count(face.kind); a++)
+            weight[face.node[a]] += share[a];
+    }
+}
+
+// Exact on straight edges of either order, and on flat faces. traction: stress, on the block.
+void bulk_add_traction(const Mesh *mesh, const MeshBoundary *boundary, const double *traction,
+                       Bulk *bulk)
+{
+    for (int32_t k = 0; k < boundary->face_count; k++) {
+        FaceNodes face = mesh_boundary_face(boundary, k);
+        double share[FACE_NODES_MAX] = {0};
+        share_face(mesh, face, false, share);
+        for (int32_t a = 0; a < element_node_count(face.kind); a++)
             for (int32_t d = 0; d < bulk->dim; d++)
-                bulk->load[node_dof(bulk->dim, node, d)] += share[a] * traction[d];
-        }
+                bulk->load[node_dof(bulk->dim, face.node[a], d)] += share[a] * traction[d];
     }
 }

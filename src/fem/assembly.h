@@ -27,16 +27,18 @@ bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *mate
                         Error *err);
 void bulk_destroy(Bulk *bulk);
 
-// load += int_curve N_a traction ds, traction: [dim]. A pressure P on top is (0, -P).
-void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double *traction,
+// load += int N_a traction dA, traction: [dim]. A pressure P on top is (0, -P).
+void bulk_add_traction(const Mesh *mesh, const MeshBoundary *boundary, const double *traction,
                        Bulk *bulk);
 
 // Holds an unknown at 0: its couplings in K and C and its load become 0, its mass and diagonal
 // entries stay.
 void bulk_hold(int32_t dof, Bulk *bulk);
 
-// The weights of a curve's nodes over the plane: int_curve N_a dx, added to weight[node];
+// The weights of a boundary's nodes, int N_a dA; of its shadow on the floor: int N_a dx, in space dx
+// dy; added to weight[node];
 // [mesh->node_count].
-void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight);
+void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
+                          double *weight);
 
 #endif

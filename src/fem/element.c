@@ -8,41 +8,44 @@
 //                                       B_a = [   0    N_a,z ]
 //                                             [ N_a,z  N_a,x ]
 //
-// a row for each axis, then one for each pair of axes. Returns det J, J = d(x, z)/d(xi, eta).
+// a row for each axis, then one for each pair of axes. Returns det J, J = d(x ... z)/d(xi, eta, ...).
 double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,
                              double b[STRAINS_MAX][ELEMENT_DOFS_MAX])
 {
     ShapeValues shape = shape_at(kind, point);
     MeshPlace gradient[ELEMENT_NODES_MAX];
     double determinant = shape_gradients(kind, &shape, position, gradient);
-    int32_t dim = element_dim(kind), nodes = element_node_count(kind), row = dim;
-    memset(b, 0, STRAINS_MAX * sizeof *b);
+    int32_t dim = element_dim(kind), nodes = element_node_count(kind);
+    for (int32_t r = 0; r < strain_count(dim); r++)
+        memset(b[r], 0, (size_t)(dim * nodes) * sizeof(double));
     for (int32_t a = 0; a < nodes; a++)
         for (int32_t d = 0; d < dim; d++) b[d][dim * a + d] = gradient[a][d];
-    for (int32_t d = 0; d < dim; d++)
-        for (int32_t f = d + 1; f < dim; f++, row++)
-            for (int32_t a = 0; a < nodes; a++) {
-                b[row][dim * a + d] = gradient[a][f];
-                b[row][dim * a + f] = gradient[a][d];
-            }
+    for (int32_t row = dim; row < strain_count(dim); row++) {
+        int32_t d = SHEAR_AXES[row - dim][0], f = SHEAR_AXES[row - dim][1];
+        for (int32_t a = 0; a < nodes; a++) {
+            b[row][dim * a + d] = gradient[a][f];
+            b[row][dim * a + f] = gradient[a][d];
+        }
+    }
     return determinant;
 }
 
-// out += weight * B' D B; rows beyond the element's strains are zero.
-static void add_quadratic_form(int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+// out += weight * B' D B, B: [strains][dofs].
+static void add_quadratic_form(int32_t strains, int32_t dofs,
+                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
                                const double d[STRAINS_MAX][STRAINS_MAX], double weight,
                                double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
 {
     for (int32_t j = 0; j < dofs; j++) {
         double stress[STRAINS_MAX];
-        for (int32_t r = 0; r < STRAINS_MAX; r++) {
+        for (int32_t r = 0; r < strains; r++) {
             double sum = 0;
-            for (int32_t c = 0; c < STRAINS_MAX; c++) sum += d[r][c] * b[c][j];
+            for (int32_t c = 0; c < strains; c++) sum += d[r][c] * b[c][j];
             stress[r] = weight * sum;
         }
         for (int32_t i = 0; i < dofs; i++) {
             double sum = 0;
-            for (int32_t r = 0; r < STRAINS_MAX; r++) sum += b[r][i] * stress[r];
+            for (int32_t r = 0; r < strains; r++) sum += b[r][i] * stress[r];
             out[i][j] += sum;
         }
     }
@@ -69,21 +72,33 @@ static void lump_mass(ElementKind kind, const MeshPlace *position, double densit
     for (int32_t a = 0; a < nodes; a++) out->mass[a] *= density * out->area / square_sum;
 }
 
-// By the element's own quadrature, per unit width.
+void element_matrices_clear(int32_t dof_count, ElementMatrices *out)
+{
+    size_t row = (size_t)dof_count * sizeof(double);
+    for (int32_t i = 0; i < dof_count; i++) {
+        memset(out->stiffness[i], 0, row);
+        memset(out->damping[i], 0, row);
+    }
+    memset(out->mass, 0, sizeof out->mass);
+    memset(out->areal, 0, row);
+    out->area = 0;
+    out->dof_count = dof_count;
+}
+
+// By the element's own quadrature; in the plane per unit width.
 static void integrate(ElementKind kind, const MeshPlace *position,
                       const double elastic[STRAINS_MAX][STRAINS_MAX],
                       const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
 {
     double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
-    int32_t dim = element_dim(kind);
-    memset(out, 0, sizeof *out);
-    out->dof_count = dim * element_node_count(kind);
+    int32_t dim = element_dim(kind), strains = strain_count(dim);
+    element_matrices_clear(dim * element_node_count(kind), out);
     Quadrature quadrature = shape_quadrature(kind);
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
-        add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
-        add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
+        add_quadratic_form(strains, out->dof_count, b, elastic, weight, out->stiffness);
+        add_quadratic_form(strains, out->dof_count, b, viscous, weight, out->damping);
         for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % dim][j];
         out->area += weight;
     }
@@ -93,27 +108,25 @@ void element_matrices(ElementKind kind, const MeshPlace *position, const Materia
                       ElementMatrices *out)
 {
     double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
-    material_elastic(material, elastic);
-    material_viscous(material, viscous);
+    moduli_matrix(material_elastic(material), element_dim(kind), elastic);
+    moduli_matrix(material_viscous(material), element_dim(kind), viscous);
     integrate(kind, position, elastic, viscous, out);
     lump_mass(kind, position, material->density, out);
 }
 
-// Of an isotropic material the areal part is that which xx and zz share.
-static void take_areal_part(double d[3][3])
+// Without the modulus against a change of area, or in space of volume.
+static Moduli without_areal_part(Moduli moduli, int32_t dim)
 {
-    d[0][0] = d[1][1] = d[2][2];
-    d[0][1] = d[1][0] = -d[2][2];
+    return (Moduli){.deviator = moduli.deviator, .trace = -moduli.deviator / dim};
 }
 
 void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                             ElementMatrices *out)
 {
     double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
-    material_elastic(material, elastic);
-    material_viscous(material, viscous);
-    take_areal_part(elastic);
-    take_areal_part(viscous);
+    int32_t dim = element_dim(kind);
+    moduli_matrix(without_areal_part(material_elastic(material), dim), dim, elastic);
+    moduli_matrix(without_areal_part(material_viscous(material), dim), dim, viscous);
     integrate(kind, position, elastic, viscous, out);
     lump_mass(kind, position, material->density, out);
 }

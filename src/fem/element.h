@@ -7,8 +7,10 @@
 #include "fem/material.h"
 #include "io/mesh/shape_functions.h"
 
-enum { ELEMENT_DOFS_MAX = DIM_MAX * ELEMENT_NODES_MAX, STRAINS_MAX = DIM_MAX * (DIM_MAX + 1) / 2 };
+enum { ELEMENT_DOFS_MAX = DIM_MAX * ELEMENT_NODES_MAX };
 
+// In the plane forces and masses are per width, and areas areas; in space there is no width, and
+// areas are volumes. Entries beyond dof_count are not set.
 typedef struct ElementMatrices {
     int32_t dof_count;   // dim * nodes: x to z of each in turn
     double stiffness[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per length
@@ -23,7 +25,10 @@ typedef struct ElementMatrices {
 void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                       ElementMatrices *out);
 
-// The same without what a change of area meets: K and C of the strain less its areal part, which
+// All zero, for as many unknowns.
+void element_matrices_clear(int32_t dof_count, ElementMatrices *out);
+
+// The same matrices without what a change of area meets: K and C of the strain less its areal part, which
 // fem/element_group adds as a mean.
 void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                             ElementMatrices *out);

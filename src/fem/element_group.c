@@ -30,6 +30,7 @@ static int by_length(const void *left, const void *right)
     return by_edge(left, right);
 }
 
+// 0 of order 2, which does not lock.
 static int32_t corners_of(const Mesh *mesh, int32_t e)
 {
     int32_t corners = element_corner_count(mesh->kind[e]);
@@ -42,7 +43,8 @@ static int32_t list_sides(const Mesh *mesh, const uint8_t *is_mean, Side *sides)
 {
     int32_t count = 0, kept = 0;
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        int32_t corners = is_mean[mesh_region(mesh, e)] ? corners_of(mesh, e) : 0;
+        bool plane = element_dim((ElementKind)mesh->kind[e]) == 2;
+        int32_t corners = plane && is_mean[mesh_region(mesh, e)] ? corners_of(mesh, e) : 0;
         const int32_t *node = mesh->element_nodes + mesh->first_node[e];
         for (int32_t a = 0; a < corners; a++) {
             int32_t one = node[a], two = node[(a + 1) % corners];
@@ -198,21 +200,15 @@ static void add_member(int32_t dim, const ElementMatrices *member, const int32_t
 }
 
 // k of the header.
-static double areal_modulus(const double d[3][3])
+static void add_areal(const Material *material, int32_t dim, ElementMatrices *out)
 {
-    return 0.5 * (d[0][0] + d[0][1]);
-}
-
-static void add_areal(const Material *material, ElementMatrices *out)
-{
-    double elastic[3][3], viscous[3][3];
-    material_elastic(material, elastic);
-    material_viscous(material, viscous);
+    double elastic = moduli_bulk(material_elastic(material), dim);
+    double viscous = moduli_bulk(material_viscous(material), dim);
     for (int32_t i = 0; i < out->dof_count; i++) {
         for (int32_t j = 0; j < out->dof_count; j++) {
             double square = out->areal[i] * out->areal[j] / out->area;
-            out->stiffness[i][j] += areal_modulus(elastic) * square;
-            out->damping[i][j] += areal_modulus(viscous) * square;
+            out->stiffness[i][j] += elastic * square;
+            out->damping[i][j] += viscous * square;
         }
     }
 }
@@ -229,8 +225,7 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
         return;
     }
     ElementGroup known = *group;
-    memset(out, 0, sizeof *out);
-    out->dof_count = mesh->dim * group->node_count;
+    element_matrices_clear(mesh->dim * group->node_count, out);
     for (int32_t m = 0; m < group->count; m++) {
         int32_t e = group->element[m], place[ELEMENT_NODES_MAX], first = mesh->first_node[e];
         ElementMatrices member;
@@ -241,7 +236,7 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
             place[a] = place_of(&known, mesh->element_nodes[first + a]);
         add_member(mesh->dim, &member, place, out);
     }
-    add_areal(material, out);
+    add_areal(material, mesh->dim, out);
 }
 
 void element_group_areal(const Mesh *mesh, const ElementGroup *group, double *g)

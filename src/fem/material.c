@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Kelvin-Voigt: sigma = D eps + D_eta eps', both isotropic. Vectors are (xx, zz, 2 xz) for strains
-// and (xx, zz, xz) for stresses, so that
+// Kelvin-Voigt: sigma = D eps + D_eta eps', both isotropic. In the plane vectors are (xx, zz, 2 xz)
+// for strains and (xx, zz, xz) for stresses, so that
 //
 //         [ d + t    t     0  ]
 //     D = [   t    d + t   0  ]    d: deviator, E/(1+nu) or eta1;  t: trace, lambda or eta2
@@ -18,23 +18,22 @@ static double lame_lambda(const Material *material)
     return young * nu / (1 - nu * nu);
 }
 
-// sigma = deviator * eps + trace * tr(eps) I; the third strain is the engineering shear 2 eps_xz.
-static void fill_isotropic(double deviator, double trace, double d[3][3])
+void moduli_matrix(Moduli moduli, int32_t dim, double d[STRAINS_MAX][STRAINS_MAX])
 {
-    memset(d, 0, 9 * sizeof(double));
-    d[0][0] = d[1][1] = deviator + trace;
-    d[0][1] = d[1][0] = trace;
-    d[2][2] = 0.5 * deviator;
+    memset(d, 0, STRAINS_MAX * sizeof *d);
+    for (int32_t i = 0; i < dim; i++)
+        for (int32_t k = 0; k < dim; k++) d[i][k] = i == k ? moduli_axial(moduli) : moduli.trace;
+    for (int32_t i = dim; i < strain_count(dim); i++) d[i][i] = moduli_shear(moduli);
 }
 
-void material_elastic(const Material *material, double d[3][3])
+Moduli material_elastic(const Material *material)
 {
-    fill_isotropic(material->young / (1 + material->poisson), lame_lambda(material), d);
+    return (Moduli){material->young / (1 + material->poisson), lame_lambda(material)};
 }
 
-void material_viscous(const Material *material, double d[3][3])
+Moduli material_viscous(const Material *material)
 {
-    fill_isotropic(material->eta1, material->eta2, d);
+    return (Moduli){material->eta1, material->eta2};
 }
 
 // In plane strain the stress that keeps the faces in place.
@@ -58,11 +57,11 @@ static double rayleigh_function(double s, double k)
 WaveSpeeds material_speeds(const Material *material)
 {
     WaveSpeeds speeds;
-    double d[3][3];
-    material_elastic(material, d);
-    speeds.longitudinal = sqrt(d[0][0] / material->density);
-    speeds.shear = sqrt(d[2][2] / material->density);
-    double k = d[2][2] / d[0][0], low = 0.05, high = 1.0;
+    Moduli elastic = material_elastic(material);
+    double axial = moduli_axial(elastic), shear = moduli_shear(elastic);
+    speeds.longitudinal = sqrt(axial / material->density);
+    speeds.shear = sqrt(shear / material->density);
+    double k = shear / axial, low = 0.05, high = 1.0;
     for (int bisection = 0; bisection < 60; bisection++) {
         double middle = 0.5 * (low + high);
         if (rayleigh_function(middle, k) < 0)
@@ -76,10 +75,9 @@ WaveSpeeds material_speeds(const Material *material)
 
 double material_gradient(const Material *material, double pressure, double shear)
 {
-    double d[3][3];
-    material_elastic(material, d);
-    double uniaxial = d[0][0] - d[0][1] * d[0][1] / d[0][0];
-    return hypot(shear / d[2][2], pressure / uniaxial);
+    Moduli elastic = material_elastic(material);
+    double axial = moduli_axial(elastic), uniaxial = axial - elastic.trace * elastic.trace / axial;
+    return hypot(shear / moduli_shear(elastic), pressure / uniaxial);
 }
 
 double material_slip_speed(const Material *material)
@@ -155,12 +153,10 @@ double materials_viscous_time(const Materials *materials)
 
 static ViscousTimes viscous_times(const Material *material)
 {
-    double elastic[3][3], viscous[3][3];
-    material_elastic(material, elastic);
-    material_viscous(material, viscous);
-    return (ViscousTimes){.volume = (viscous[0][0] + viscous[0][1]) /
-                                    (elastic[0][0] + elastic[0][1]),
-                          .shear = viscous[2][2] / elastic[2][2]};
+    Moduli elastic = material_elastic(material), viscous = material_viscous(material);
+    return (ViscousTimes){.volume = (moduli_axial(viscous) + viscous.trace) /
+                                    (moduli_axial(elastic) + elastic.trace),
+                          .shear = moduli_shear(viscous) / moduli_shear(elastic)};
 }
 
 ViscousTimes materials_viscous_range(const Materials *materials)

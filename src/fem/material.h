@@ -2,11 +2,13 @@
 // The linear viscoelastic bulk of the paper (Kelvin-Voigt):
 //
 //     sigma = E/(1+nu) eps + lambda tr(eps) I  +  eta1 eps' + eta2 tr(eps') I
-//     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain.
+//     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain and in space.
 //
 // Used by fem/element and fem/recovery; its wave speeds by model/ and run/.
 #ifndef AMONTONS_FEM_MATERIAL_H
 #define AMONTONS_FEM_MATERIAL_H
+
+#include "io/mesh/mesh_file.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -14,16 +16,48 @@
 typedef struct Material {
     double young;   // E, stress
     double poisson;   // nu, 1; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
-    double density;   // rho, mass per area of the plane and width
+    double density;   // rho, mass per volume
     double eta1, eta2;   // viscosities, stress * time
-    bool plane_strain;
+    bool plane_strain;   // in space always true: nothing is free of stress across
 } Material;
 
-// sigma = D [eps_xx, eps_zz, 2 eps_xz]; row-major, symmetric.
-void material_elastic(const Material *material, double d[3][3]);
-void material_viscous(const Material *material, double d[3][3]);
+// stress = deviator * strain + trace * tr(strain) I, stress; of the viscous part, * time.
+typedef struct Moduli {
+    double deviator, trace;
+} Moduli;
+Moduli material_elastic(const Material *material);
+Moduli material_viscous(const Material *material);
 
-// sigma_yy, which von Mises needs, with its viscous part: 0 in plane stress.
+// Against a strain along one axis alone, against shear, and against that of all axes alike.
+static inline double moduli_axial(Moduli moduli)
+{
+    return moduli.deviator + moduli.trace;
+}
+static inline double moduli_shear(Moduli moduli)
+{
+    return 0.5 * moduli.deviator;
+}
+static inline double moduli_bulk(Moduli moduli, int32_t dim)
+{
+    return (moduli_axial(moduli) + (dim - 1) * moduli.trace) / dim;
+}
+
+enum { STRAINS_MAX = DIM_MAX * (DIM_MAX + 1) / 2 };
+static inline int32_t strain_count(int32_t dim)
+{
+    return dim * (dim + 1) / 2;
+}
+
+// The pairs of axes in the order of shears: in the plane the first, xz.
+static const int32_t SHEAR_AXES[3][2] = {{0, 1}, {1, 2}, {0, 2}};
+
+// stress = D strain, of an entry for each axis, then one for each pair of axes: xx, zz, 2 xz in the
+// plane, xx, yy, zz, 2 xy, 2 yz, 2 xz in space (VTK's order); stresses without the 2. Symmetric;
+// entries beyond are 0.
+void moduli_matrix(Moduli moduli, int32_t dim, double d[STRAINS_MAX][STRAINS_MAX]);
+
+// Of a strain in the plane sigma_yy, which von Mises needs, with its viscous part: 0 in plane
+// stress.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3]);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The mesh the solver works on: that of io/mesh/mesh_file, checked, with its named curves. Used by
-// fem/assembly (elements, tractions on curves) and contact/interface (the contact curves).
+// The mesh the solver works on: that of io/mesh/mesh_file, checked, with its named pieces of
+// boundary: curves in the plane, surfaces in space. Used by fem/assembly (elements, tractions on
+// boundaries) and contact/interface (the contact).
 #ifndef AMONTONS_FEM_MESH_H
 #define AMONTONS_FEM_MESH_H
 
@@ -12,8 +13,8 @@
 enum { MESH_PATH_SIZE = 1024 };
 
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
-// nodes and quadrature points; every node on an element; no node twice in one element; no edge on
-// more than two elements; every edge of a curve group is an edge of an element, listed once; all
+// nodes and quadrature points; every node on an element; no node twice in one element; no face on
+// more than two elements; every face of a boundary group is a face of an element, listed once; all
 // elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
@@ -33,8 +34,9 @@ typedef struct Mesh {
         // next of them, itself where it is alone; -1: it has its own at each point; NULL: all have
         // (fem/element_group); owned
     int32_t group_count;
-    MeshGroup *groups;   // [group_count]; nodes of curves by ascending x, then z; owned
+    MeshGroup *groups;   // [group_count]; nodes by ascending x, ..., z; owned
     double x_min, x_max;   // extent, length
+    double y_min, y_max;   // 0 in the plane
     double z_min, z_max;
 } Mesh;
 
@@ -69,6 +71,7 @@ void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPla
 
 // "(0.5, 0)": a place in a message.
 enum { PLACE_TEXT_SIZE = 64 };
+const char *place_text(int32_t dim, const double *at, char text[PLACE_TEXT_SIZE]);
 const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE]);
 
 // Between two nodes, length.
@@ -80,45 +83,58 @@ static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
     return mesh->region ? mesh->region[e] : 0;
 }
 
-// Puts nodes [count] in order of ascending x, then z.
+// Puts nodes [count] in order of ascending x, then y in space, then z.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count);
 
-// A named curve. Borrows from the mesh, owns nothing.
-typedef struct MeshCurve {
-    const char *name;
-    int32_t edge_count;
-    int32_t nodes_per_edge;   // 2, or 3 (end, end, middle)
-    const int32_t *edge_nodes;   // [edge_count * nodes_per_edge]
-    int32_t node_count;
-    const int32_t *nodes;   // [node_count] each once, by ascending x, then z
-} MeshCurve;
+// One face: its nodes [element_node_count(kind)], in the kind's order. Borrows.
+typedef struct FaceNodes {
+    ElementKind kind;
+    const int32_t *node;
+} FaceNodes;
 
-// Several contact curves as one line of nodes. A node that ends one curve and begins the next is
-// listed once and belongs to the curve named first.
-typedef struct MeshContact {
-    int32_t curve_count;
-    MeshCurve *curves;   // [curve_count] in the order of the names; owned
+// Face `side` of element e; nodes: [FACE_NODES_MAX] room for them.
+FaceNodes mesh_element_face(const Mesh *mesh, int32_t e, int32_t side, int32_t *nodes);
+
+// A named piece of boundary: a curve in the plane, a surface in space. Borrows from the mesh, owns
+// nothing.
+typedef struct MeshBoundary {
+    const char *name;
+    int32_t dim;   // of the mesh
+    int32_t face_count;
+    int32_t nodes_per_face;   // as in MeshGroup
+    const int32_t *face_nodes;   // [face_count * nodes_per_face]
     int32_t node_count;
-    int32_t *nodes;   // [node_count] ascending x; owned
-    int32_t *curve_of;   // [node_count] index into curves; owned
+    const int32_t *nodes;   // [node_count] each once, by ascending x, ..., z
+} MeshBoundary;
+
+FaceNodes mesh_boundary_face(const MeshBoundary *boundary, int32_t face);
+
+// Several pieces of contact as one list of nodes. A node of two of them is listed once and belongs
+// to that named first.
+typedef struct MeshContact {
+    int32_t pad_count;
+    MeshBoundary *pads;   // [pad_count] in the order of the names; owned
+    int32_t node_count;
+    int32_t *nodes;   // [node_count] by ascending x, then y in space; owned
+    int32_t *pad_of;   // [node_count] index into pads; owned
 } MeshContact;
 
 // Takes the arrays of `file` over (it is empty afterwards, also on failure), checks and completes
 // them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
 // Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
-// node, a clockwise element among others, a node on no element, an edge of three elements, elements
-// of different order side by side, a curve group that does not follow the elements or lists an
-// edge twice, parts that share no node.
+// node, a clockwise element among others, a node on no element, a face of three elements, elements
+// of different order side by side, a boundary group that does not follow the elements or lists a
+// face twice, parts that share no node.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
 void mesh_destroy(Mesh *mesh);
 
-// The curve called `name`; a missing one or a group of another dimension is ERROR_INPUT.
-bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err);
+// The piece of boundary called `name`; a missing one or a group of another dimension is ERROR_INPUT.
+bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, Error *err);
 
-// The contact line from curves called `names` [name_count]; no names: every curve called "contact"
-// or "contact_...", in the order of their first nodes' x. Each must lie over z = 0 and one
-// node on it, no node straight over another, on the block's edge, no two on the same edge, and the
-// block not below z = 0: ERROR_INPUT names group and node.
+// The contact from boundaries called `names` [name_count]; no names: every one called "contact"
+// or "contact_...", in the order of their first nodes. Each must lie over z = 0 and one
+// node on it, no node straight over another, on the block's boundary and in space looking down, no
+// two on the same face, and the block not below z = 0: ERROR_INPUT names group and node.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err);
 // How high a contact node stands over z = 0; exactly 0 where only rounding is left.
@@ -128,12 +144,12 @@ void mesh_contact_destroy(MeshContact *contact);
 // What `amontons info` says of a mesh.
 typedef struct MeshSummary {
     int32_t element_counts[ELEMENT_KIND_COUNT];   // by ElementKind
-    double area;   // length^2
+    double area;   // length^2; in space the volume, length^3
     double edge_min, edge_max;   // straight distances between corners, length
     double aspect_max;   // longest over shortest edge of one element
     int32_t aspect_worst;   // the element that has it
 } MeshSummary;
 MeshSummary mesh_summarise(const Mesh *mesh);
-double mesh_element_area(const Mesh *mesh, int32_t e);   // length^2
+double mesh_element_area(const Mesh *mesh, int32_t e);   // length^2; in space its volume
 
 #endif

@@ -3,7 +3,7 @@
 #include "fem/mesh.h"
 
 #include "base/memory.h"
-#include "fem/mesh_edges.h"
+#include "fem/mesh_faces.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
@@ -53,51 +53,23 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
 // The block's extent. A node on no element would change it, but is an error.
 static void find_extent(Mesh *mesh)
 {
-    mesh->x_min = mesh->z_min = INFINITY;
-    mesh->x_max = mesh->z_max = -INFINITY;
-    for (int32_t i = 0; i < mesh->node_count; i++) {
-        mesh->x_min = fmin(mesh->x_min, mesh_place(mesh, i)[0]);
-        mesh->x_max = fmax(mesh->x_max, mesh_place(mesh, i)[0]);
-        mesh->z_min = fmin(mesh->z_min, mesh_height(mesh, i));
-        mesh->z_max = fmax(mesh->z_max, mesh_height(mesh, i));
+    double *low[DIM_MAX] = {&mesh->x_min, &mesh->y_min},
+           *high[DIM_MAX] = {&mesh->x_max, &mesh->y_max};
+    low[mesh->dim - 1] = &mesh->z_min;
+    high[mesh->dim - 1] = &mesh->z_max;
+    for (int32_t d = 0; d < mesh->dim; d++) {
+        *low[d] = INFINITY;
+        *high[d] = -INFINITY;
+        for (int32_t i = 0; i < mesh->node_count; i++) {
+            *low[d] = fmin(*low[d], mesh_place(mesh, i)[d]);
+            *high[d] = fmax(*high[d], mesh_place(mesh, i)[d]);
+        }
     }
-}
-
-void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place)
-{
-    for (int32_t a = 0; a < count; a++)
-        memcpy(place[a], mesh_place(mesh, nodes[a]), (size_t)mesh->dim * sizeof(double));
-}
-
-void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset)
-{
-    const double *origin = mesh_place(mesh, nodes[0]);
-    mesh_places(mesh, nodes, count, offset);
-    for (int32_t a = 0; a < count; a++)
-        for (int32_t d = 0; d < mesh->dim; d++) offset[a][d] -= origin[d];
-}
-
-double mesh_distance(const Mesh *mesh, int32_t one, int32_t two)
-{
-    double length = 0;
-    for (int32_t d = 0; d < mesh->dim; d++)
-        length = hypot(length, mesh_place(mesh, two)[d] - mesh_place(mesh, one)[d]);
-    return length;
-}
-
-const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE])
-{
-    int length = snprintf(text, PLACE_TEXT_SIZE, "(");
-    for (int32_t d = 0; d < mesh->dim; d++)
-        length += snprintf(text + length, PLACE_TEXT_SIZE - (size_t)length, "%s%g",
-                           d > 0 ? ", " : "", mesh_place(mesh, node)[d]);
-    snprintf(text + length, PLACE_TEXT_SIZE - (size_t)length, ")");
-    return text;
 }
 
 // --- checks -------------------------------------------------------------------------------------
 
-// The name of a curve group that holds node i, NULL: none. For errors: it searches all.
+// The name of a group that holds node i, NULL: none. For errors: it searches all.
 static const char *group_of_node(const Mesh *mesh, int32_t i)
 {
     for (int32_t g = 0; g < mesh->group_count; g++)
@@ -117,9 +89,10 @@ static bool check_nodes(const Mesh *mesh, Error *err)
     for (int32_t i = 0; i < mesh->node_count; i++) {
         if (used[i]) continue;
         const char *group = group_of_node(mesh, i);
-        FAIL(err, ERROR_INPUT, "%s: node %lld at %s is on no surface element%s%s%s", mesh->path,
+        FAIL(err, ERROR_INPUT, "%s: node %lld at %s is on no %s element%s%s%s", mesh->path,
              (long long)mesh->node_number[i], mesh_place_text(mesh, i, at),
-             group ? "; it belongs to group '" : "", group ? group : "", group ? "'" : "");
+             mesh->dim == 2 ? "surface" : "volume", group ? "; it belongs to group '" : "",
+             group ? group : "", group ? "'" : "");
     }
 cleanup:
     memory_free(used);
@@ -140,8 +113,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Positions of the nodes of element e, and their mean; returns the square of the longest distance
-// from node 0, the scale of its Jacobian.
+// Positions of the nodes of element e, and their mean; returns the longest distance from node 0 to
+// the power of the dimension, the scale of its Jacobian.
 static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace centre)
 {
     int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
@@ -157,7 +130,7 @@ static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace
         }
         scale = fmax(scale, square);
     }
-    return scale;
+    return pow(scale, mesh->dim / 2.0);
 }
 
 // Shape functions at the nodes and quadrature points of each kind, where Jacobians are looked at.
@@ -172,6 +145,7 @@ typedef struct ProbePoints {
 static void set_probes(ProbePoints *probes)
 {
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+        if (element_dim((ElementKind)kind) < 2) continue;   // a face
         Quadrature rule = shape_quadrature((ElementKind)kind);
         int32_t count = 0;
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
@@ -201,18 +175,23 @@ static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32
     for (int32_t k = 0; k < 2; k++) range[k] = scale > 0 ? range[k] / scale : 0;
 }
 
+// Where node a of a kind goes when the first two axes of its reference element are exchanged.
+static int32_t exchanged_node(ElementKind kind, int32_t a)
+{
+    const double *at = shape_node(kind, a);
+    for (int32_t b = 0; b < element_node_count(kind); b++) {
+        const double *other = shape_node(kind, b);
+        if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2]) return b;
+    }
+    return a;
+}
+
 // Exchanges nodes so that the element runs the other way round, from the same first corner.
 static void reverse_element(ElementKind kind, int32_t *nodes)
 {
-    static const uint8_t order[ELEMENT_KIND_COUNT][ELEMENT_NODES_MAX] = {
-        [ELEMENT_T3] = {0, 2, 1},
-        [ELEMENT_T6] = {0, 2, 1, 5, 4, 3},
-        [ELEMENT_Q4] = {0, 3, 2, 1},
-        [ELEMENT_Q8] = {0, 3, 2, 1, 7, 6, 5, 4},
-        [ELEMENT_Q9] = {0, 3, 2, 1, 7, 6, 5, 4, 8}};
     int32_t old[ELEMENT_NODES_MAX], count = element_node_count(kind);
     memcpy(old, nodes, (size_t)count * sizeof *nodes);
-    for (int32_t a = 0; a < count; a++) nodes[a] = old[order[kind][a]];
+    for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(kind, a)];
 }
 
 // Clockwise throughout is a reversed surface, which is turned round; a clockwise element among
@@ -223,6 +202,7 @@ static bool check_orientation(Mesh *mesh, Error *err)
     int32_t first_bad = -1;
     double bad_range[2] = {0};
     MeshPlace bad_centre = {0};
+    char at[PLACE_TEXT_SIZE];
     ProbePoints *probes = NEW_ARRAY(ProbePoints, 1, err);
     if (!probes) goto cleanup;
     set_probes(probes);
@@ -241,11 +221,11 @@ static bool check_orientation(Mesh *mesh, Error *err)
     }
     if (first_bad >= 0)
         FAIL(err, ERROR_INPUT,
-             "%s: element %lld (%s) at (%g, %g) has a non-positive area: its Jacobian determinant "
+             "%s: element %lld (%s) at %s has a non-positive %s: its Jacobian determinant "
              "runs from %.3g to %.3g of its size squared%s",
              mesh->path, (long long)mesh->element_number[first_bad],
-             element_name(mesh->kind[first_bad]), bad_centre[0], bad_centre[1], bad_range[0],
-             bad_range[1],
+             element_name(mesh->kind[first_bad]), place_text(mesh->dim, bad_centre, at),
+             mesh->dim == 2 ? "area" : "volume", bad_range[0], bad_range[1],
              bad_range[0] > AREA_TOLERANCE || bad_range[1] < -AREA_TOLERANCE
                  ? " while others run the other way round (a surface of the .geo is reversed)"
                  : "");
@@ -257,42 +237,53 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Every edge of a named curve must be an edge of an element, with the same mid-side node, and be
-// listed once: a load acts as often as its edge is listed.
-static bool check_curves(const Mesh *mesh, Error *err)
+static FaceNodes group_face(const Mesh *mesh, const MeshGroup *group, int32_t k)
 {
-    MeshEdges table = {0};
-    int32_t *listed = NULL;   // by edge of the table: the last group that lists it, + 1
+    MeshBoundary boundary = {
+        .dim = mesh->dim, .nodes_per_face = group->nodes_per_face, .face_nodes = group->face_nodes};
+    return mesh_boundary_face(&boundary, k);
+}
+
+// Every face of a named boundary must be a face of an element, with the same mid-side nodes, and be
+// listed once: a load acts as often as its face is listed.
+static bool check_boundaries(const Mesh *mesh, Error *err)
+{
+    MeshFaces table = {0};
+    int32_t *listed = NULL;   // by face of the table: the last group that lists it, + 1
+    const char *what = mesh->dim == 2 ? "edge" : "face",
+               *piece = mesh->dim == 2 ? "curve" : "surface";
     char at[PLACE_TEXT_SIZE];
-    TRY(mesh_edges_build(mesh, &table, err));
+    TRY(mesh_faces_build(mesh, &table, err));
     listed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err);
     if (!listed) goto cleanup;
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
-        for (int32_t k = 0; k < group->edge_count; k++) {
-            const int32_t *nodes = group->edge_nodes + k * group->nodes_per_edge;
-            int32_t middle = group->nodes_per_edge == 3 ? nodes[2] : -1;
-            const MeshEdge *edge = mesh_edges_find(&table, nodes[0], nodes[1]);
-            if (!edge || edge->middle != middle)
+        for (int32_t k = 0; k < group->face_count; k++) {
+            FaceNodes face = group_face(mesh, group, k);
+            const int32_t *nodes = face.node;
+            const MeshFace *known = mesh_faces_find(&table, face);
+            if (!known || !mesh_face_is(known, face))
                 FAIL(err, ERROR_INPUT,
-                     "%s: group '%s': its edge from node %lld to %lld at %s is not an edge of any "
+                     "%s: group '%s': its %s from node %lld to %lld at %s is not an %s of any "
                      "element",
-                     mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
-                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at));
-            int32_t *last = &listed[edge - table.edges];
+                     mesh->path, group->name, what, (long long)mesh->node_number[nodes[0]],
+                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at),
+                     what);
+            int32_t *last = &listed[known - table.faces];
             if (*last == g + 1)
                 FAIL(err, ERROR_INPUT,
-                     "%s: group '%s' has its edge from node %lld to %lld at %s twice: a load on it "
-                     "would act twice (a curve named twice, or once more reversed, in the physical "
+                     "%s: group '%s' has its %s from node %lld to %lld at %s twice: a load on it "
+                     "would act twice (a %s named twice, or once more reversed, in the physical "
                      "group?)",
-                     mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
-                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at));
+                     mesh->path, group->name, what, (long long)mesh->node_number[nodes[0]],
+                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at),
+                     piece);
             *last = g + 1;
         }
     }
 cleanup:
     memory_free(listed);
-    mesh_edges_destroy(&table);
+    mesh_faces_destroy(&table);
     return error_is_clean(err);
 }
 
@@ -361,7 +352,7 @@ bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
     TRY(check_nodes(mesh, err));
     TRY(check_repeats(mesh, err));
     TRY(check_orientation(mesh, err));
-    TRY(check_curves(mesh, err));
+    TRY(check_boundaries(mesh, err));
     TRY(check_one_part(mesh, err));
     for (int32_t g = 0; g < mesh->group_count; g++)
         mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);

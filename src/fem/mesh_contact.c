@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact is unilateral against the rigid line z = 0, node by node, each straight above its place.
-// So nodes must stand on the line or over it, over distinct places, in one order along the curve,
-// on the block's edge, with nothing of the block below.
+// Contact is unilateral against the rigid plane z = 0, node by node, each straight above its place.
+// So nodes must stand on it or over it, over distinct places, in the plane in one order along the
+// curve, in space on faces that look down, on the block's boundary, with nothing of the block below.
 #include "fem/mesh.h"
 
 #include "base/memory.h"
-#include "fem/mesh_edges.h"
+#include "fem/mesh_faces.h"
+#include "io/mesh/shape_functions.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,10 +16,11 @@
 // extent: coordinates computed by gmsh are exact to about 1e-12 of it.
 static const double PLACE_TOLERANCE = 1e-9;
 
-// The larger side of the block.
+// The largest side of the block.
 static double extent(const Mesh *mesh)
 {
-    return fmax(mesh->x_max - mesh->x_min, mesh->z_max - mesh->z_min);
+    return fmax(fmax(mesh->x_max - mesh->x_min, mesh->y_max - mesh->y_min),
+                mesh->z_max - mesh->z_min);
 }
 
 double mesh_gap(const Mesh *mesh, int32_t node)
@@ -45,22 +47,23 @@ void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
     if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, &order);
 }
 
-// The error lists the curves that there are.
-bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err)
+// The error lists the groups that there are.
+bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, Error *err)
 {
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
-    *curve = (MeshCurve){0};
-    const MeshGroup *group = mesh_file_group(&view, mesh->path, name, 1, err);
+    *boundary = (MeshBoundary){0};
+    const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim - 1, err);
     if (!group) goto cleanup;
-    if (group->edge_count == 0)
-        FAIL(err, ERROR_INPUT, "%s: group '%s' is empty: its curve has no edges in the mesh",
-             mesh->path, name);
-    *curve = (MeshCurve){.name = group->name,
-                         .edge_count = group->edge_count,
-                         .nodes_per_edge = group->nodes_per_edge,
-                         .edge_nodes = group->edge_nodes,
-                         .node_count = group->node_count,
-                         .nodes = group->nodes};
+    if (group->face_count == 0)
+        FAIL(err, ERROR_INPUT, "%s: group '%s' is empty: its %s in the mesh", mesh->path, name,
+             mesh->dim == 2 ? "curve has no edges" : "surface has no faces");
+    *boundary = (MeshBoundary){.name = group->name,
+                               .dim = mesh->dim,
+                               .face_count = group->face_count,
+                               .nodes_per_face = group->nodes_per_face,
+                               .face_nodes = group->face_nodes,
+                               .node_count = group->node_count,
+                               .nodes = group->nodes};
 cleanup:
     return error_is_clean(err);
 }
@@ -69,9 +72,9 @@ cleanup:
 
 void mesh_contact_destroy(MeshContact *contact)
 {
-    memory_free(contact->curves);
+    memory_free(contact->pads);
     memory_free(contact->nodes);
-    memory_free(contact->curve_of);
+    memory_free(contact->pad_of);
     *contact = (MeshContact){0};
 }
 
@@ -81,93 +84,134 @@ static bool is_contact_name(const char *name)
     return strcmp(name, "contact") == 0 || strncmp(name, "contact_", strlen("contact_")) == 0;
 }
 
-// Curves by their first node, which is their leftmost.
+// By their first node, which is their leftmost.
 static int compare_starts(const void *a, const void *b, void *context)
 {
-    const MeshCurve *first = a, *second = b;
+    const MeshBoundary *first = a, *second = b;
     return compare_places(&first->nodes[0], &second->nodes[0], context);
 }
 
-// Fills contact->curves from the names, or from every curve that is called a contact.
-static bool pick_curves(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t count,
-                        MeshContact *contact, Error *err)
+// Fills contact->pads from the names, or from every boundary that is called a contact.
+static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t count,
+                      MeshContact *contact, Error *err)
 {
     int32_t most = count > mesh->group_count ? count : mesh->group_count;
-    if (!(contact->curves = NEW_ARRAY(MeshCurve, most, err))) goto cleanup;
+    if (!(contact->pads = NEW_ARRAY(MeshBoundary, most, err))) goto cleanup;
     for (int32_t k = 0; k < count; k++)
-        TRY(mesh_curve(mesh, names[k], &contact->curves[contact->curve_count++], err));
+        TRY(mesh_boundary(mesh, names[k], &contact->pads[contact->pad_count++], err));
     if (count > 0) goto cleanup;
     for (int32_t g = 0; g < mesh->group_count; g++)
-        if (mesh->groups[g].dimension == 1 && is_contact_name(mesh->groups[g].name))
-            TRY(mesh_curve(mesh, mesh->groups[g].name, &contact->curves[contact->curve_count++],
-                           err));
-    MeshCurve none;
+        if (mesh->groups[g].dimension == mesh->dim - 1 && is_contact_name(mesh->groups[g].name))
+            TRY(mesh_boundary(mesh, mesh->groups[g].name, &contact->pads[contact->pad_count++],
+                              err));
+    MeshBoundary none;
     Mesh order = *mesh;   // qsort_r takes no const
-    if (contact->curve_count == 0) TRY(mesh_curve(mesh, "contact", &none, err));
-    qsort_r(contact->curves, (size_t)contact->curve_count, sizeof *contact->curves, compare_starts,
+    if (contact->pad_count == 0) TRY(mesh_boundary(mesh, "contact", &none, err));
+    qsort_r(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads, compare_starts,
             &order);
 cleanup:
     return error_is_clean(err);
 }
 
-// Each edge of the contact is on one element only, as else it lies inside the block, and on one
-// contact curve only.
+// An element's face: its nodes run counter-clockwise as seen from outside.
+static bool looks_down(const Mesh *mesh, const MeshFace *face)
+{
+    static const double UPRIGHT = 1e-3;   // its shadow over its size
+    MeshPlace position[FACE_NODES_MAX], normal;
+    int32_t nodes[FACE_NODES_MAX], count;
+    FaceNodes outside = mesh_element_face(mesh, face->element, face->side, nodes);
+    count = element_node_count(outside.kind);
+    mesh_places(mesh, nodes, count, position);
+    for (int32_t a = 0; a < count; a++) {
+        ShapeValues shape = shape_at(outside.kind, shape_node(outside.kind, a));
+        shape_normal(outside.kind, &shape, (const MeshPlace *)position, normal);
+        double size = 0;
+        for (int32_t d = 0; d < mesh->dim; d++) size = hypot(size, normal[d]);
+        if (!(normal[mesh->dim - 1] < -UPRIGHT * size)) return false;
+    }
+    return true;
+}
+
+// Each face of the contact is on one element only, as else it lies inside the block, and on one
+// contact only.
 static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
-    MeshEdges table = {0};
-    int32_t *claimed = NULL;   // by edge of the table: 1 + the curve that has it
-    TRY(mesh_edges_build(mesh, &table, err));
+    MeshFaces table = {0};
+    char at[PLACE_TEXT_SIZE];
+    int32_t *claimed = NULL;   // by face of the table: 1 + the pad that has it
+    TRY(mesh_faces_build(mesh, &table, err));
     if (!(claimed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err))) goto cleanup;
-    for (int32_t c = 0; c < contact->curve_count; c++) {
-        const MeshCurve *curve = &contact->curves[c];
-        for (int32_t k = 0; k < curve->edge_count; k++) {
-            const int32_t *nodes = curve->edge_nodes + k * curve->nodes_per_edge;
-            const MeshEdge *edge = mesh_edges_find(&table, nodes[0], nodes[1]);
-            double x = mesh_place(mesh, nodes[0])[0];
-            if (edge->elements != 1)
+    for (int32_t c = 0; c < contact->pad_count; c++) {
+        const MeshBoundary *pad = &contact->pads[c];
+        for (int32_t k = 0; k < pad->face_count; k++) {
+            FaceNodes nodes = mesh_boundary_face(pad, k);
+            const MeshFace *face = mesh_faces_find(&table, nodes);
+            double x = mesh_place(mesh, nodes.node[0])[0];
+            if (face->elements != 1)
                 FAIL(err, ERROR_INPUT,
-                     "%s: contact group '%s' runs inside the block at x = %g, not on its edge",
-                     mesh->path, curve->name, x);
-            int32_t *claim = &claimed[edge - table.edges];
+                     "%s: contact group '%s' runs inside the block at x = %g, not on its %s",
+                     mesh->path, pad->name, x, mesh->dim == 2 ? "edge" : "surface");
+            if (mesh->dim > 2 && !looks_down(mesh, face))
+                FAIL(err, ERROR_INPUT,
+                     "%s: contact group '%s' has a face at %s that does not look down", mesh->path,
+                     pad->name, mesh_place_text(mesh, nodes.node[0], at));
+            int32_t *claim = &claimed[face - table.faces];
             if (*claim)
                 FAIL(err, ERROR_INPUT,
-                     "%s: contact groups '%s' and '%s' both have the edge at x = %g", mesh->path,
-                     contact->curves[*claim - 1].name, curve->name, x);
+                     "%s: contact groups '%s' and '%s' both have the %s at x = %g", mesh->path,
+                     contact->pads[*claim - 1].name, pad->name, mesh->dim == 2 ? "edge" : "face",
+                     x);
             *claim = c + 1;
         }
     }
 cleanup:
     memory_free(claimed);
-    mesh_edges_destroy(&table);
+    mesh_faces_destroy(&table);
     return error_is_clean(err);
 }
 
-// Merges the nodes of the curves; a shared one keeps the first curve.
+// Merges the nodes of the pads; a shared one keeps the first.
 static bool merge_nodes(const Mesh *mesh, MeshContact *contact, Error *err)
 {
-    int32_t *owner = NULL;   // by mesh node: 1 + curve
+    int32_t *owner = NULL;   // by mesh node: 1 + pad
     int32_t total = 0;
-    for (int32_t c = 0; c < contact->curve_count; c++) total += contact->curves[c].node_count;
+    for (int32_t c = 0; c < contact->pad_count; c++) total += contact->pads[c].node_count;
     if (!(owner = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
     if (!(contact->nodes = NEW_ARRAY(int32_t, total, err))) goto cleanup;
-    if (!(contact->curve_of = NEW_ARRAY(int32_t, total, err))) goto cleanup;
-    for (int32_t c = 0; c < contact->curve_count; c++)
-        for (int32_t k = 0; k < contact->curves[c].node_count; k++) {
-            int32_t i = contact->curves[c].nodes[k];
+    if (!(contact->pad_of = NEW_ARRAY(int32_t, total, err))) goto cleanup;
+    for (int32_t c = 0; c < contact->pad_count; c++)
+        for (int32_t k = 0; k < contact->pads[c].node_count; k++) {
+            int32_t i = contact->pads[c].nodes[k];
             if (owner[i]) continue;
             owner[i] = c + 1;
             contact->nodes[contact->node_count++] = i;
         }
     mesh_sort_nodes(mesh, contact->nodes, contact->node_count);
     for (int32_t k = 0; k < contact->node_count; k++)
-        contact->curve_of[k] = owner[contact->nodes[k]] - 1;
+        contact->pad_of[k] = owner[contact->nodes[k]] - 1;
 cleanup:
     memory_free(owner);
     return error_is_clean(err);
 }
 
-// Two nodes over one place: the sides of a crack, parts of a mesh that were not joined, or a curve
-// that goes straight up. Nodes are in order of x, so that only neighbours are compared.
+// A node before place k of the list over the same place as that at k, -1: none. Nodes are in order
+// of x: only those with the same x are looked at, in the plane the one before.
+static int32_t node_over(const Mesh *mesh, const MeshContact *contact, int32_t k, double tolerance)
+{
+    const double *at = mesh_place(mesh, contact->nodes[k]);
+    for (int32_t j = k - 1; j >= 0; j--) {
+        const double *other = mesh_place(mesh, contact->nodes[j]);
+        if (at[0] - other[0] > tolerance) return -1;
+        bool same = true;
+        for (int32_t d = 1; d < mesh->dim - 1; d++)
+            same = same && fabs(at[d] - other[d]) <= tolerance;
+        if (same) return contact->nodes[j];
+    }
+    return -1;
+}
+
+// Two nodes over one place: the sides of a crack, parts of a mesh that were not joined, or a
+// boundary that goes straight up.
 static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);
@@ -175,18 +219,18 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
         FAIL(err, ERROR_INPUT,
              "%s: the block reaches down to z = %g, below the substrate at z = 0 that group '%s' "
              "touches",
-             mesh->path, mesh->z_min, contact->curves[0].name);
+             mesh->path, mesh->z_min, contact->pads[0].name);
     for (int32_t k = 1; k < contact->node_count; k++) {
-        int32_t a = contact->nodes[k - 1], b = contact->nodes[k];
-        const char *name = contact->curves[contact->curve_of[k]].name;
-        const double *at_a = mesh_place(mesh, a), *at_b = mesh_place(mesh, b);
-        if (at_b[0] - at_a[0] > tolerance) continue;
-        if (fabs(at_b[1] - at_a[1]) > tolerance)
+        int32_t b = contact->nodes[k], a = node_over(mesh, contact, k, tolerance);
+        const char *name = contact->pads[contact->pad_of[k]].name;
+        if (a < 0) continue;
+        const double *at_b = mesh_place(mesh, b);
+        if (fabs(mesh_height(mesh, b) - mesh_height(mesh, a)) > tolerance)
             FAIL(err, ERROR_INPUT,
                  "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a face is "
                  "no "
                  "contact",
-                 mesh->path, name, at_b[0], at_a[1], at_b[1]);
+                 mesh->path, name, at_b[0], mesh_height(mesh, a), mesh_height(mesh, b));
         FAIL(err, ERROR_INPUT,
              "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "
              "glued together there",
@@ -213,17 +257,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A curve that turns back has nodes of another stretch between those of an edge.
+// In the plane: a curve that turns back has nodes of another stretch between those of an edge.
 static bool check_order(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     int32_t *place = NEW_ARRAY(int32_t, mesh->node_count, err);
     if (!place) goto cleanup;
     for (int32_t k = 0; k < contact->node_count; k++) place[contact->nodes[k]] = k;
-    for (int32_t c = 0; c < contact->curve_count; c++) {
-        const MeshCurve *curve = &contact->curves[c];
-        for (int32_t k = 0; k < curve->edge_count; k++) {
-            const int32_t *nodes = curve->edge_nodes + k * curve->nodes_per_edge;
-            if (abs(place[nodes[1]] - place[nodes[0]]) == curve->nodes_per_edge - 1) continue;
+    for (int32_t c = 0; c < contact->pad_count; c++) {
+        const MeshBoundary *curve = &contact->pads[c];
+        for (int32_t k = 0; k < curve->face_count; k++) {
+            const int32_t *nodes = curve->face_nodes + k * curve->nodes_per_face;
+            if (abs(place[nodes[1]] - place[nodes[0]]) == curve->nodes_per_face - 1) continue;
             FAIL(err, ERROR_INPUT,
                  "%s: contact group '%s' turns back over itself near x = %g, z = %g", mesh->path,
                  curve->name, mesh_place(mesh, nodes[0])[0], mesh_height(mesh, nodes[0]));
@@ -239,12 +283,12 @@ bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_
                   MeshContact *contact, Error *err)
 {
     *contact = (MeshContact){0};
-    TRY(pick_curves(mesh, names, name_count, contact, err));
+    TRY(pick_pads(mesh, names, name_count, contact, err));
     TRY(check_boundary(mesh, contact, err));
     TRY(merge_nodes(mesh, contact, err));
     TRY(check_places(mesh, contact, err));
     TRY(check_height(mesh, contact, err));
-    TRY(check_order(mesh, contact, err));
+    if (mesh->dim == 2) TRY(check_order(mesh, contact, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -2,6 +2,7 @@
 // Counts and sizes of a mesh.
 #include "fem/mesh.h"
 
+#include "io/mesh/element_faces.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
@@ -30,13 +31,15 @@ MeshSummary mesh_summarise(const Mesh *mesh)
     MeshSummary summary = {.edge_min = INFINITY, .aspect_worst = -1};
     for (int32_t e = 0; e < mesh->element_count; e++) {
         ElementKind kind = mesh->kind[e];
-        const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-        int32_t corners = element_corner_count(kind);
         double shortest = INFINITY, longest = 0;
-        for (int32_t k = 0; k < corners; k++) {
-            double length = mesh_distance(mesh, nodes[k], nodes[(k + 1) % corners]);
-            shortest = fmin(shortest, length);
-            longest = fmax(longest, length);
+        for (int32_t side = 0; side < element_face_count(kind); side++) {
+            int32_t nodes[FACE_NODES_MAX];
+            int32_t corners = element_corner_count(mesh_element_face(mesh, e, side, nodes).kind);
+            for (int32_t k = 0; k < corners; k++) {
+                double length = mesh_distance(mesh, nodes[k], nodes[(k + 1) % corners]);
+                shortest = fmin(shortest, length);
+                longest = fmax(longest, length);
+            }
         }
         summary.element_counts[kind]++;
         summary.area += mesh_element_area(mesh, e);

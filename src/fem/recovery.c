@@ -4,8 +4,8 @@
 // sparse operator, made once; the stress of a point is that of its mean strain. Of elements that
 // share an areal strain (fem/element_group) this is the areal part.
 //
-// The mean is not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of
-// node 1, ...; the strain's third entry is the engineering shear 2 xz, as in fem/element.
+// The mean is not weighted by the elements' sizes. Arrays are [strains * nodes]: xx, zz, xz of node 0,
+// of node 1, ...; shears of a strain are the engineering ones, 2 xz, as in fem/element.
 #include "fem/recovery.h"
 
 #include "base/memory.h"
@@ -157,8 +157,8 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
     if (mesh->region) TRY(split_nodes(mesh, stress, err));
     TRY(prepare_rows(mesh, stress, err));
     int64_t count = stress->point_count;
-    stress->elastic = NEW_ARRAY(double, 3 * count, err);
-    stress->total = NEW_ARRAY(double, 3 * count, err);
+    stress->elastic = NEW_ARRAY(double, strain_count(mesh->dim) * count, err);
+    stress->total = NEW_ARRAY(double, strain_count(mesh->dim) * count, err);
     stress->von_mises = NEW_ARRAY(double, count, err);
 cleanup:
     return error_is_clean(err);
@@ -181,8 +181,18 @@ void nodal_stress_destroy(NodalStress *stress)
 }
 
 typedef struct Strains {
-    double strain[3], rate[3];   // xx, zz, 2 xz
+    double strain[STRAINS_MAX], rate[STRAINS_MAX];   // axes, then pairs of axes
 } Strains;
+
+// strain += that of a node's displacement u by the slopes of its shape function.
+static void add_strain(int32_t dim, const double *slope, const double *u, double *strain)
+{
+    for (int32_t d = 0; d < dim; d++) strain[d] += slope[d] * u[d];
+    for (int32_t row = dim; row < strain_count(dim); row++) {
+        int32_t d = SHEAR_AXES[row - dim][0], f = SHEAR_AXES[row - dim][1];
+        strain[row] += slope[f] * u[d] + slope[d] * u[f];
+    }
+}
 
 // A row of the operator times displacement and velocity.
 static Strains strains_at(const NodalStress *stress, int32_t point, const double *displacement,
@@ -194,17 +204,12 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
     for (int32_t k = stress->row[point]; k < end; k++) {
         const double *u = displacement + node_dof(stress->dim, stress->column[k], 0);
         const double *v = velocity + node_dof(stress->dim, stress->column[k], 0);
-        double x = stress->slope[k][0], z = stress->slope[k][1];
-        found.strain[0] += x * u[0];
-        found.strain[1] += z * u[1];
-        found.strain[2] += z * u[0] + x * u[1];
-        found.rate[0] += x * v[0];
-        found.rate[1] += z * v[1];
-        found.rate[2] += z * v[0] + x * v[1];
+        add_strain(stress->dim, stress->slope[k], u, found.strain);
+        add_strain(stress->dim, stress->slope[k], v, found.rate);
         if (!stress->areal) continue;
         for (int32_t d = 0; d < stress->dim; d++) {
-            more += 0.5 * stress->areal[k][d] * u[d];
-            more_rate += 0.5 * stress->areal[k][d] * v[d];
+            more += stress->areal[k][d] * u[d] / stress->dim;
+            more_rate += stress->areal[k][d] * v[d] / stress->dim;
         }
     }
     for (int32_t d = 0; d < stress->dim; d++) {
@@ -214,12 +219,14 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
     return found;
 }
 
-// sqrt(3 J_2) with all three normal stresses: sigma_yy counts in plane strain.
-static double von_mises(const double stress[3], double out_of_plane)
+// sqrt(3 J_2) with all three normal stresses; in the plane across is sigma_yy, which counts in plane
+// strain.
+static double von_mises(int32_t dim, const double *stress, double across)
 {
-    double xx = stress[0], zz = stress[1], xz = stress[2], yy = out_of_plane;
+    double xx = stress[0], yy = dim == 2 ? across : stress[1], zz = stress[dim - 1], shear = 0;
+    for (int32_t k = dim; k < strain_count(dim); k++) shear += 3 * stress[k] * stress[k];
     return sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) +
-                3 * xz * xz);
+                shear);
 }
 
 // Von Mises is that of the mean stress, not the mean of the elements' von Mises.
@@ -228,23 +235,24 @@ static double von_mises(const double stress[3], double out_of_plane)
 void nodal_stress_recover(const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress)
 {
-    double elastic[3][3], viscous[3][3];
+    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
+    int32_t strains = strain_count(stress->dim);
     for (int32_t point = 0; point < stress->point_count; point++) {
         const Material *material = &materials[stress->region ? stress->region[point] : 0];
-        material_elastic(material, elastic);
-        material_viscous(material, viscous);
+        moduli_matrix(material_elastic(material), stress->dim, elastic);
+        moduli_matrix(material_viscous(material), stress->dim, viscous);
         Strains at = strains_at(stress, point, displacement, velocity);
-        double *held = stress->elastic + 3 * point, *total = stress->total + 3 * point;
-        for (int r = 0; r < 3; r++) {
+        double *held = stress->elastic + strains * point, *total = stress->total + strains * point;
+        for (int32_t r = 0; r < strains; r++) {
             double damped = 0;
             held[r] = 0;
-            for (int c = 0; c < 3; c++) {
+            for (int32_t c = 0; c < strains; c++) {
                 held[r] += elastic[r][c] * at.strain[c];
                 damped += viscous[r][c] * at.rate[c];
             }
             total[r] = held[r] + damped;
         }
         stress->von_mises[point] =
-            von_mises(total, material_out_of_plane(material, at.strain, at.rate));
+            von_mises(stress->dim, total, material_out_of_plane(material, at.strain, at.rate));
     }
 }

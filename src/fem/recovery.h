@@ -7,12 +7,12 @@
 #include "fem/material.h"
 #include "fem/mesh.h"
 
-// Components in the order xx, zz, xz. Where materials meet, stress jumps: a node there is a point
+// Components in the order xx, zz, xz; in space xx, yy, zz, xy, yz, xz. Where materials meet, stress jumps: a node there is a point
 // in each of them. The first points are the nodes of the mesh, each with the lowest number of its
 // materials; the others follow.
 typedef struct NodalStress {
-    double *elastic;   // [point_count * 3] stress; owned
-    double *total;   // [point_count * 3] elastic and viscous, stress; owned
+    double *elastic;   // [point_count * strain_count(dim)] stress; owned
+    double *total;   // [point_count * strain_count(dim)] elastic and viscous, stress; owned
     double *von_mises;   // [point_count] of the total stress, stress; owned
     int32_t *row, *row_length;   // [point_count] where a point's row of the operator begins; owned
     int32_t *column;   // a row's nodes, and at each:

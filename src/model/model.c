@@ -55,12 +55,13 @@ static Materials scene_materials(const Scene *scene)
 
 Model model_of(const Scene *scene)
 {
-    return (Model){.scene = scene, .materials = scene_materials(scene), .law = scene->friction};
+    return (Model){
+        .scene = scene, .materials = scene_materials(scene), .law = scene->friction, .breadth = 1};
 }
 
 double model_friction_slip(const Model *model)
 {
-    double pressure = model->scales.load / model->length;
+    double pressure = model->scales.load / (model->length * model->breadth);
     return friction_slip(&model->law, pressure, model->height, model->materials.mean.young);
 }
 
@@ -68,23 +69,21 @@ double model_friction_slip(const Model *model)
 double model_machine_yield(const Model *model)
 {
     double stiffness = model_machine(model).stiffness;
-    double block = model->materials.mean.young * model->length / model->height;
+    double block = model->materials.mean.young * model->length * model->breadth / model->height;
     return stiffness > 0 ? model_friction_slip(model) * block / stiffness : 0;
 }
 
 // 4 mu (lambda + mu)/(lambda + 2 mu) of sigma = D eps: what a half-plane sets against a pressure.
-static double half_plane(double d[3][3])
+static double half_plane(Moduli moduli)
 {
-    return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
+    double axial = moduli_axial(moduli), shear = moduli_shear(moduli);
+    return axial > 0 ? 4 * shear * (axial - shear) / axial : 0;
 }
 
 static RodGround ground_of(const Model *model, double region)
 {
     const Material *face = &model->materials.list[(int32_t)region];
-    double elastic[3][3], viscous[3][3];
-    material_elastic(face, elastic);
-    material_viscous(face, viscous);
-    return (RodGround){half_plane(elastic), half_plane(viscous)};
+    return (RodGround){half_plane(material_elastic(face)), half_plane(material_viscous(face))};
 }
 
 // Where materials meet within what the strip's end covers: as their pieces yield one after the
@@ -104,7 +103,7 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
     RodGround ground[2];
     for (int k = 0; k < 2; k++) ground[k] = rod_ground(model, &model->rod_end[k]);
     if (!rod_build(&model->interface, kind, 0, rod, err)) return false;
-    rod->stiffness = model->scene->rod.stiffness;
+    rod->stiffness = model_machine(model).stiffness;
     rod_soften(&model->interface, ground, rod);
     return true;
 }
@@ -112,8 +111,9 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
 Machine model_machine(const Model *model)
 {
     const Interface *interface = &model->interface;
-    return (Machine){.stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness : 0,
-                     .first = interface_rod(interface, 0)};
+    return (Machine){
+        .stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness * model->breadth : 0,
+        .first = interface_rod(interface, 0)};
 }
 
 void model_rod_strip(const Scene *scene, double height, double *middle, double *width)

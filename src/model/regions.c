@@ -13,7 +13,7 @@ static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error 
     const Mesh *mesh = &model->mesh;
     const char *name = named->region[i].group;
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
-    const MeshGroup *group = mesh_file_group(&view, mesh->path, name, 2, err);
+    const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
     if (!group) goto cleanup;
     if (group->blurred)
         FAIL(err, ERROR_INPUT,
@@ -77,8 +77,8 @@ bool model_mark_regions(Model *model, Error *err)
     return element_groups_find(is_mean, &model->mesh, err);
 }
 
-// The material of the first element that has an edge on a curve, at the height *z (NULL: at any);
-// -1: none has. on: [nodes] of the curve.
+// The material of the first element that has a face on a boundary, at the height *z (NULL: at any);
+// -1: none has. on: [nodes] of the boundary.
 static int32_t find_region(const Mesh *mesh, const uint8_t *on, const double *z)
 {
     for (int32_t e = 0; e < mesh->element_count; e++) {
@@ -91,7 +91,7 @@ static int32_t find_region(const Mesh *mesh, const uint8_t *on, const double *z)
             bottom = fmin(bottom, mesh_height(mesh, node));
             top = fmax(top, mesh_height(mesh, node));
         }
-        if (count >= 2 && (!z || (bottom <= *z && *z <= top))) return mesh_region(mesh, e);
+        if (count >= mesh->dim && (!z || (bottom <= *z && *z <= top))) return mesh_region(mesh, e);
     }
     return -1;
 }
@@ -106,7 +106,7 @@ static uint8_t *mark_nodes(const Mesh *mesh, const int32_t *nodes, int32_t count
 
 // Rod node j, at an end of the strip from low to high, with its stretch of the face half way to the
 // nodes beside it. on: [nodes] of the face.
-static RodEnd find_end(const Model *model, const MeshCurve *rod, const uint8_t *on, int32_t j,
+static RodEnd find_end(const Model *model, const MeshBoundary *rod, const uint8_t *on, int32_t j,
                        double low, double high)
 {
     const Mesh *mesh = &model->mesh;
@@ -132,7 +132,7 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
     uint8_t *on_pad = NULL, *on_rod = NULL;
-    MeshCurve rod;
+    MeshBoundary rod;
     int32_t pad = 0;   // contact nodes of the first pad
     if (!mesh->region) return true;
     while (pad < interface->contact_count && interface->pad[pad] == interface->pad[0]) pad++;
@@ -140,7 +140,7 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     model->contact_region = find_region(mesh, on_pad, NULL);
     if (model->contact_region < 0) model->contact_region = 0;
     if (scene->rod.kind == ROD_NONE) goto cleanup;
-    TRY(mesh_curve(mesh, scene->groups.rod, &rod, err));
+    TRY(mesh_boundary(mesh, scene->groups.rod, &rod, err));
     TRY((on_rod = mark_nodes(mesh, rod.nodes, rod.node_count, err)));
     model->rod_end[0] = find_end(model, &rod, on_rod, 0, low, high);
     model->rod_end[1] = find_end(model, &rod, on_rod, interface->rod_count - 1, low, high);

@@ -17,34 +17,43 @@ static const char *dimension_name(int32_t dimension)
     return dimension >= 0 && dimension <= 2 ? names[dimension] : "volume";
 }
 
+static const char *size_name(const Mesh *mesh)
+{
+    return mesh->dim == 2 ? "area" : "volume";
+}
+
 // Between its end nodes: the arc of a curved edge is not followed.
 static double edge_length(const Mesh *mesh, const MeshGroup *group, int32_t edge)
 {
-    const int32_t *nodes = group->edge_nodes + (int64_t)edge * group->nodes_per_edge;
+    const int32_t *nodes = group->face_nodes + (int64_t)edge * group->nodes_per_face;
     return mesh_distance(mesh, nodes[0], nodes[1]);
 }
 
-// How long the curve is, and its cells.
-static void write_curve(const Mesh *mesh, const MeshGroup *group, FILE *out)
+// How long the curve is, and its cells; of a surface its nodes.
+static void write_boundary(const Mesh *mesh, const MeshGroup *group, FILE *out)
 {
+    if (mesh->dim > 2) {
+        fprintf(out, "%6d faces %6d nodes", group->face_count, group->node_count);
+        return;
+    }
     double length = 0, shortest = INFINITY, longest = 0;
-    for (int32_t i = 0; i < group->edge_count; i++) {
+    for (int32_t i = 0; i < group->face_count; i++) {
         double edge = edge_length(mesh, group, i);
         length += edge;
         shortest = fmin(shortest, edge);
         longest = fmax(longest, edge);
     }
-    fprintf(out, "%6d edges %6d nodes   length %.6g, edges %.4g to %.4g", group->edge_count,
-            group->node_count, length, group->edge_count ? shortest : 0, longest);
+    fprintf(out, "%6d edges %6d nodes   length %.6g, edges %.4g to %.4g", group->face_count,
+            group->node_count, length, group->face_count ? shortest : 0, longest);
 }
 
-// Cells and area: what `materials` of a scene may name.
-static void write_surface(const Mesh *mesh, const MeshGroup *group, FILE *out)
+// Cells and area or volume: what `materials` of a scene may name.
+static void write_region(const Mesh *mesh, const MeshGroup *group, FILE *out)
 {
     double area = 0;
     for (int32_t k = 0; k < group->element_count; k++)
         area += mesh_element_area(mesh, group->elements[k]);
-    fprintf(out, "%6d cells                area %.6g", group->element_count, area);
+    fprintf(out, "%6d cells                %s %.6g", group->element_count, size_name(mesh), area);
 }
 
 static void write_groups(const Mesh *mesh, FILE *out)
@@ -53,9 +62,12 @@ static void write_groups(const Mesh *mesh, FILE *out)
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
         fprintf(out, "    %-16s %-7s", group->name, dimension_name(group->dimension));
-        if (group->dimension == 1) write_curve(mesh, group, out);
-        if (group->dimension == 2) write_surface(mesh, group, out);
-        if (group->dimension == 0) fprintf(out, "%6d nodes", group->node_count);
+        if (group->dimension == mesh->dim)
+            write_region(mesh, group, out);
+        else if (group->dimension == mesh->dim - 1)
+            write_boundary(mesh, group, out);
+        else
+            fprintf(out, "%6d nodes", group->node_count);
         fprintf(out, "\n");
     }
 }
@@ -69,8 +81,10 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
         if (summary.element_counts[kind])
             fprintf(out, " %d %s", summary.element_counts[kind], element_name((ElementKind)kind));
-    fprintf(out, "\n  x from %.6g to %.6g, z from %.6g to %.6g, area %.6g\n", mesh->x_min,
-            mesh->x_max, mesh->z_min, mesh->z_max, summary.area);
+    fprintf(out, "\n  x from %.6g to %.6g", mesh->x_min, mesh->x_max);
+    if (mesh->dim > 2) fprintf(out, ", y from %.6g to %.6g", mesh->y_min, mesh->y_max);
+    fprintf(out, ", z from %.6g to %.6g, %s %.6g\n", mesh->z_min, mesh->z_max, size_name(mesh),
+            summary.area);
     fprintf(out, "  element edges %.4g to %.4g, largest aspect ratio %.3g\n", summary.edge_min,
             summary.edge_max, summary.aspect_max);
     write_groups(mesh, out);

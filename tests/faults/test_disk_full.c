@@ -22,16 +22,16 @@ static void write_mesh(const char *place, const char *name)
     int32_t edges = 0, tag = 0;
     for (int32_t k = 0; k < mesh.group_count; k++) {
         fprintf(file, "1 %d \"%s\"\n", k + 1, mesh.groups[k].name);
-        edges += mesh.groups[k].edge_count;
+        edges += mesh.groups[k].face_count;
     }
     fprintf(file, "$EndPhysicalNames\n$Nodes\n%d\n", mesh.node_count);
     for (int32_t i = 0; i < mesh.node_count; i++)
         fprintf(file, "%d %.17g %.17g 0\n", i + 1, mesh.position[2 * i], mesh.position[2 * i + 1]);
     fprintf(file, "$EndNodes\n$Elements\n%d\n", edges + mesh.element_count);
     for (int32_t k = 0; k < mesh.group_count; k++)
-        for (int32_t e = 0; e < mesh.groups[k].edge_count; e++)
+        for (int32_t e = 0; e < mesh.groups[k].face_count; e++)
             fprintf(file, "%d 1 2 %d %d %d %d\n", ++tag, k + 1, k + 1,
-                    mesh.groups[k].edge_nodes[2 * e] + 1, mesh.groups[k].edge_nodes[2 * e + 1] + 1);
+                    mesh.groups[k].face_nodes[2 * e] + 1, mesh.groups[k].face_nodes[2 * e + 1] + 1);
     for (int32_t e = 0; e < mesh.element_count; e++) {
         const int32_t *nodes = mesh.element_nodes + 4 * e;
         fprintf(file, "%d 3 2 9 1 %d %d %d %d\n", ++tag, nodes[0] + 1, nodes[1] + 1, nodes[2] + 1,

@@ -10,7 +10,7 @@ enum { BLOCKS = 200, STEPS = 40 };
 static RigDef random_def(Random *random)
 {
     RigDef def = rig_def();
-    def.block = (BlockDef){.kind = (ElementKind)random_index(random, ELEMENT_KIND_COUNT),
+    def.block = (BlockDef){.kind = (ElementKind)random_index(random, PLANE_KINDS),
                            .nx = 2 + random_index(random, 4),
                            .nz = 2 + random_index(random, 2),
                            .length = exp(random_between(random, -2, 2)),

@@ -74,23 +74,21 @@ static int32_t fine_points(ElementKind kind, double point[25][2], double weight[
     return 25;
 }
 
-static int32_t element_positions(const Mesh *mesh, int32_t e, double position[][2])
+static int32_t element_positions(const Mesh *mesh, int32_t e, MeshPlace position[])
 {
     int32_t first = mesh->first_node[e], count = mesh->first_node[e + 1] - first;
-    for (int32_t a = 0; a < count; a++)
-        memcpy(position[a], mesh->position + 2 * mesh->element_nodes[first + a],
-               sizeof position[a]);
+    mesh_places(mesh, mesh->element_nodes + first, count, position);
     return count;
 }
 
 // What stands at one point of an element.
 typedef struct Place {
     ShapeValues shape;
-    double b[3][ELEMENT_DOFS_MAX];
+    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
     double x, z, weight;   // weight: with the Jacobian determinant
 } Place;
 
-static Place place_at(ElementKind kind, const double (*position)[2], const double point[2],
+static Place place_at(ElementKind kind, const MeshPlace *position, const double point[2],
                       double weight)
 {
     Place place = {.shape = shape_at(kind, point)};
@@ -106,13 +104,13 @@ static void add_body_forces(Problem *problem)
 {
     const Mesh *mesh = &problem->mesh;
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        double position[ELEMENT_NODES_MAX][2], point[25][2], weight[25];
+        MeshPlace position[ELEMENT_NODES_MAX];
+        double point[25][2], weight[25];
         int32_t count = element_positions(mesh, e, position);
         int32_t points = fine_points(mesh->kind[e], point, weight);
         for (int32_t q = 0; q < points; q++) {
             double force[2];
-            Place place =
-                place_at(mesh->kind[e], (const double(*)[2])position, point[q], weight[q]);
+            Place place = place_at(mesh->kind[e], (const MeshPlace *)position, point[q], weight[q]);
             body_force(&problem->material, place.x, place.z, force);
             for (int32_t a = 0; a < count; a++) {
                 int32_t node = mesh->element_nodes[mesh->first_node[e] + a];
@@ -174,16 +172,16 @@ cleanup:
 static void print_errors(const Problem *problem)
 {
     const Mesh *mesh = &problem->mesh;
-    double d[3][3], wrong = 0, size = 0, wrong_energy = 0, energy = 0;
-    material_elastic(&problem->material, d);
+    double d[STRAINS_MAX][STRAINS_MAX], wrong = 0, size = 0, wrong_energy = 0, energy = 0;
+    moduli_matrix(material_elastic(&problem->material), 2, d);
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        double position[ELEMENT_NODES_MAX][2], point[25][2], weight[25];
+        MeshPlace position[ELEMENT_NODES_MAX];
+        double point[25][2], weight[25];
         int32_t count = element_positions(mesh, e, position);
         int32_t points = fine_points(mesh->kind[e], point, weight);
         for (int32_t q = 0; q < points; q++) {
             double u[2], gradient[2][2], second[2][3], ours[2] = {0};
-            Place place =
-                place_at(mesh->kind[e], (const double(*)[2])position, point[q], weight[q]);
+            Place place = place_at(mesh->kind[e], (const MeshPlace *)position, point[q], weight[q]);
             chosen(place.x, place.z, u, gradient, second);
             double exact[3] = {gradient[0][0], gradient[1][1], gradient[0][1] + gradient[1][0]};
             double off[3] = {-exact[0], -exact[1], -exact[2]};

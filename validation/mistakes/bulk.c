@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-void __real_material_elastic(const Material *material, double d[3][3]);
-void __wrap_material_elastic(const Material *material, double d[3][3]);
-void __real_material_viscous(const Material *material, double d[3][3]);
-void __wrap_material_viscous(const Material *material, double d[3][3]);
+Moduli __real_material_elastic(const Material *material);
+Moduli __wrap_material_elastic(const Material *material);
+Moduli __real_material_viscous(const Material *material);
+Moduli __wrap_material_viscous(const Material *material);
 InterfaceOperator *__real_interface_operator_create(BulkOperator *system, OperatorTerms terms,
                                                     Error *err);
 InterfaceOperator *__wrap_interface_operator_create(BulkOperator *system, OperatorTerms terms,
@@ -33,19 +33,22 @@ Mistake mistake_made(void)
 }
 
 // sigma = D eps with Young's modulus and Poisson's ratio of the other plane state.
-void __wrap_material_elastic(const Material *material, double d[3][3])
+Moduli __wrap_material_elastic(const Material *material)
 {
     Material other = *material;
     if (mistake_made() == MISTAKE_WRONG_PLANE) other.plane_strain = !material->plane_strain;
-    __real_material_elastic(&other, d);
+    return __real_material_elastic(&other);
 }
 
-void __wrap_material_viscous(const Material *material, double d[3][3])
+// A shear viscosity that is twice too large leaves that along an axis as it is.
+Moduli __wrap_material_viscous(const Material *material)
 {
-    __real_material_viscous(material, d);
+    Moduli moduli = __real_material_viscous(material);
     Mistake mistake = mistake_made();
-    if (mistake == MISTAKE_VISCOUS_SIGN) d[0][1] = d[1][0] = -material->eta2;
-    if (mistake == MISTAKE_SHEAR_VISCOSITY) d[2][2] = material->eta1;
+    if (mistake == MISTAKE_VISCOUS_SIGN) moduli.trace = -material->eta2;
+    if (mistake == MISTAKE_SHEAR_VISCOSITY)
+        moduli = (Moduli){2 * material->eta1, material->eta2 - material->eta1};
+    return moduli;
 }
 
 // Only matrices of steps: those without mass are of equilibria and certificates.

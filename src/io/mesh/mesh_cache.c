@@ -5,6 +5,7 @@
 
 #include "base/computation.h"
 #include "io/cache/store.h"
+#include "io/mesh/element_faces.h"
 #include "io/mesh/mesh_source.h"
 
 bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t parameter_count,
@@ -29,23 +30,38 @@ static void archive_elements(MeshFile *mesh, Archive *archive)
     const int32_t *first = mesh->first_node;
     archive_require(archive, first[0] == 0);
     for (int32_t k = 0; archive_fills(archive) && k < count; k++)
-        archive_require(archive,
-                        first[k + 1] - first[k] == element_node_count((ElementKind)mesh->kind[k]));
+        archive_require(archive, element_dim((ElementKind)mesh->kind[k]) == mesh->dim &&
+                                     first[k + 1] - first[k] ==
+                                         element_node_count((ElementKind)mesh->kind[k]));
     archive_new_indices(archive, &mesh->element_nodes, first[count], 0, mesh->node_count);
+}
+
+// The kinds that a face may have; what it has less than room is filled up.
+static void require_faces(const MeshGroup *group, const MeshFile *mesh, Archive *archive)
+{
+    for (int32_t k = 0; archive_fills(archive) && k < group->face_count; k++) {
+        int32_t count = group->nodes_per_face;
+        const int32_t *nodes = group->face_nodes + (int64_t)k * count;
+        while (count > 0 && nodes[count - 1] < 0) count--;
+        archive_require(archive, element_kind_of(mesh->dim - 1, count) >= 0);
+        for (int32_t a = 0; a < count; a++) archive_require(archive, nodes[a] >= 0);
+    }
 }
 
 static void archive_group(MeshGroup *group, const MeshFile *mesh, Archive *archive)
 {
     archive_text(archive, group->name, sizeof group->name);
-    archive_index(archive, &group->dimension, 0, 3);
+    archive_index(archive, &group->dimension, 0, mesh->dim + 1);
     archive_index(archive, &group->number, 0, INT32_MAX);
-    archive_length(archive, &group->edge_count);
-    archive_index(archive, &group->nodes_per_edge, 0, EDGE_NODES_MAX + 1);
+    archive_length(archive, &group->face_count);
+    archive_index(archive, &group->nodes_per_face, 0, FACE_NODES_MAX + 1);
     archive_length(archive, &group->node_count);
     archive_length(archive, &group->element_count);
     archive_flag(archive, &group->blurred);
-    archive_new_indices(archive, &group->edge_nodes,
-                        (int64_t)group->edge_count * group->nodes_per_edge, 0, mesh->node_count);
+    archive_new_indices(archive, &group->face_nodes,
+                        (int64_t)group->face_count * group->nodes_per_face, mesh->dim == 2 ? 0 : -1,
+                        mesh->node_count);
+    require_faces(group, mesh, archive);
     archive_new_indices(archive, &group->nodes, group->node_count, 0, mesh->node_count);
     archive_new_indices(archive, &group->elements, group->element_count, 0, mesh->element_count);
 }

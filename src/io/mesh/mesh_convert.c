@@ -3,13 +3,14 @@
 //
 //   1  pick the elements of the body                      (raw_elements)
 //   2  sort the nodes by tag, so that a tag is found fast (NodeTable)
-//   3  mark the nodes to keep: those of the elements, those of named curves, lone ones
-//   4  number them in the order of their tags, copy positions, check the plane
+//   3  mark the nodes to keep: those of the elements, those of named boundaries, lone ones
+//   4  number them in the order of their tags, copy positions, check the plane where it is one
 //   5  write elements and groups with the new numbers
 #include "io/mesh/mesh_raw.h"
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/mesh/element_faces.h"
 #include "io/mesh/raw_elements.h"
 
 #include <math.h>
@@ -144,12 +145,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Marks the nodes of the curve groups: those on no surface element are refused likewise.
-static void mark_curves(const MeshRaw *raw, NodeTable *table)
+// Marks the nodes of the boundary groups: those on no element of the body are refused likewise.
+static void mark_boundaries(const MeshRaw *raw, int32_t dim, NodeTable *table)
 {
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
-        if (block->dimension != 1 || raw_block_groups(raw, block) == 0) continue;
+        if (block->dimension != dim - 1 || raw_block_groups(raw, block) == 0) continue;
         for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
             int32_t at = table_find(table, block->nodes[i]);
             if (at >= 0) table->index[at] = 0;
@@ -180,7 +181,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         mesh->node_number[table->index[k]] = table->number[k];
         extent = fmax(extent,
                       fmax(fabs(from[0] - mesh->position[0]), fabs(from[1] - mesh->position[1])));
-        if (fabs(from[2]) > fabs(deepest)) {
+        if (mesh->dim == 2 && fabs(from[2]) > fabs(deepest)) {
             deepest = from[2];
             worst = table->number[k];
         }
@@ -239,12 +240,17 @@ static int compare_groups(const void *a, const void *b)
     return (first->number > second->number) - (first->number < second->number);
 }
 
+static bool is_quadratic(const RawElement *element)
+{
+    return element->count > element_corner_count((ElementKind)element->kind);
+}
+
 // Fills group->nodes with the distinct nodes of its elements, as far as they are in the mesh.
 static bool store_group_nodes(const RawElements *elements, const NodeTable *table, MeshGroup *group,
                               Error *err)
 {
     int32_t count = 0;
-    group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * EDGE_NODES_MAX, err);
+    group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * FACE_NODES_MAX, err);
     if (!group->nodes) goto cleanup;
     for (int32_t k = 0; k < elements->count; k++)
         for (int32_t a = 0; a < elements->items[k].count; a++) {
@@ -259,28 +265,30 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Copies the edges of a curve, whose nodes mark_curves has put into the mesh. Edges of two and of
-// three nodes in one group are an error.
-static bool store_group_edges(const char *path, const RawElements *edges, const NodeTable *table,
+// Copies the faces of a boundary, whose nodes mark_boundaries has put into the mesh. Faces of
+// different order in one group are an error; triangles beside quadrilaterals are not.
+static bool store_group_faces(const char *path, const RawElements *faces, const NodeTable *table,
                               MeshGroup *group, Error *err)
 {
-    int32_t width = edges->count ? edges->items[0].count : 2;
-    group->edge_nodes = NEW_ARRAY(int32_t, (int64_t)edges->count * width, err);
-    if (!group->edge_nodes) goto cleanup;
-    group->nodes_per_edge = width;
-    for (int32_t k = 0; k < edges->count; k++) {
-        if (edges->items[k].count != width)
-            FAIL(err, ERROR_INPUT, "%s: group '%s' mixes edges of %d and %d nodes", path,
-                 group->name, width, edges->items[k].count);
+    int32_t width = group->dimension + 1;
+    for (int32_t k = 0; k < faces->count; k++) width = (int32_t)fmax(width, faces->items[k].count);
+    group->face_nodes = NEW_ARRAY(int32_t, (int64_t)faces->count * width, err);
+    if (!group->face_nodes) goto cleanup;
+    group->nodes_per_face = width;
+    for (int32_t k = 0; k < faces->count; k++) {
+        int32_t nodes = faces->items[k].count, first = faces->items[0].count;
+        if (is_quadratic(&faces->items[k]) != is_quadratic(&faces->items[0]))
+            FAIL(err, ERROR_INPUT, "%s: group '%s' mixes %s of %d and %d nodes", path, group->name,
+                 group->dimension == 1 ? "edges" : "faces", first, nodes);
         for (int32_t a = 0; a < width; a++) {
-            int32_t at = table_find(table, edges->items[k].nodes[a]);
-            if (at < 0)
+            int32_t at = a < nodes ? table_find(table, faces->items[k].nodes[a]) : -1;
+            if (a < nodes && at < 0)
                 FAIL(err, ERROR_INPUT, "%s: group '%s' uses node %lld, which the file lacks", path,
-                     group->name, (long long)edges->items[k].nodes[a]);
-            group->edge_nodes[k * width + a] = table->index[at];
+                     group->name, (long long)faces->items[k].nodes[a]);
+            group->face_nodes[k * width + a] = a < nodes ? table->index[at] : -1;
         }
     }
-    group->edge_count = edges->count;
+    group->face_count = faces->count;
 cleanup:
     return error_is_clean(err);
 }
@@ -300,11 +308,10 @@ static int32_t find_element(const MeshFile *mesh, int64_t number)
     return -1;
 }
 
-// The elements of a surface, by the entities that it is made of: copies of an element are on the
-// same entity as the one that was kept. surface: [mesh->element_count] as they were picked.
-static bool store_group_elements(const MeshRaw *raw, const RawGroup *from,
-                                 const RawElements *surface, const MeshFile *mesh, MeshGroup *group,
-                                 Error *err)
+// The elements of a region, by the entities that it is made of: copies of an element are on the
+// same entity as the one that was kept. body: [mesh->element_count] as they were picked.
+static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const RawElements *body,
+                                 const MeshFile *mesh, MeshGroup *group, Error *err)
 {
     int32_t most = 0;
     for (int32_t k = 0; k < raw->block_count; k++)
@@ -315,7 +322,7 @@ static bool store_group_elements(const MeshRaw *raw, const RawGroup *from,
         for (int64_t i = 0; raw_group_holds(from, block) && i < block->count; i++) {
             int32_t e = find_element(mesh, block->number[i]);
             if (e < 0) continue;
-            const RawElement *item = &surface->items[e];
+            const RawElement *item = &body->items[e];
             group->elements[group->element_count++] = e;
             if (raw->version > 0 && raw->version < 4 && item->copies < item->groups)
                 group->blurred = true;
@@ -326,8 +333,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// One group: its name (or its number in decimal), and its edges and nodes; of a surface its
-// elements.
+// One group: its name (or its number in decimal), and its faces and nodes.
 static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable *table,
                           const RawGroup *from, MeshGroup *group, Error *err)
 {
@@ -343,11 +349,12 @@ static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable 
              "%s: the name of group %d of dimension %d has the character U+%04X, which no page or "
              "picture can show",
              path, from->number, from->dimension, code);
-    if (from->dimension >= 2) goto cleanup;
+    if (from->dimension >= raw_dimension(raw)) goto cleanup;
     TRY(raw_pick_group(raw, path, from, group->name, &elements, err));
     if (raw->version > 0 && raw->version < 4)
         TRY(raw_check_copies(path, group->name, &elements, err));
-    if (from->dimension == 1) TRY(store_group_edges(path, &elements, table, group, err));
+    if (from->dimension == raw_dimension(raw) - 1)
+        TRY(store_group_faces(path, &elements, table, group, err));
     TRY(store_group_nodes(&elements, table, group, err));
 cleanup:
     memory_free(elements.items);
@@ -356,14 +363,14 @@ cleanup:
 
 // All groups. Each name is there once, whatever the dimension.
 static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
-                           const RawElements *surface, MeshFile *mesh, Error *err)
+                           const RawElements *body, MeshFile *mesh, Error *err)
 {
     if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) goto cleanup;
     for (int32_t k = 0; k < raw->group_count; k++) {
         MeshGroup *group = &mesh->groups[mesh->group_count++];
         TRY(convert_group(raw, path, table, &raw->groups[k], group, err));
-        if (group->dimension == 2)
-            TRY(store_group_elements(raw, &raw->groups[k], surface, mesh, group, err));
+        if (group->dimension == mesh->dim)
+            TRY(store_group_elements(raw, &raw->groups[k], body, mesh, group, err));
         for (const MeshGroup *other = mesh->groups; other < group; other++)
             if (strcmp(other->name, group->name) == 0)
                 FAIL(err, ERROR_INPUT,
@@ -379,20 +386,19 @@ cleanup:
 
 bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err)
 {
-    RawElements surface = {0};
+    RawElements body = {0};
     NodeTable table = {0};
-    *mesh = (MeshFile){0};
-    TRY(raw_pick_surface(raw, path, &surface, err));
-    mesh->dim = element_dim(surface.items[0].kind);
+    *mesh = (MeshFile){.dim = raw_dimension(raw)};
+    TRY(raw_pick_body(raw, mesh->dim, path, &body, err));
     TRY(table_build(raw, path, &table, err));
-    TRY(mark_elements(&surface, path, &table, err));
+    TRY(mark_elements(&body, path, &table, err));
     TRY(mark_orphans(raw, &table, err));
-    mark_curves(raw, &table);
+    mark_boundaries(raw, mesh->dim, &table);
     TRY(number_nodes(raw, path, &table, mesh, err));
-    TRY(store_elements(&surface, &table, mesh, err));
-    TRY(convert_groups(raw, path, &table, &surface, mesh, err));
+    TRY(store_elements(&body, &table, mesh, err));
+    TRY(convert_groups(raw, path, &table, &body, mesh, err));
 cleanup:
     table_destroy(&table);
-    memory_free(surface.items);
+    memory_free(body.items);
     return error_is_clean(err);
 }

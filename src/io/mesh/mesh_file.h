@@ -8,14 +8,21 @@
 
 #include <stdint.h>
 
-// kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's and
-// VTK's: corners, mid-sides, centre.
+// kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's:
+// corners, mid-sides, faces, centre. Those of one dimension are faces of a mesh in the plane.
 #define ELEMENT_KINDS(X)                                                                           \
     X(ELEMENT_T3, 2, 3, 3, 2, 5, "T3")                                                             \
     X(ELEMENT_T6, 2, 6, 3, 9, 22, "T6")                                                            \
     X(ELEMENT_Q4, 2, 4, 4, 3, 9, "Q4")                                                             \
     X(ELEMENT_Q8, 2, 8, 4, 16, 23, "Q8")                                                           \
-    X(ELEMENT_Q9, 2, 9, 4, 10, 28, "Q9")
+    X(ELEMENT_Q9, 2, 9, 4, 10, 28, "Q9")                                                           \
+    X(ELEMENT_L2, 1, 2, 2, 1, 3, "L2")                                                             \
+    X(ELEMENT_L3, 1, 3, 2, 8, 21, "L3")                                                            \
+    X(ELEMENT_TET4, 3, 4, 4, 4, 10, "TET4")                                                        \
+    X(ELEMENT_TET10, 3, 10, 4, 11, 24, "TET10")                                                    \
+    X(ELEMENT_WEDGE6, 3, 6, 6, 6, 13, "WEDGE6")                                                    \
+    X(ELEMENT_HEX8, 3, 8, 8, 5, 12, "HEX8")                                                        \
+    X(ELEMENT_HEX27, 3, 27, 8, 12, 29, "HEX27")
 
 typedef enum ElementKind {
 #define X(kind, ...) kind,
@@ -23,25 +30,25 @@ typedef enum ElementKind {
 #undef X
 } ElementKind;
 
-enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3, DIM_MAX = 2 };
+enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3 };
 
-// x to z in as many numbers as the mesh has dimensions; in the plane (x, z).
+// x to z in as many numbers as the mesh has dimensions: (x, z) in the plane, (x, y, z) in space.
 typedef double MeshPlace[DIM_MAX];
 
-// One physical group: of surfaces (dimension 2), of curves (1) or of points (0).
+// One physical group: of points (dimension 0), curves (1), surfaces (2) or volumes (3). Of the mesh's
+// own dimension it is a region, of one less a piece of boundary, made of faces.
 typedef struct MeshGroup {
     char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal
-    int32_t dimension;   // 0, 1 or 2
+    int32_t dimension;   // 0 to 3
     int32_t number;   // gmsh's physical tag
-    int32_t edge_count;   // 0 unless dimension is 1
-    int32_t nodes_per_edge;   // 2 or 3 (end, end, middle)
-    int32_t *edge_nodes;   // [edge_count * nodes_per_edge] node indices; owned
+    int32_t face_count;   // 0 unless it is a piece of boundary
+    int32_t nodes_per_face;   // room for each: where kinds are mixed the last of some are -1
+    int32_t *face_nodes;   // [face_count * nodes_per_face] node indices; owned
     int32_t node_count;
-    int32_t *nodes;   // [node_count] ascending, each once; empty for surfaces; owned
-    int32_t element_count;   // 0 unless dimension is 2
+    int32_t *nodes;   // [node_count] ascending, each once; empty for regions; owned
+    int32_t element_count;   // 0 unless it is a region
     int32_t *elements;   // [element_count] of the mesh, ascending; owned
-    bool
-        blurred;   // a surface of a file of format 2.2 that shares its entity's number with another
+    bool blurred;   // a region of a file of format 2.2 that shares its entity's number with another
     // group: which of the two an element belongs to is not known
 } MeshGroup;
 
@@ -52,7 +59,8 @@ typedef struct MeshFile {
     MeshOrigin origin;
     int32_t dim;   // numbers of a place
     int32_t node_count;
-    double *position;   // [node_count * dim] (x, z): gmsh's x and y; length; owned
+    double *position;   // [node_count * dim] (x, z), gmsh's x and y; in space gmsh's x, y and z;
+        // length; owned
     int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
     int32_t element_count;
     int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
@@ -73,10 +81,12 @@ typedef struct MeshParameter {
 // The parameter `refine` (cells so many times as small) is known to every mesh: where a .geo does
 // not declare it itself, gmsh halves all edges, so that it must be a power of two.
 //
-// Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed in 2D with `parameters`.
+// Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has a
+// volume in 3D, else in 2D.
 // Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind
 // that is not in ELEMENT_KINDS, a parameter the .geo does not know, a name used twice.
-// A mesh that is not in the plane z = 0 of gmsh is refused. *mesh is destroyed by the caller.
+// A mesh without volumes that is not in the plane z = 0 of gmsh is refused. *mesh is destroyed by the
+// caller.
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     MeshFile *mesh, Error *err);
 void mesh_file_destroy(MeshFile *mesh);
@@ -99,5 +109,7 @@ int32_t element_dim(ElementKind kind);
 int32_t element_node_count(ElementKind kind);
 int32_t element_corner_count(ElementKind kind);
 const char *element_name(ElementKind kind);
+// Which of its nodes VTK has in place k.
+int32_t element_vtk_node(ElementKind kind, int32_t k);
 
 #endif

@@ -17,7 +17,8 @@
 
 // SCRIPT_NAME_SIZE: "/proc/self/fd/" and an int. MESH_ADAPT_QUADS: a value of Mesh.Algorithm.
 enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8, LOCALE_SIZE = 200 };
-enum { MSH_TRI_3 = 2, MSH_QUA_4 = 3, MSH_QUA_8 = 16 };   // gmsh's element types
+// gmsh's element types.
+enum { MSH_TRI_3 = 2, MSH_QUA_4, MSH_TET_4, MSH_HEX_8, MSH_PRI_6, MSH_QUA_8 = 16 };
 
 // gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
 static const char *first_error(char **log, size_t count)
@@ -32,12 +33,12 @@ static const char *first_error(char **log, size_t count)
 // name. Finds that name; false when the error is another one.
 static bool find_repeated_name(const char *error, char name[GROUP_NAME_SIZE])
 {
-    static const char *const words[] = {"point", "curve", "surface"};
+    static const char *const words[] = {"point", "curve", "surface", "volume"};
     char word[16];
     int number = 0, status = 0;
     char *found = NULL;
     if (sscanf(error, "Physical %15s %d already exists", word, &number) != 2) return false;
-    for (int dimension = 0; dimension < 3; dimension++)
+    for (int dimension = 0; dimension <= 3; dimension++)
         if (strcmp(word, words[dimension]) == 0)
             gmshModelGetPhysicalName(dimension, number, &found, &status);
     snprintf(name, GROUP_NAME_SIZE, "%s", found ? found : "");
@@ -140,7 +141,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Afterwards gmsh holds a mesh in two dimensions.
+// Where there is a volume, its mesh is that of the block. Two: a surface.
+static int model_dimension(void)
+{
+    int status = 0;
+    int dimension = gmshModelGetDimension(&status);
+    return dimension == 3 ? 3 : 2;
+}
+
+// Afterwards gmsh holds a mesh.
 static bool gmsh_load(const MeshRawRequest *request, Error *err)
 {
     int status = 0;
@@ -156,10 +165,15 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
              request->path);
     // Meshing threads that throw would end the program: let them log, and look at the log.
     gmshOptionSetNumber("General.AbortOnError", 0, &status);
-    gmshModelMeshGenerate(2, &status);
+    gmshModelMeshGenerate(model_dimension(), &status);
     if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
 cleanup:
     return error_is_clean(err);
+}
+
+static bool is_linear(int type)
+{
+    return type >= MSH_TRI_3 && type <= MSH_PRI_6;
 }
 
 // Halves every edge `splits` times. gmsh makes linear elements of it, which get their order back;
@@ -169,9 +183,9 @@ static bool gmsh_split(const MeshRawRequest *request, Error *err)
     int *types = NULL, status = 0, order = 1;
     size_t count = 0;
     if (request->splits == 0) return true;
-    gmshModelMeshGetElementTypes(&types, &count, 2, -1, &status);
+    gmshModelMeshGetElementTypes(&types, &count, model_dimension(), -1, &status);
     for (size_t k = 0; k < count; k++) {
-        if (types[k] != MSH_TRI_3 && types[k] != MSH_QUA_4) order = 2;
+        if (!is_linear(types[k])) order = 2;
         if (types[k] == MSH_QUA_8) gmshOptionSetNumber("Mesh.SecondOrderIncomplete", 1, &status);
     }
     for (int32_t k = 0; k < request->splits && status == 0; k++) gmshModelMeshRefine(&status);

@@ -43,7 +43,7 @@ typedef struct MeshRaw {
 // What the module is asked for.
 typedef struct MeshRawRequest {
     const char *path;
-    bool generate;   // a .geo: mesh it in 2D
+    bool generate;   // a .geo: mesh it, in 3D where it has a volume
     const MeshParameter *parameters;   // [parameter_count] all known to the .geo
     int32_t parameter_count;
     int32_t splits;   // so many times every edge is halved afterwards
@@ -57,8 +57,8 @@ bool amontons_gmsh_read(const MeshRawRequest *request, MeshRaw *raw, Error *err)
 
 void mesh_raw_destroy(MeshRaw *raw);
 
-// Picks the surface elements (where physical surfaces exist: theirs, as gmsh does when it saves a
-// mesh), the nodes and the groups. Nodes and elements are ordered by gmsh's tags, so that a .geo
+// Picks the volume elements, where there are none the surface elements (where physical groups of that
+// dimension exist: theirs, as gmsh does when it saves a mesh), the nodes and the groups. Nodes and elements are ordered by gmsh's tags, so that a .geo
 // and the .msh made from it give the same arrays. Errors (ERROR_INPUT) name `path`.
 bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err);
 

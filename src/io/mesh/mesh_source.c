@@ -74,10 +74,10 @@ void mesh_file_hash(const MeshFile *mesh, Hash *hash)
     hash_bytes(hash, mesh->element_nodes, (size_t)mesh->first_node[elements] * sizeof(int32_t));
     for (int32_t k = 0; k < mesh->group_count; k++) {
         const MeshGroup *group = &mesh->groups[k];
-        size_t ends = (size_t)group->edge_count * (size_t)group->nodes_per_edge;
+        size_t ends = (size_t)group->face_count * (size_t)group->nodes_per_face;
         hash_text(hash, group->name);
         hash_number(hash, group->dimension);
-        hash_bytes(hash, group->edge_nodes, ends * sizeof(int32_t));
+        hash_bytes(hash, group->face_nodes, ends * sizeof(int32_t));
         hash_bytes(hash, group->nodes, (size_t)group->node_count * sizeof(int32_t));
     }
 }

@@ -9,15 +9,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-// gmsh's numbers for what points and curves are made of; surfaces are in ELEMENT_KINDS.
-enum { GMSH_POINT = 15, GMSH_LINE_2 = 1, GMSH_LINE_3 = 8, KIND_LIST_SIZE = 64 };
+// gmsh's numbers of what is not in ELEMENT_KINDS.
+enum { GMSH_POINT = 15, GMSH_HEX_20 = 17, GMSH_WEDGE_15 = 18, KIND_LIST_SIZE = 64 };
 
-// The ElementKind of a gmsh type, -1: none of ours.
-static int32_t kind_of_type(int32_t gmsh_type)
+// The ElementKind of a block's gmsh type, -1: none of ours.
+static int32_t kind_of(const RawBlock *block)
 {
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
-        if (element_info((ElementKind)kind)->gmsh_type == gmsh_type) return kind;
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+        const ElementInfo *info = element_info((ElementKind)kind);
+        if (info->gmsh_type == block->gmsh_type && info->dim == block->dimension) return kind;
+    }
     return -1;
+}
+
+// Why some are not among ours.
+static const char *why_not(int32_t gmsh_type)
+{
+    bool serendipity = gmsh_type == GMSH_HEX_20 || gmsh_type == GMSH_WEDGE_15;
+    return serendipity ? ": its faces have corners of negative weight, which can carry no contact "
+                         "(Mesh.SecondOrderIncomplete = 0 makes HEX27)"
+                       : "";
+}
+
+int32_t raw_dimension(const MeshRaw *raw)
+{
+    for (int32_t k = 0; k < raw->block_count; k++)
+        if (raw->blocks[k].dimension == 3 && raw->blocks[k].count > 0) return 3;
+    return 2;
 }
 
 // Tags of entities are signed in some files: the sign is the orientation.
@@ -37,10 +55,10 @@ int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block)
 }
 
 // Whether the file says which surfaces count.
-static bool has_surface_group(const MeshRaw *raw)
+static bool has_region(const MeshRaw *raw, int32_t dim)
 {
     for (int32_t k = 0; k < raw->group_count; k++)
-        if (raw->groups[k].dimension == 2) return true;
+        if (raw->groups[k].dimension == dim) return true;
     return false;
 }
 
@@ -94,7 +112,7 @@ static bool append_block(RawElements *elements, const RawBlock *block, int32_t g
             (RawElement){.number = block->number[k],
                          .nodes = block->nodes + k * block->nodes_per_element,
                          .count = block->nodes_per_element,
-                         .kind = kind_of_type(block->gmsh_type),
+                         .kind = kind_of(block),
                          .copies = 1,
                          .groups = groups};
 cleanup:
@@ -114,47 +132,47 @@ static void sort_elements(RawElements *elements, bool may_repeat)
 }
 
 // "T3, T6, Q4, Q8, Q9", for messages.
-static void list_kinds(char list[KIND_LIST_SIZE])
+static void list_kinds(int32_t dim, char list[KIND_LIST_SIZE])
 {
     int length = 0;
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
-        length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s",
-                           length ? ", " : "", element_name((ElementKind)kind));
+        if (element_dim((ElementKind)kind) == dim)
+            length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s",
+                               length ? ", " : "", element_name((ElementKind)kind));
 }
 
 // picked: empty before; its elements point into `raw`, which must outlive them. Where the file has
-// physical surfaces only their elements count, else all that are flat.
-bool raw_pick_surface(const MeshRaw *raw, const char *path, RawElements *picked, Error *err)
+// physical groups of this dimension only their elements count, else all of it.
+bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElements *picked,
+                   Error *err)
 {
-    bool by_group = has_surface_group(raw), may_repeat = false;
+    bool by_group = has_region(raw, dim), may_repeat = false;
+    const char *what = dim == 2 ? "surface" : "volume";
     int64_t others = 0;
     char allowed[KIND_LIST_SIZE];
-    list_kinds(allowed);
+    list_kinds(dim, allowed);
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
-        if (block->dimension == 3)
-            FAIL(err, ERROR_INPUT,
-                 "%s: holds %lld volume elements (%s); a plane mesh of %s is wanted", path,
-                 (long long)block->count, block->type_name, allowed);
-        int32_t groups = block->dimension == 2 ? raw_block_groups(raw, block) : 0;
-        if (block->dimension != 2 || (by_group && groups == 0)) {
+        int32_t groups = block->dimension == dim ? raw_block_groups(raw, block) : 0;
+        if (block->dimension != dim || (by_group && groups == 0)) {
             others += block->count;
             continue;
         }
-        if (kind_of_type(block->gmsh_type) < 0)
+        if (kind_of(block) < 0)
             FAIL(err, ERROR_INPUT,
-                 "%s: element %lld is of a kind that is not supported, %s; allowed are %s", path,
-                 (long long)(block->count ? block->number[0] : 0), block->type_name, allowed);
+                 "%s: element %lld is of a kind that is not supported, %s%s; allowed are %s", path,
+                 (long long)(block->count ? block->number[0] : 0), block->type_name,
+                 why_not(block->gmsh_type), allowed);
         may_repeat = may_repeat || groups > 1;
         TRY(append_block(picked, block, groups, err));
     }
     if (picked->count == 0)
         FAIL(
             err, ERROR_INPUT,
-            "%s: has no surface elements%s (%lld nodes, %lld other elements); was it meshed in 2D, "
-            "and is the surface in a physical group?",
-            path, by_group ? " in its physical surfaces" : "", (long long)raw->node_count,
-            (long long)others);
+            "%s: has no %s elements%s%s%s (%lld nodes, %lld other elements); was it meshed in %dD, "
+            "and is the %s in a physical group?",
+            path, what, by_group ? " in its physical " : "", by_group ? what : "",
+            by_group ? "s" : "", (long long)raw->node_count, (long long)others, dim, what);
     sort_elements(picked, may_repeat);
 cleanup:
     return error_is_clean(err);
@@ -176,16 +194,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Edges of more than three nodes (order 3 on) are refused here, before their surface elements, as a
-// message about the group says more.
+// Faces of order 3 on are refused here, before the elements, as a message about the group says more.
 bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
                     RawElements *picked, Error *err)
 {
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
         if (!raw_group_holds(from, block)) continue;
-        if (block->gmsh_type != GMSH_POINT && block->gmsh_type != GMSH_LINE_2 &&
-            block->gmsh_type != GMSH_LINE_3)
+        if (block->gmsh_type != GMSH_POINT && kind_of(block) < 0)
             FAIL(err, ERROR_INPUT,
                  "%s: group '%s' has elements of a kind that is not supported, %s", path, name,
                  block->type_name);

@@ -14,7 +14,7 @@ typedef struct RawElement {
     int64_t number;
     const int64_t *nodes;   // its node tags, in the block
     int32_t count;   // of nodes
-    int32_t kind;   // ElementKind; -1 for points and lines
+    int32_t kind;   // ElementKind; -1 for points
     int32_t copies;   // how often the file gives it
     int32_t groups;   // in how many physical groups its entity is
 } RawElement;
@@ -29,11 +29,15 @@ bool raw_group_holds(const RawGroup *group, const RawBlock *block);
 // In how many groups of its dimension a block's entity is.
 int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block);
 
-// The elements of the body by ascending number: of the physical surfaces, or of every surface where
-// there are none. ERROR_INPUT: none, volumes, or a kind that is not in ELEMENT_KINDS.
-bool raw_pick_surface(const MeshRaw *raw, const char *path, RawElements *picked, Error *err);
+// 3 where there are volume elements, else 2.
+int32_t raw_dimension(const MeshRaw *raw);
 
-// The points or edges of a group, by ascending number; `name` for messages.
+// The elements of the body by ascending number: of the physical groups of its dimension, or all of
+// it where there are none. ERROR_INPUT: none, or a kind that is not in ELEMENT_KINDS.
+bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElements *picked,
+                   Error *err);
+
+// The points, edges or faces of a group, by ascending number; `name` for messages.
 bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
                     RawElements *picked, Error *err);
 

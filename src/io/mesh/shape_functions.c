@@ -1,61 +1,146 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lagrange elements on triangle and square, and the eight-node serendipity element:
-//   T6  corner a: L_a (2 L_a - 1),  mid-side ab: 4 L_a L_b,  L = (1 - xi - eta, xi, eta)
-//   Q9  products of the 1D quadratics  s (s + c) / 2 at c = -1, 1  and  1 - s^2 at c = 0
-//   Q8  corner: (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4,
-//       mid-side: (1 - xi^2)(1 + eta_a eta) / 2, or with xi and eta exchanged
+// Lagrange elements: simplices, products of lines, the wedge (a triangle times a line), and the
+// eight-node serendipity element. With L = (1 - xi - eta - ..., xi, eta, ...) and c = -1, 0, 1:
+//   T6, TET10     corner a: L_a (2 L_a - 1),  mid-side ab: 4 L_a L_b
+//   L3, Q9, HEX27 products of the 1D quadratics  s (s + c) / 2 at c = -1, 1  and  1 - s^2 at c = 0
+//   Q8            corner: (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4,
+//                 mid-side: (1 - xi^2)(1 + eta_a eta) / 2, or with xi and eta exchanged
 // Reference: Hughes, The Finite Element Method (1987), section 3.6 and appendix 3.I.
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
 #include <string.h>
 
-// Reference coordinates of the nodes, in gmsh's order: corners, mid-sides, centre.
-static const double TRIANGLE_NODES[6][2] = {{0, 0}, {1, 0}, {0, 1}, {.5, 0}, {.5, .5}, {0, .5}};
-static const double SQUARE_NODES[9][2] = {{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
-                                          {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
+// Reference coordinates of the nodes, in gmsh's order: corners, mid-sides, faces, centre.
+static const double LINE_NODES[3][DIM_MAX] = {{-1}, {1}, {0}};
+static const double TRIANGLE_NODES[6][DIM_MAX] = {{0, 0},  {1, 0},   {0, 1},
+                                                  {.5, 0}, {.5, .5}, {0, .5}};
+static const double SQUARE_NODES[9][DIM_MAX] = {{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
+                                                {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
+static const double TETRAHEDRON_NODES[10][DIM_MAX] = {
+    {0, 0, 0},   {1, 0, 0},  {0, 1, 0},  {0, 0, 1},   {.5, 0, 0},
+    {.5, .5, 0}, {0, .5, 0}, {0, 0, .5}, {0, .5, .5}, {.5, 0, .5}};
+static const double WEDGE_NODES[6][DIM_MAX] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1},
+                                               {0, 0, 1},  {1, 0, 1},  {0, 1, 1}};
+static const double CUBE_NODES[27][DIM_MAX] = {
+    {-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+    {-1, 1, 1},   {0, -1, -1}, {-1, 0, -1}, {-1, -1, 0}, {1, 0, -1},  {1, -1, 0}, {0, 1, -1},
+    {1, 1, 0},    {-1, 1, 0},  {0, -1, 1},  {-1, 0, 1},  {1, 0, 1},   {0, 1, 1},  {0, 0, -1},
+    {0, -1, 0},   {-1, 0, 0},  {1, 0, 0},   {0, 1, 0},   {0, 0, 1},   {0, 0, 0}};
 
-// N = (1 - xi - eta, xi, eta), the area coordinates L themselves.
-static void shape_t3(const double *point, ShapeValues *shape)
+const double *shape_node(ElementKind kind, int32_t a)
 {
-    double xi = point[0], eta = point[1];
-    *shape = (ShapeValues){.value = {1 - xi - eta, xi, eta}, .slope = {{-1, -1}, {1, 0}, {0, 1}}};
+    switch (element_corner_count(kind)) {
+    case 2:
+        return LINE_NODES[a];
+    case 3:
+        return TRIANGLE_NODES[a];
+    case 4:
+        return element_dim(kind) == 2 ? SQUARE_NODES[a] : TETRAHEDRON_NODES[a];
+    case 6:
+        return WEDGE_NODES[a];
+    default:
+        return CUBE_NODES[a];
+    }
 }
 
-// Mid-side node 3 + a lies between corners a and a + 1.
-static void shape_t6(const double *point, ShapeValues *shape)
+// N_a = L_a, the area or volume coordinates themselves.
+static void shape_simplex(ElementKind kind, const double *point, ShapeValues *shape)
 {
-    ShapeValues area;   // L_0, L_1, L_2 and their slopes
-    shape_t3(point, &area);
-    for (int32_t a = 0; a < 3; a++) {
-        int32_t b = (a + 1) % 3;
-        double la = area.value[a], lb = area.value[b];
+    int32_t dim = element_dim(kind);
+    shape->value[0] = 1;
+    for (int32_t d = 0; d < dim; d++) {
+        shape->value[0] -= point[d];
+        shape->value[d + 1] = point[d];
+        shape->slope[0][d] = -1;
+        shape->slope[d + 1][d] = 1;
+    }
+}
+
+// Which corners a mid-side node is between: in the triangle and in the base of the tetrahedron one
+// and the next.
+static const uint8_t SIMPLEX_SIDES[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
+
+static void shape_simplex_2(ElementKind kind, const double *point, ShapeValues *shape)
+{
+    ShapeValues linear = {0};   // L_0, L_1, ... and their slopes
+    int32_t dim = element_dim(kind), corners = dim + 1;
+    shape_simplex(kind, point, &linear);
+    for (int32_t a = 0; a < corners; a++) {
+        double la = linear.value[a];
         shape->value[a] = la * (2 * la - 1);
-        shape->value[3 + a] = 4 * la * lb;
-        for (int32_t d = 0; d < 2; d++) {
-            shape->slope[a][d] = (4 * la - 1) * area.slope[a][d];
-            shape->slope[3 + a][d] = 4 * (area.slope[a][d] * lb + la * area.slope[b][d]);
+        for (int32_t d = 0; d < dim; d++) shape->slope[a][d] = (4 * la - 1) * linear.slope[a][d];
+    }
+    for (int32_t m = corners; m < element_node_count(kind); m++) {
+        int32_t a = SIMPLEX_SIDES[m - corners][0], b = SIMPLEX_SIDES[m - corners][1];
+        double la = linear.value[a], lb = linear.value[b];
+        shape->value[m] = 4 * la * lb;
+        for (int32_t d = 0; d < dim; d++)
+            shape->slope[m][d] = 4 * (linear.slope[a][d] * lb + la * linear.slope[b][d]);
+    }
+}
+
+// N_a = product of (1 + c s) / 2 over the axes, c the node's place there.
+static void shape_product(ElementKind kind, const double *point, ShapeValues *shape)
+{
+    int32_t dim = element_dim(kind);
+    double scale = 1 << dim;
+    for (int32_t a = 0; a < element_node_count(kind); a++) {
+        const double *c = shape_node(kind, a);
+        double value = 1;
+        for (int32_t d = 0; d < dim; d++) value *= 1 + c[d] * point[d];
+        shape->value[a] = value / scale;
+        for (int32_t d = 0; d < dim; d++) {
+            double slope = c[d];
+            for (int32_t f = 0; f < dim; f++) slope *= f == d ? 1 : 1 + c[f] * point[f];
+            shape->slope[a][d] = slope / scale;
         }
     }
 }
 
-// N_a = (1 + xi_a xi)(1 + eta_a eta) / 4.
-static void shape_q4(const double *point, ShapeValues *shape)
+// The 1D quadratic that is 1 at c (-1, 0 or 1), and its slope.
+static double quadratic(double c, double s, double *slope)
 {
-    double xi = point[0], eta = point[1];
-    for (int32_t a = 0; a < 4; a++) {
-        double xa = SQUARE_NODES[a][0], ea = SQUARE_NODES[a][1];
-        shape->value[a] = (1 + xa * xi) * (1 + ea * eta) / 4;
-        shape->slope[a][0] = xa * (1 + ea * eta) / 4;
-        shape->slope[a][1] = ea * (1 + xa * xi) / 4;
+    *slope = c == 0 ? -2 * s : s + c / 2;
+    return c == 0 ? 1 - s * s : s * (s + c) / 2;
+}
+
+static void shape_product_2(ElementKind kind, const double *point, ShapeValues *shape)
+{
+    int32_t dim = element_dim(kind);
+    for (int32_t a = 0; a < element_node_count(kind); a++) {
+        double factor[DIM_MAX], slope[DIM_MAX];
+        shape->value[a] = 1;
+        for (int32_t d = 0; d < dim; d++) {
+            factor[d] = quadratic(shape_node(kind, a)[d], point[d], &slope[d]);
+            shape->value[a] *= factor[d];
+        }
+        for (int32_t d = 0; d < dim; d++) {
+            shape->slope[a][d] = 1;
+            for (int32_t f = 0; f < dim; f++) shape->slope[a][d] *= f == d ? slope[f] : factor[f];
+        }
+    }
+}
+
+// N_a = L_a (1 + c zeta) / 2, c = -1 below and 1 above.
+static void shape_wedge(ElementKind kind, const double *point, ShapeValues *shape)
+{
+    ShapeValues flat = {0};
+    shape_simplex(ELEMENT_T3, point, &flat);
+    for (int32_t a = 0; a < element_node_count(kind); a++) {
+        double c = WEDGE_NODES[a][2], height = (1 + c * point[2]) / 2;
+        shape->value[a] = flat.value[a % 3] * height;
+        shape->slope[a][0] = flat.slope[a % 3][0] * height;
+        shape->slope[a][1] = flat.slope[a % 3][1] * height;
+        shape->slope[a][2] = flat.value[a % 3] * c / 2;
     }
 }
 
 // With p = 1 + xi_a xi and q = 1 + eta_a eta; mid-sides 4 and 6 have xi_a = 0, 5 and 7 eta_a = 0.
-static void shape_q8(const double *point, ShapeValues *shape)
+static void shape_q8(ElementKind kind, const double *point, ShapeValues *shape)
 {
     double xi = point[0], eta = point[1];
-    for (int32_t a = 0; a < 8; a++) {
+    for (int32_t a = 0; a < element_node_count(kind); a++) {
         double xa = SQUARE_NODES[a][0], ea = SQUARE_NODES[a][1];
         double p = 1 + xa * xi, q = 1 + ea * eta;
         if (a < 4) {
@@ -74,54 +159,7 @@ static void shape_q8(const double *point, ShapeValues *shape)
     }
 }
 
-// The 1D quadratic that is 1 at c (-1, 0 or 1), and its slope.
-static double quadratic(double c, double s, double *slope)
-{
-    *slope = c == 0 ? -2 * s : s + c / 2;
-    return c == 0 ? 1 - s * s : s * (s + c) / 2;
-}
-
-// N_a = l_a(xi) l_a(eta), l the quadratic through -1, 0, 1.
-static void shape_q9(const double *point, ShapeValues *shape)
-{
-    double xi = point[0], eta = point[1];
-    for (int32_t a = 0; a < 9; a++) {
-        double p_slope, q_slope;
-        double p = quadratic(SQUARE_NODES[a][0], xi, &p_slope);
-        double q = quadratic(SQUARE_NODES[a][1], eta, &q_slope);
-        shape->value[a] = p * q;
-        shape->slope[a][0] = p_slope * q;
-        shape->slope[a][1] = p * q_slope;
-    }
-}
-
-// Products of the Gauss rule with `n` = 2 or 3 points: exact to degree 2 n - 1 in xi and in eta.
-static Quadrature square_rule(int32_t n)
-{
-    double point[3] = {-sqrt(1. / 3), sqrt(1. / 3), 0}, weight[3] = {1, 1, 0};
-    if (n == 3) {
-        point[0] = -sqrt(0.6), point[1] = 0, point[2] = sqrt(0.6);
-        weight[0] = 5. / 9, weight[1] = 8. / 9, weight[2] = 5. / 9;
-    }
-    Quadrature rule = {.count = n * n};
-    for (int32_t j = 0; j < n; j++)
-        for (int32_t i = 0; i < n; i++) {
-            rule.point[j * n + i][0] = point[i];
-            rule.point[j * n + i][1] = point[j];
-            rule.weight[j * n + i] = weight[i] * weight[j];
-        }
-    return rule;
-}
-
-static Quadrature square_rule_2(void)
-{
-    return square_rule(2);
-}
-
-static Quadrature square_rule_3(void)
-{
-    return square_rule(3);
-}
+// --- quadrature ---------------------------------------------------------------------------------
 
 // Exact to degree 1 and 2 on the triangle.
 static Quadrature triangle_rule_1(void)
@@ -155,77 +193,167 @@ static Quadrature triangle_rule_4(void)
     return rule;
 }
 
-// What makes a kind of element; how many nodes it has stands in io/mesh/mesh_file.
+// Exact to degree 1 and 2 on the tetrahedron (Hughes, table 3.I.1).
+static Quadrature tetrahedron_rule_1(void)
+{
+    return (Quadrature){.count = 1, .point = {{.25, .25, .25}}, .weight = {1. / 6}};
+}
+
+// Appends the points whose volume coordinates are `high` at one corner, `low` at the others.
+static void add_corners(double low, double high, double weight, Quadrature *rule)
+{
+    for (int32_t corner = 0; corner < 4; corner++) {
+        int32_t q = rule->count++;
+        rule->weight[q] = weight;
+        for (int32_t d = 0; d < 3; d++) rule->point[q][d] = corner == d + 1 ? high : low;
+    }
+}
+
+static Quadrature tetrahedron_rule_2(void)
+{
+    Quadrature rule = {0};
+    add_corners((5 - sqrt(5)) / 20, (5 + 3 * sqrt(5)) / 20, 1. / 24, &rule);
+    return rule;
+}
+
+// Degree 5, 15 points: Stroud, Approximate Calculation of Multiple Integrals (1971), T3: 5-1.
+static Quadrature tetrahedron_rule_5(void)
+{
+    Quadrature rule = {.count = 1, .point = {{.25, .25, .25}}, .weight = {16. / 135 / 6}};
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
+        double root = sign * sqrt(15), low = (7 - root) / 34;
+        add_corners(low, 1 - 3 * low, (2665 + 14 * root) / 37800 / 6, &rule);
+    }
+    for (int32_t side = 0; side < 6; side++, rule.count++) {
+        double high = (5 + sqrt(15)) / 20, low = (5 - sqrt(15)) / 20;
+        rule.weight[rule.count] = 10. / 189 / 6;
+        for (int32_t d = 0; d < 3; d++) {
+            const uint8_t *ends = SIMPLEX_SIDES[side];
+            rule.point[rule.count][d] = ends[0] == d + 1 || ends[1] == d + 1 ? high : low;
+        }
+    }
+    return rule;
+}
+
+// What makes a kind of element; how many nodes it has stands in io/mesh/mesh_file. A simplex times
+// as many lines as are left of its dimension.
 typedef struct ShapeRow {
-    const double (*node)[DIM_MAX];   // reference coordinates of its nodes
-    void (*values)(const double *point, ShapeValues *shape);
-    Quadrature (*rule)(
-        void);   // exact for B' D B where sides are straight and opposite ones parallel
-    Quadrature (*mass_rule)(void);   // and for N_a^2
+    void (*values)(ElementKind kind, const double *point, ShapeValues *shape);
+    Quadrature (*rule)(void);   // of the simplex; NULL: lines alone
+    Quadrature (*mass_rule)(void);
+    int32_t simplex_dim;
+    int32_t line_points;   // Gauss points along each of its lines: exact to degree 2 n - 1
 } ShapeRow;
 
+// Exact for B' D B where sides are straight and opposite ones parallel, mass_rule for N_a^2.
 static const ShapeRow ROWS[ELEMENT_KIND_COUNT] = {
-    [ELEMENT_T3] = {TRIANGLE_NODES, shape_t3, triangle_rule_1, triangle_rule_1},
-    [ELEMENT_T6] = {TRIANGLE_NODES, shape_t6, triangle_rule_2, triangle_rule_4},
-    [ELEMENT_Q4] = {SQUARE_NODES, shape_q4, square_rule_2, square_rule_2},
-    [ELEMENT_Q8] = {SQUARE_NODES, shape_q8, square_rule_3, square_rule_3},
-    [ELEMENT_Q9] = {SQUARE_NODES, shape_q9, square_rule_3, square_rule_3}};
-
-const double *shape_node(ElementKind kind, int32_t a)
-{
-    return ROWS[kind].node[a];
-}
+    [ELEMENT_L2] = {shape_product, .line_points = 2},
+    [ELEMENT_L3] = {shape_product_2, .line_points = 3},
+    [ELEMENT_T3] = {shape_simplex, triangle_rule_1, triangle_rule_1, 2},
+    [ELEMENT_T6] = {shape_simplex_2, triangle_rule_2, triangle_rule_4, 2},
+    [ELEMENT_Q4] = {shape_product, .line_points = 2},
+    [ELEMENT_Q8] = {shape_q8, .line_points = 3},
+    [ELEMENT_Q9] = {shape_product_2, .line_points = 3},
+    [ELEMENT_TET4] = {shape_simplex, tetrahedron_rule_1, tetrahedron_rule_1, 3},
+    [ELEMENT_TET10] = {shape_simplex_2, tetrahedron_rule_2, tetrahedron_rule_5, 3},
+    [ELEMENT_WEDGE6] = {shape_wedge, triangle_rule_2, triangle_rule_2, 2, 2},
+    [ELEMENT_HEX8] = {shape_product, .line_points = 2},
+    [ELEMENT_HEX27] = {shape_product_2, .line_points = 3}};
 
 ShapeValues shape_at(ElementKind kind, const double *point)
 {
     ShapeValues shape = {0};
-    ROWS[kind].values(point, &shape);
+    ROWS[kind].values(kind, point, &shape);
     return shape;
+}
+
+// The rule times Gauss's with n = 2 or 3 points along a further axis.
+static void multiply_rule(int32_t n, int32_t axis, Quadrature *rule)
+{
+    double point[3] = {-sqrt(1. / 3), sqrt(1. / 3), 0}, weight[3] = {1, 1, 0};
+    if (n == 3) {
+        point[0] = -sqrt(0.6), point[1] = 0, point[2] = sqrt(0.6);
+        weight[0] = 5. / 9, weight[1] = 8. / 9, weight[2] = 5. / 9;
+    }
+    int32_t count = rule->count;
+    for (int32_t k = n - 1; k >= 0; k--)   // downwards: the points that are there are read last
+        for (int32_t q = 0; q < count; q++) {
+            int32_t to = k * count + q;
+            memcpy(rule->point[to], rule->point[q], sizeof(MeshPlace));
+            rule->point[to][axis] = point[k];
+            rule->weight[to] = rule->weight[q] * weight[k];
+        }
+    rule->count = n * count;
+}
+
+static Quadrature rule_of(ElementKind kind, Quadrature (*simplex)(void))
+{
+    const ShapeRow *row = &ROWS[kind];
+    Quadrature rule = {.count = 1, .weight = {1}};
+    if (simplex) rule = simplex();
+    for (int32_t axis = row->simplex_dim; axis < element_dim(kind); axis++)
+        multiply_rule(row->line_points, axis, &rule);
+    return rule;
 }
 
 Quadrature shape_quadrature(ElementKind kind)
 {
-    return ROWS[kind].rule();
+    return rule_of(kind, ROWS[kind].rule);
 }
 
 Quadrature shape_mass_quadrature(ElementKind kind)
 {
-    return ROWS[kind].mass_rule();
+    return rule_of(kind, ROWS[kind].mass_rule);
 }
 
-// j[i][k] = d x_i / d xi_k.
-static void fill_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
-                          double j[DIM_MAX][DIM_MAX])
+// --- the element in its place -------------------------------------------------------------------
+
+// j[i][k] = d x_i / d xi_k: [axes of a place][axes of the element].
+static void fill_jacobian(ElementKind kind, int32_t axes, const ShapeValues *shape,
+                          const MeshPlace *position, double j[DIM_MAX][DIM_MAX])
 {
     int32_t dim = element_dim(kind), nodes = element_node_count(kind);
     memset(j, 0, DIM_MAX * sizeof *j);
     for (int32_t a = 0; a < nodes; a++)
-        for (int32_t row = 0; row < dim; row++)
+        for (int32_t row = 0; row < axes; row++)
             for (int32_t column = 0; column < dim; column++)
                 j[row][column] += position[a][row] * shape->slope[a][column];
 }
 
-// Of dimension 2, the only one yet.
-static double determinant_of(const double j[DIM_MAX][DIM_MAX])
+// Cofactors c of j, so that j^-1 = c' / det j; returns det j. In space rows and columns are counted
+// round, which has the signs in it.
+static double find_cofactors(int32_t dim, const double j[DIM_MAX][DIM_MAX],
+                             double c[DIM_MAX][DIM_MAX])
 {
-    return j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    double determinant = 0;
+    for (int32_t row = 0; row < dim; row++)
+        for (int32_t k = 0; k < dim; k++) {
+            int32_t r1 = (row + 1) % dim, r2 = (row + 2) % dim, k1 = (k + 1) % dim,
+                    k2 = (k + 2) % dim;
+            if (dim == 2)
+                c[row][k] = row == k ? j[r1][k1] : -j[r1][k1];
+            else
+                c[row][k] = j[r1][k1] * j[r2][k2] - j[r1][k2] * j[r2][k1];
+        }
+    for (int32_t k = 0; k < dim; k++) determinant += j[0][k] * c[0][k];
+    return determinant;
 }
 
 double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlace *position)
 {
-    double j[DIM_MAX][DIM_MAX];
-    fill_jacobian(kind, shape, position, j);
-    return determinant_of(j);
+    double j[DIM_MAX][DIM_MAX], cofactor[DIM_MAX][DIM_MAX];
+    int32_t dim = element_dim(kind);
+    fill_jacobian(kind, dim, shape, position, j);
+    return find_cofactors(dim, (const double(*)[DIM_MAX])j, cofactor);
 }
 
 double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                        MeshPlace *gradient)
 {
-    double j[DIM_MAX][DIM_MAX];
+    double j[DIM_MAX][DIM_MAX], cofactor[DIM_MAX][DIM_MAX];
     int32_t dim = element_dim(kind), nodes = element_node_count(kind);
-    fill_jacobian(kind, shape, position, j);
-    double determinant = determinant_of(j);
-    const double cofactor[DIM_MAX][DIM_MAX] = {{j[1][1], -j[1][0]}, {-j[0][1], j[0][0]}};
+    fill_jacobian(kind, dim, shape, position, j);
+    double determinant = find_cofactors(dim, (const double(*)[DIM_MAX])j, cofactor);
     for (int32_t a = 0; a < nodes; a++)
         for (int32_t d = 0; d < dim; d++) {
             double sum = 0;
@@ -233,4 +361,15 @@ double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPla
             gradient[a][d] = sum / determinant;
         }
     return determinant;
+}
+
+// The last column of cofactors of a Jacobian whose last column is the normal.
+void shape_normal(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
+                  MeshPlace normal)
+{
+    double j[DIM_MAX][DIM_MAX], cofactor[DIM_MAX][DIM_MAX];
+    int32_t axes = element_dim(kind) + 1;
+    fill_jacobian(kind, axes, shape, position, j);
+    find_cofactors(axes, (const double(*)[DIM_MAX])j, cofactor);
+    for (int32_t d = 0; d < axes; d++) normal[d] = cofactor[d][axes - 1];
 }

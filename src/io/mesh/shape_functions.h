@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Shape functions of the five elements and the quadrature that goes with them, on the reference
-// element: triangles xi, eta >= 0, xi + eta <= 1; quadrilaterals -1 <= xi, eta <= 1. Node order is
-// gmsh's. Used by fem (checks, matrices, recovered stresses) and render (fields in an element).
+// Shape functions of the elements and the quadrature that goes with them, on the reference element:
+// triangles and tetrahedra xi, eta, zeta >= 0, their sum <= 1; lines, squares and cubes from -1 to 1;
+// the wedge is such a triangle times such a line. Node order is gmsh's. Used by fem (checks,
+// matrices, recovered stresses) and render (fields in an element).
 //
 //     2           2            3---2      3-6-2      3-6-2
 //     |\          5 4          |   |      7   5      7 8 5
@@ -13,11 +14,11 @@
 
 #include <stdint.h>
 
-enum { QUADRATURE_POINTS_MAX = 9 };
+enum { QUADRATURE_POINTS_MAX = 27 };
 
 typedef struct ShapeValues {
     double value[ELEMENT_NODES_MAX];   // N_a
-    MeshPlace slope[ELEMENT_NODES_MAX];   // (dN_a/dxi, dN_a/deta)
+    MeshPlace slope[ELEMENT_NODES_MAX];   // dN_a/dxi, dN_a/deta, ...
 } ShapeValues;
 
 // At a point [element_dim]; entries beyond the element's nodes are 0.
@@ -28,23 +29,28 @@ const double *shape_node(ElementKind kind, int32_t a);
 
 typedef struct Quadrature {
     int32_t count;
-    MeshPlace point[QUADRATURE_POINTS_MAX];   // (xi, eta)
-    double weight[QUADRATURE_POINTS_MAX];   // sum: 1/2 for triangles, 4 for quadrilaterals
+    MeshPlace point[QUADRATURE_POINTS_MAX];   // xi, eta, ...
+    double
+        weight[QUADRATURE_POINTS_MAX];   // sum: the size of the reference element, such as 1/2 or 8
 } Quadrature;
 
-// Integrates the stiffness of a straight-sided element exactly: T3 1 point, T6 3, Q4 2x2, Q8 and
-// Q9 3x3.
+// Integrates the stiffness exactly where sides are straight and opposite ones parallel: T3 and TET4
+// 1 point, T6 3, TET10 4, WEDGE6 3x2, Q4 and HEX8 2 along each axis, Q8, Q9 and HEX27 3.
 Quadrature shape_quadrature(ElementKind kind);
 
-// Integrates N_a^2 exactly on straight-sided triangles and parallelograms: as above, but 6 points
-// for T6.
+// Integrates N_a^2 exactly there: as above, but 6 points for T6 and 15 for TET10.
 Quadrature shape_mass_quadrature(ElementKind kind);
 
-// The determinant of J = d(x, z)/d(xi, eta), from the nodes' positions.
+// The determinant of J = d(x ... z)/d(xi, eta, ...), from the nodes' positions.
 double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlace *position);
 
-// Slopes in place, gradient[a] = (dN_a/dx, dN_a/dz), [nodes]; returns the determinant.
+// Slopes in place, gradient[a] = (dN_a/dx ... dN_a/dz), [nodes]; returns the determinant.
 double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                        MeshPlace *gradient);
+
+// Of an element in a space of one dimension more, a face: n |J| with n its normal, to the right of
+// a line, and out of a face whose nodes run counter-clockwise as seen from there.
+void shape_normal(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
+                  MeshPlace normal);
 
 #endif

@@ -122,11 +122,11 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
     bool flat = true;
     for (int32_t i = 0; i < contact.node_count; i++)
         flat = flat && mesh_gap(&mesh, contact.nodes[i]) == 0;
-    if (contact.curve_count != 1 || !whole || !flat)
+    if (contact.pad_count != 1 || !whole || !flat)
         FAIL(err, ERROR_INPUT,
              "%s: the 1D model has one contact along the whole block, flat from x = %g to %g; here "
              "%d contact curves%s reach from %g to %g",
-             scene->mesh.file, mesh.x_min, mesh.x_max, contact.curve_count,
+             scene->mesh.file, mesh.x_min, mesh.x_max, contact.pad_count,
              flat ? "" : " that are not flat", begins, ends);
 cleanup:
     mesh_contact_destroy(&contact);

@@ -24,7 +24,7 @@ static void test_nodes_and_weights(void **state)
     (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         BlockDef block = block_of((ElementKind)kind);
         InterfaceDef def = def_with_rod(0.25, 0.3);   // 0.1 .. 0.4: rows 1 to 4 of order 1
         Mesh mesh;
@@ -109,11 +109,11 @@ static void test_pads(void **state)
     BlockDef block = block_of(ELEMENT_Q4);
     MeshFile file = block_file(&block);
     MeshGroup *first = &file.groups[0], *last = &file.groups[1];
-    memcpy(last->edge_nodes, first->edge_nodes + 2 * 3, 2 * sizeof(int32_t));
+    memcpy(last->face_nodes, first->face_nodes + 2 * 3, 2 * sizeof(int32_t));
     memcpy(last->nodes, first->nodes + 3, 2 * sizeof(int32_t));
     snprintf(first->name, sizeof first->name, "contact_front");
     snprintf(last->name, sizeof last->name, "contact_1");
-    first->edge_count = last->edge_count = 1;
+    first->face_count = last->face_count = 1;
     first->node_count = last->node_count = 2;
     Mesh mesh;
     Interface interface;
@@ -211,8 +211,8 @@ static void test_soft_rod(void **state)
 {
     (void)state;
     Error err = {0};
-    double share[] = {0.5, 1};
-    Interface interface = {.rod_count = 2, .rod_share = share};
+    double share[] = {0.5, 1}, height[] = {0.1, 0.2};
+    Interface interface = {.rod_count = 2, .rod_share = share, .rod_z = height};
     Rod rod;
     assert_true(rod_build(&interface, ROD_PUSHES, 1e-2, &rod, &err));
     assert_near("rigid at first", rod_bound(&rod, 0, 0.1, 30, 2), (0.3 - 0.1) / 2, 1e-15);

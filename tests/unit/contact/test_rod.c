@@ -7,15 +7,19 @@
 #include "near.h"
 
 // Two contact nodes, three rod nodes with shares 1, 1/e and 1/2.
-static double shares[3];
+static double shares[3], heights[3] = {0.1, 0.2, 0.3};
 
 static Interface interface_by_hand(void)
 {
     shares[0] = 1;
     shares[1] = exp(-1);
     shares[2] = 0.5;
-    return (Interface){
-        .dim = 2, .contact_count = 2, .rod_count = 3, .count = 7, .rod_share = shares};
+    return (Interface){.dim = 2,
+                       .contact_count = 2,
+                       .rod_count = 3,
+                       .count = 7,
+                       .rod_share = shares,
+                       .rod_z = heights};
 }
 
 static void test_softness(void **state)

@@ -56,13 +56,13 @@ static inline void hand_curve(MeshFile *mesh, const char *name, int32_t edges,
     snprintf(group->name, sizeof group->name, "%s", name);
     group->dimension = 1;
     group->number = mesh->group_count;
-    group->edge_count = edges;
-    group->nodes_per_edge = 2;
-    group->edge_nodes = hand_copy(pairs, 2 * edges, sizeof(int32_t));
+    group->face_count = edges;
+    group->nodes_per_face = 2;
+    group->face_nodes = hand_copy(pairs, 2 * edges, sizeof(int32_t));
     group->nodes = NEW_ARRAY(int32_t, 2 * edges, &err);
     for (int32_t i = 0; i < mesh->node_count; i++) {
         bool found = false;
-        for (int32_t k = 0; k < 2 * edges; k++) found = found || group->edge_nodes[k] == i;
+        for (int32_t k = 0; k < 2 * edges; k++) found = found || group->face_nodes[k] == i;
         if (found) group->nodes[group->node_count++] = i;
     }
 }

@@ -3,6 +3,8 @@
 // sparse one, tractions and weights.
 #include "fem/assembly.h"
 
+#include "plane.h"
+
 #include "block_mesh.h"
 #include "fem/element.h"
 #include "dense_by_hand.h"
@@ -22,8 +24,8 @@ static BlockDef distorted(int32_t kind)
 static void press_on(const Mesh *mesh, const char *name, double x, double z, Bulk *bulk)
 {
     Error err = {0};
-    MeshCurve curve;
-    assert_true(mesh_curve(mesh, name, &curve, &err));
+    MeshBoundary curve;
+    assert_true(mesh_boundary(mesh, name, &curve, &err));
     bulk_add_traction(mesh, &curve, (double[2]){x, z}, bulk);
 }
 
@@ -33,7 +35,7 @@ static void test_patch(void **state)
 {
     (void)state;
     Error err = {0};
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         Material material = {.young = 2, .poisson = 0.3, .density = 1, .eta1 = 0.6, .eta2 = 0.9};
         BlockDef def = distorted(kind);
         Mesh mesh;
@@ -41,8 +43,8 @@ static void test_patch(void **state)
         block_build(&def, &mesh);
         for (int which = 0; which < 2; which++) {
             assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
-            double d[3][3], stress[3] = {0}, strain[3] = {0.4, -0.7, 0.5};
-            which ? material_viscous(&material, d) : material_elastic(&material, d);
+            double d[STRAINS_MAX][STRAINS_MAX], stress[3] = {0}, strain[3] = {0.4, -0.7, 0.5};
+            moduli_matrix(which ? material_viscous(&material) : material_elastic(&material), 2, d);
             for (int r = 0; r < 3; r++)
                 for (int c = 0; c < 3; c++) stress[r] += d[r][c] * strain[c];
             press_on(&mesh, "contact", -stress[2], -stress[1], &bulk);
@@ -73,7 +75,7 @@ static void test_dense_assembly(void **state)
     Error err = {0};
     Material material = paper_material();
     material.density = 1.7;
-    for (int32_t trial = 0; trial < 2 * ELEMENT_KIND_COUNT; trial++) {
+    for (int32_t trial = 0; trial < 2 * PLANE_KINDS; trial++) {
         BlockDef def = distorted(trial / 2);
         if (trial % 2) def.distortion = 0;
         Mesh mesh;
@@ -86,12 +88,12 @@ static void test_dense_assembly(void **state)
         double *mass = hand_matrix(n, 1);
         for (int32_t e = 0; e < mesh.element_count; e++) {
             const int32_t *nodes = mesh.element_nodes + mesh.first_node[e];
-            double position[ELEMENT_NODES_MAX][2];
+            MeshPlace position[ELEMENT_NODES_MAX];
             int32_t count = element_node_count(def.kind);
             for (int32_t a = 0; a < count; a++)
-                memcpy(position[a], mesh.position + 2 * nodes[a], sizeof position[a]);
+                memcpy(position[a], mesh_place(&mesh, nodes[a]), 2 * sizeof(double));
             ElementMatrices matrices;
-            element_matrices(def.kind, (const double(*)[2])position, &material, &matrices);
+            element_matrices(def.kind, (const MeshPlace *)position, &material, &matrices);
             for (int32_t i = 0; i < 2 * count; i++) {
                 int32_t row = 2 * nodes[i / 2] + i % 2;
                 mass[row] += matrices.mass[i / 2];
@@ -133,21 +135,21 @@ static void test_weights_and_tractions(void **state)
     (void)state;
     Error err = {0};
     Material material = paper_material();
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         BlockDef def = distorted(kind);
         Mesh mesh;
         Bulk bulk;
-        MeshCurve top;
+        MeshBoundary top;
         block_build(&def, &mesh);
         assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
         for (int32_t k = 0; k < bulk.dof_count; k++) assert_true(bulk.load[k] == 0);
-        assert_true(mesh_curve(&mesh, "top", &top, &err));
+        assert_true(mesh_boundary(&mesh, "top", &top, &err));
         double *weight = hand_matrix(mesh.node_count, 1);
-        curve_add_weights(&mesh, &top, weight);
+        boundary_add_weights(&mesh, &top, true, weight);
         double cell = 1.3 / 4, sum = 0;
         for (int32_t k = 0; k < top.node_count; k++) {   // by ascending x
             bool end = k == 0 || k == top.node_count - 1;
-            double wanted = top.nodes_per_edge == 2 ? (end ? cell / 2 : cell)
+            double wanted = top.nodes_per_face == 2 ? (end ? cell / 2 : cell)
                                                     : (end          ? cell / 6
                                                        : k % 2 == 1 ? cell * 4 / 6
                                                                     : cell / 3);

@@ -16,8 +16,9 @@ static void test_hooke(void **state)
     for (int32_t k = 0; k < 2 * RATIO_COUNT; k++) {
         double nu = RATIOS[k / 2], young = 7;
         Material material = {.young = young, .poisson = nu, .density = 1, .plane_strain = k % 2};
-        double d[3][3], strain[3] = {0.3, -1.1, 0.7}, rate[3] = {0}, stress[3] = {0};
-        material_elastic(&material, d);
+        double d[STRAINS_MAX][STRAINS_MAX], strain[3] = {0.3, -1.1, 0.7}, rate[3] = {0},
+                                            stress[3] = {0};
+        moduli_matrix(material_elastic(&material), 2, d);
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++) stress[r] += d[r][c] * strain[c];
         double yy = material_out_of_plane(&material, strain, rate);
@@ -33,12 +34,13 @@ static void test_plane_strain_is_plane_stress(void **state)
 {
     (void)state;
     for (int32_t k = 0; k < RATIO_COUNT; k++) {
-        double nu = RATIOS[k], strain[3][3], stress[3][3];
+        double nu = RATIOS[k];
         Material wide = {.young = 3, .poisson = nu, .density = 2, .plane_strain = true};
         Material plate = {.young = 3 / (1 - nu * nu), .poisson = nu / (1 - nu), .density = 2};
-        material_elastic(&wide, strain);
-        material_elastic(&plate, stress);
-        assert_all_near("D", &strain[0][0], &stress[0][0], 9, 1e-13);
+        Moduli strain = material_elastic(&wide), stress = material_elastic(&plate);
+        assert_near("axial", moduli_axial(strain), moduli_axial(stress), 1e-13);
+        assert_near("trace", strain.trace, stress.trace, 1e-13);
+        assert_near("shear", moduli_shear(strain), moduli_shear(stress), 1e-13);
         assert_near("c_R", material_speeds(&wide).rayleigh, material_speeds(&plate).rayleigh,
                     1e-12);
     }
@@ -50,9 +52,9 @@ static void test_viscous(void **state)
     (void)state;
     Material material = {.young = 1, .poisson = 0.3, .density = 1, .eta1 = 2, .eta2 = 5};
     const double wanted[3][3] = {{7, 5, 0}, {5, 7, 0}, {0, 0, 1}};
-    double d[3][3], none[3] = {0}, rate[3] = {0.5, -0.2, 9};
-    material_viscous(&material, d);
-    assert_all_near("D", &d[0][0], &wanted[0][0], 9, 0);
+    double d[STRAINS_MAX][STRAINS_MAX], none[3] = {0}, rate[3] = {0.5, -0.2, 9};
+    moduli_matrix(material_viscous(&material), 2, d);
+    for (int r = 0; r < 3; r++) assert_all_near("D", d[r], wanted[r], 3, 0);
     assert_near("plate", material_out_of_plane(&material, none, rate), 0, 0);
     material.plane_strain = true;
     assert_near("wide", material_out_of_plane(&material, none, rate), 5 * 0.3, 1e-15);

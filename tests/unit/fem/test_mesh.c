@@ -53,7 +53,7 @@ static void test_build(void **state)
     (void)state;
     Error err = {0};
     Mesh mesh;
-    MeshCurve curve;
+    MeshBoundary curve;
     int64_t live = memory_counters().live;
     MeshFile file = hand_mesh(6, PLACES, ELEMENT_Q4, 2, SQUARES);
     hand_curve(&file, "contact", 2, BOTTOM);
@@ -62,12 +62,12 @@ static void test_build(void **state)
     assert_int_equal(mesh.node_count, 6);
     assert_true(mesh.x_min == 0 && mesh.x_max == 2 && mesh.z_min == 0 && mesh.z_max == 1);
     assert_memory_equal(mesh.element_nodes, SQUARES, sizeof SQUARES);
-    assert_true(mesh_curve(&mesh, "contact", &curve, &err));
+    assert_true(mesh_boundary(&mesh, "contact", &curve, &err));
     assert_string_equal(curve.name, "contact");
-    assert_int_equal(curve.edge_count, 2);
+    assert_int_equal(curve.face_count, 2);
     assert_int_equal(curve.node_count, 3);
     for (int32_t k = 0; k < 3; k++) assert_int_equal(curve.nodes[k], k);
-    assert_false(mesh_curve(&mesh, "contacts", &curve, &err));
+    assert_false(mesh_boundary(&mesh, "contacts", &curve, &err));
     assert_non_null(strstr(err.message, "did you mean 'contact'?"));
     mesh_destroy(&mesh);
     mesh_destroy(&mesh);   // a second time is harmless
@@ -303,10 +303,10 @@ static void test_block_counts(void **state)
         assert_true(mesh.x_min == 0 && mesh.x_max == 3 && mesh.z_min == 0 && mesh.z_max == 1.5);
         static const char *const curves[] = {"contact", "top", "rod", "leading"};
         for (int32_t c = 0; c < 4; c++) {
-            MeshCurve curve;
+            MeshBoundary curve;
             Error err = {0};
-            assert_true(mesh_curve(&mesh, curves[c], &curve, &err));
-            assert_int_equal(curve.edge_count, c < 2 ? NX : NZ);
+            assert_true(mesh_boundary(&mesh, curves[c], &curve, &err));
+            assert_int_equal(curve.face_count, c < 2 ? NX : NZ);
             assert_int_equal(curve.node_count, (c < 2 ? NX : NZ) * rows[k].order + 1);
             for (int32_t i = 0; i < curve.node_count; i++) {
                 const double *place = mesh.position + 2 * curve.nodes[i];
@@ -327,17 +327,17 @@ static void test_block_grading(void **state)
         {"nx", 41, ""}, {"nz", 9, ""}, {"grade_x", 1, ""}, {"grade_z", 1, ""}};
     for (int32_t graded = 0; graded < 2; graded++) {
         Mesh mesh;
-        MeshCurve rod, contact;
+        MeshBoundary rod, contact;
         Error err = {0};
         double step[41];
         if (graded) parameters[2].value = 4, parameters[3].value = 8;
         mesh_geo("block.geo", parameters, 4, &mesh);
-        assert_true(mesh_curve(&mesh, "rod", &rod, &err));
+        assert_true(mesh_boundary(&mesh, "rod", &rod, &err));
         for (int32_t k = 0; k < 9; k++)
             step[k] = mesh.position[2 * rod.nodes[k + 1] + 1] - mesh.position[2 * rod.nodes[k] + 1];
         for (int32_t k = 1; k < 9; k++)
             assert_near(step[k] / step[k - 1], graded ? pow(8, 1. / 8) : 1, 1e-6);
-        assert_true(mesh_curve(&mesh, "contact", &contact, &err));
+        assert_true(mesh_boundary(&mesh, "contact", &contact, &err));
         for (int32_t k = 0; k < 41; k++)
             step[k] = mesh.position[2 * contact.nodes[k + 1]] - mesh.position[2 * contact.nodes[k]];
         for (int32_t k = 0; k < 20; k++) {

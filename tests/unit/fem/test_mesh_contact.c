@@ -60,11 +60,11 @@ static void test_pads_by_default_names(void **state)
     MeshContact contact;
     build(PLACES, names, pairs, 3, &mesh);
     assert_true(mesh_contact(&mesh, NULL, 0, &contact, &err));
-    assert_int_equal(contact.curve_count, 2);
-    assert_string_equal(contact.curves[0].name, "contact_2");
+    assert_int_equal(contact.pad_count, 2);
+    assert_string_equal(contact.pads[0].name, "contact_2");
     assert_int_equal(contact.node_count, 4);
     assert_memory_equal(contact.nodes, nodes, sizeof nodes);
-    assert_memory_equal(contact.curve_of, owners, sizeof owners);
+    assert_memory_equal(contact.pad_of, owners, sizeof owners);
     mesh_contact_destroy(&contact);
     mesh_contact_destroy(&contact);
     mesh_destroy(&mesh);
@@ -83,11 +83,11 @@ static void test_neighbours(void **state)
     MeshContact contact;
     build(PLACES, names, pairs, 3, &mesh);
     assert_true(mesh_contact(&mesh, asked, 3, &contact, &err));
-    assert_int_equal(contact.curve_count, 3);
-    assert_string_equal(contact.curves[0].name, "east");
+    assert_int_equal(contact.pad_count, 3);
+    assert_string_equal(contact.pads[0].name, "east");
     assert_int_equal(contact.node_count, 4);
     assert_memory_equal(contact.nodes, nodes, sizeof nodes);
-    assert_memory_equal(contact.curve_of, owners, sizeof owners);
+    assert_memory_equal(contact.pad_of, owners, sizeof owners);
     mesh_contact_destroy(&contact);
     mesh_destroy(&mesh);
 }

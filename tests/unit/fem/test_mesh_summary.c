@@ -6,6 +6,8 @@
 #include "mesh_by_hand.h"
 #include "near.h"
 
+#include "plane.h"
+
 // One rectangle, 3 by 4.
 static void test_by_hand(void **state)
 {
@@ -51,7 +53,7 @@ static void test_the_worst_is_named(void **state)
 static void test_blocks(void **state)
 {
     (void)state;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         bool triangles = kind == ELEMENT_T3 || kind == ELEMENT_T6;
         BlockDef def = {.kind = (ElementKind)kind,
                         .nx = 4,

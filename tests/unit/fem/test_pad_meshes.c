@@ -49,7 +49,7 @@ static void drawn_destroy(Drawn *drawn)
 // Curve c is contact_<c + 1> and reaches from `from` to `to`.
 static void assert_pad(const Drawn *drawn, int32_t c, double from, double to)
 {
-    const MeshCurve *pad = &drawn->contact.curves[c];
+    const MeshBoundary *pad = &drawn->contact.pads[c];
     const double *position = drawn->mesh.position;
     char name[GROUP_NAME_SIZE];
     snprintf(name, sizeof name, "contact_%d", c + 1);
@@ -62,9 +62,9 @@ static void assert_pad(const Drawn *drawn, int32_t c, double from, double to)
 static double rise_of(const Drawn *drawn, const char *name)
 {
     Error err = {0};
-    MeshCurve curve;
+    MeshBoundary curve;
     double low = INFINITY, high = -INFINITY;
-    assert_true(mesh_curve(&drawn->mesh, name, &curve, &err));
+    assert_true(mesh_boundary(&drawn->mesh, name, &curve, &err));
     for (int32_t i = 0; i < curve.node_count; i++) {
         double z = drawn->mesh.position[2 * curve.nodes[i] + 1];
         low = fmin(low, z);
@@ -89,7 +89,7 @@ static void test_flush(void **state)
         if (n == 7) snprintf(parameters[6].text, GROUP_NAME_SIZE, "triangle");
         Drawn drawn;
         draw("pads.geo", parameters, &drawn);
-        assert_int_equal(drawn.contact.curve_count, n);
+        assert_int_equal(drawn.contact.pad_count, n);
         assert_int_equal(drawn.contact.node_count, n * (n == 3 ? 9 : 5));
         double pad = 1.4 / n, pitch = n > 1 ? (2 - pad) / (n - 1) : 0, first = n > 1 ? 0 : 0.3;
         for (int32_t c = 0; c < n; c++)
@@ -158,7 +158,7 @@ static void test_sizes(void **state)
 
 static double edge_of(const Drawn *drawn, int32_t pad, int32_t edge)
 {
-    const MeshCurve *curve = &drawn->contact.curves[pad];
+    const MeshBoundary *curve = &drawn->contact.pads[pad];
     return drawn->mesh.position[2 * curve->nodes[edge + 1]] -
            drawn->mesh.position[2 * curve->nodes[edge]];
 }
@@ -186,7 +186,7 @@ static void test_graded(void **state)
         Drawn drawn;
         draw(k < 2 ? "pads.geo" : "grooves.geo", k < 2 ? of_pads : of_grooves, &drawn);
         for (int32_t pad = 0; pad < 2; pad++) {
-            assert_int_equal(drawn.contact.curves[pad].node_count, 21);
+            assert_int_equal(drawn.contact.pads[pad].node_count, 21);
             assert_near("alike", edge_of(&drawn, pad, 0), edge_of(&drawn, pad, 19), 1e-9);
             assert_near("grade", edge_of(&drawn, pad, 10) / edge_of(&drawn, pad, 0), 4, 0.5);
         }
@@ -239,7 +239,7 @@ static void test_fillet(void **state)
         double roots = open ? 6 : 4, corner = 0.03 * 0.03 * (1 - acos(-1) / 4);
         Drawn drawn;
         draw("pads.geo", parameters, &drawn);
-        assert_int_equal(drawn.contact.curve_count, 3);
+        assert_int_equal(drawn.contact.pad_count, 3);
         double gained = (drawn.summary.area - 0.5 - 0.6 * 0.05) / roots;
         assert_true(gained >= corner && gained < 1.12 * corner);
         assert_int_equal(drawn.summary.element_counts[open ? ELEMENT_T3 : ELEMENT_Q4],
@@ -263,7 +263,7 @@ static void test_grooves(void **state)
         if (k == 0) snprintf(parameters[4].text, GROUP_NAME_SIZE, "triangle");
         Drawn drawn;
         draw("grooves.geo", parameters, &drawn);
-        assert_int_equal(drawn.contact.curve_count, 4);
+        assert_int_equal(drawn.contact.pad_count, 4);
         double pad = 0.85 / 4;
         for (int32_t c = 0; c < 4; c++)
             assert_pad(&drawn, c, c * (pad + 0.05), c * (pad + 0.05) + pad);

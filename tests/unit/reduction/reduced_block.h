@@ -35,16 +35,16 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
                                           double load, double tolerance, ReducedBlock *block)
 {
     Error err = {0};
-    MeshCurve contact, rod, top;
+    MeshBoundary contact, rod, top;
     double traction[2] = {load / 4, -load};
     dense_use_one_thread();
     memset(block, 0, sizeof *block);
     block_build(shape, &block->mesh);
     mark_layer(&block->mesh, layer, &materials);
     assert_true(bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
-    assert_true(mesh_curve(&block->mesh, "contact", &contact, &err));
-    assert_true(mesh_curve(&block->mesh, "rod", &rod, &err));
-    assert_true(mesh_curve(&block->mesh, "top", &top, &err));
+    assert_true(mesh_boundary(&block->mesh, "contact", &contact, &err));
+    assert_true(mesh_boundary(&block->mesh, "rod", &rod, &err));
+    assert_true(mesh_boundary(&block->mesh, "top", &top, &err));
     bulk_add_traction(&block->mesh, &top, traction, &block->bulk);
     block->interface_count = 2 * contact.node_count + 1;
     block->dofs = calloc((size_t)block->interface_count, sizeof *block->dofs);

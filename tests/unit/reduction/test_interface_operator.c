@@ -23,9 +23,9 @@ static void fixture_build(ElementKind kind, Fixture *fixture)
     BlockDef def = {.kind = kind, .nx = 3, .nz = 3, .length = 1, .height = 0.5, .distortion = 0.2};
     block_build(&def, &fixture->mesh);
     assert_true(bulk_assemble(&fixture->mesh, &material, &fixture->bulk, &err));
-    MeshCurve contact, rod;
-    assert_true(mesh_curve(&fixture->mesh, "contact", &contact, &err));
-    assert_true(mesh_curve(&fixture->mesh, "rod", &rod, &err));
+    MeshBoundary contact, rod;
+    assert_true(mesh_boundary(&fixture->mesh, "contact", &contact, &err));
+    assert_true(mesh_boundary(&fixture->mesh, "rod", &rod, &err));
     for (int32_t k = 0; k < 8; k++) fixture->dofs[k] = 2 * contact.nodes[k / 2] + k % 2;
     fixture->dofs[8] = 2 * rod.nodes[2];
     assert_true(bulk_operator_create(&fixture->bulk, fixture->mesh.position, fixture->dofs,
@@ -134,8 +134,8 @@ static void test_block_data(void **state)
     Fixture fixture;
     fixture_build(ELEMENT_T6, &fixture);
     int32_t n = fixture.bulk.dof_count;
-    MeshCurve top;
-    assert_true(mesh_curve(&fixture.mesh, "top", &top, &err));
+    MeshBoundary top;
+    assert_true(mesh_boundary(&fixture.mesh, "top", &top, &err));
     bulk_operator_destroy(&fixture.system);
     bulk_add_traction(&fixture.mesh, &top, (double[2]){0.1, -2}, &fixture.bulk);
     assert_true(bulk_operator_create(&fixture.bulk, fixture.mesh.position, fixture.dofs,

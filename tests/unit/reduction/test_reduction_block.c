@@ -26,7 +26,7 @@ static void build(Case what, Mesh *mesh, ReductionBlock *block, char name[HASH_T
 {
     Error err = {0};
     Bulk bulk;
-    MeshCurve top;
+    MeshBoundary top;
     double traction[2] = {what.load_x, -what.load};
     int32_t dofs[32];
     block_build(&SHAPE, mesh);
@@ -36,7 +36,7 @@ static void build(Case what, Mesh *mesh, ReductionBlock *block, char name[HASH_T
     mesh->x_max = what.length + what.shift;
     if (what.moved >= 0) mesh->position[2 * what.moved + 1] += 1e-6 * what.length;
     assert_true(bulk_assemble(mesh, &what.material, &bulk, &err));
-    assert_true(mesh_curve(mesh, "top", &top, &err));
+    assert_true(mesh_boundary(mesh, "top", &top, &err));
     bulk_add_traction(mesh, &top, traction, &bulk);
     if (what.held >= 0) bulk_hold(what.held, &bulk);
     double largest = 0;

@@ -63,7 +63,7 @@ static inline void stepped_block_build(const SteppedDef *def, SteppedBlock *bloc
                       .length = STEPPED_LENGTH,
                       .height = STEPPED_HEIGHT};
     block_build(&shape, &block->mesh);
-    MeshCurve top;
+    MeshBoundary top;
     double traction[2] = {0, -def->pressure};
     InterfaceDef touching = {.has_rod = true,
                              .rod_name = "rod",
@@ -72,7 +72,7 @@ static inline void stepped_block_build(const SteppedDef *def, SteppedBlock *bloc
     Bulk *bulk = &block->bulk;
     Interface *interface = &block->interface;
     bool built = bulk_assemble(&block->mesh, &block->material, bulk, &err) &&
-                 mesh_curve(&block->mesh, "top", &top, &err);
+                 mesh_boundary(&block->mesh, "top", &top, &err);
     if (built) bulk_add_traction(&block->mesh, &top, traction, bulk);
     built = built && interface_build(&block->mesh, &touching, interface, &err) &&
             bulk_operator_create(bulk, block->mesh.position, interface->dofs, interface->count,

@@ -13,13 +13,13 @@ static inline void assert_same_group(const MeshGroup *group, const MeshGroup *ot
     assert_string_equal(group->name, other->name);
     assert_int_equal(group->dimension, other->dimension);
     assert_int_equal(group->number, other->number);
-    assert_int_equal(group->edge_count, other->edge_count);
-    assert_int_equal(group->nodes_per_edge, other->nodes_per_edge);
+    assert_int_equal(group->face_count, other->face_count);
+    assert_int_equal(group->nodes_per_face, other->nodes_per_face);
     assert_int_equal(group->node_count, other->node_count);
     assert_int_equal(group->element_count, other->element_count);
     assert_int_equal(group->blurred, other->blurred);
-    int32_t ends = group->edge_count * group->nodes_per_edge;
-    if (ends) SAME_ITEMS(group->edge_nodes, other->edge_nodes, ends);
+    int32_t ends = group->face_count * group->nodes_per_face;
+    if (ends) SAME_ITEMS(group->face_nodes, other->face_nodes, ends);
     if (group->node_count) SAME_ITEMS(group->nodes, other->nodes, group->node_count);
     if (group->element_count) SAME_ITEMS(group->elements, other->elements, group->element_count);
 }

@@ -36,9 +36,9 @@ static MeshFile known_mesh(MeshGroup groups[3])
     groups[1] = (MeshGroup){.name = "contact",
                             .dimension = 1,
                             .number = 1,
-                            .edge_count = 2,
-                            .nodes_per_edge = 2,
-                            .edge_nodes = bottom,
+                            .face_count = 2,
+                            .nodes_per_face = 2,
+                            .face_nodes = bottom,
                             .node_count = 3,
                             .nodes = bottom_nodes};
     groups[2] = (MeshGroup){.name = "body",
@@ -90,14 +90,14 @@ static void test_back_to_the_bit(void **state)
         assert_string_equal(seen->name, groups[k].name);
         assert_int_equal(seen->dimension, groups[k].dimension);
         assert_int_equal(seen->number, groups[k].number);
-        assert_int_equal(seen->edge_count, groups[k].edge_count);
-        assert_int_equal(seen->nodes_per_edge, groups[k].nodes_per_edge);
+        assert_int_equal(seen->face_count, groups[k].face_count);
+        assert_int_equal(seen->nodes_per_face, groups[k].nodes_per_face);
         assert_int_equal(seen->node_count, groups[k].node_count);
         assert_int_equal(seen->element_count, groups[k].element_count);
         assert_int_equal(seen->blurred, groups[k].blurred);
     }
     assert_memory_equal(mesh.groups[0].nodes, corner, sizeof corner);
-    assert_memory_equal(mesh.groups[1].edge_nodes, bottom, sizeof bottom);
+    assert_memory_equal(mesh.groups[1].face_nodes, bottom, sizeof bottom);
     assert_memory_equal(mesh.groups[1].nodes, bottom_nodes, sizeof bottom_nodes);
     assert_memory_equal(mesh.groups[2].elements, part, sizeof part);
     mesh_file_destroy(&mesh);
@@ -139,7 +139,7 @@ static void test_what_cannot_be_is_not_believed(void **state)
     assert_false(believed_with(&known, &known.group_count, -1));
     assert_false(believed_with(&known, &groups[0].dimension, 3));
     assert_false(believed_with(&known, &groups[0].number, -1));
-    assert_false(believed_with(&known, &groups[1].nodes_per_edge, -1));
+    assert_false(believed_with(&known, &groups[1].nodes_per_face, -1));
     assert_false(believed_with(&known, &groups[2].element_count, -1));
     node_number[9]++;
     mesh_cache_store(KEY, &known);
@@ -189,7 +189,7 @@ static void test_every_byte(void **state)
                               mesh.node_count);
                 for (int32_t k = 0; k < mesh.group_count; k++) {
                     const MeshGroup *group = &mesh.groups[k];
-                    assert_within(group->edge_nodes, group->edge_count * group->nodes_per_edge,
+                    assert_within(group->face_nodes, group->face_count * group->nodes_per_face,
                                   mesh.node_count);
                     assert_within(group->nodes, group->node_count, mesh.node_count);
                     assert_within(group->elements, group->element_count, mesh.element_count);

@@ -17,7 +17,7 @@ typedef struct Raw {
     int64_t number[NODES];
     uint8_t dimension[NODES];
     double position[3 * NODES];
-    int64_t triangle[2], triangle_nodes[6], edge[1], edge_nodes[2], arc[1], arc_nodes[3];
+    int64_t triangle[2], triangle_nodes[6], edge[1], face_nodes[2], arc[1], arc_nodes[3];
     int32_t body[1], contact[2];
     RawBlock blocks[3];
     RawGroup groups[2];
@@ -32,7 +32,7 @@ static void make(Raw *made)
                   .triangle = {7, 3},
                   .triangle_nodes = {10, 35, 50, 10, 20, 35},
                   .edge = {1},
-                  .edge_nodes = {10, 20},
+                  .face_nodes = {10, 20},
                   .arc = {2},
                   .arc_nodes = {10, 20, 40},
                   .body = {1},
@@ -50,7 +50,7 @@ static void make(Raw *made)
                                  .nodes_per_element = 2,
                                  .count = 1,
                                  .number = made->edge,
-                                 .nodes = made->edge_nodes};
+                                 .nodes = made->face_nodes};
     made->blocks[2] = (RawBlock){.dimension = 1,
                                  .entity = 2,
                                  .gmsh_type = 8,
@@ -101,7 +101,7 @@ static void test_tags_with_holes(void **state)
     assert_memory_equal(mesh.element_nodes, nodes, sizeof nodes);
     assert_true(mesh.position[2 * 4] == 0 && mesh.position[2 * 4 + 1] == 1);
     assert_string_equal(mesh.groups[0].name, "4");   // of a group without a name, its number
-    assert_int_equal(mesh.groups[0].edge_nodes[1], 1);
+    assert_int_equal(mesh.groups[0].face_nodes[1], 1);
     assert_int_equal(mesh.groups[1].element_count, 2);
     mesh_file_destroy(&mesh);
 }
@@ -120,7 +120,7 @@ static void test_what_is_missing(void **state)
     made.raw.node_count = 0;
     assert_refused(&made, "which the file lacks");
     make(&made);
-    made.edge_nodes[1] = 21;
+    made.face_nodes[1] = 21;
     assert_refused(&made, "group '4' uses node 21, which the file lacks");
     make(&made);
     made.raw.block_count = 3;
@@ -184,7 +184,7 @@ static void test_copies(void **state)
     made.blocks[1].number = numbers;
     made.blocks[1].nodes = nodes;
     if (!mesh_raw_convert(&made.raw, "a.msh", &mesh, &err)) fail_msg("%s", err.message);
-    assert_int_equal(mesh.groups[0].edge_count, 1);
+    assert_int_equal(mesh.groups[0].face_count, 1);
     assert_int_equal(mesh.element_count, 2);
     mesh_file_destroy(&mesh);
     int32_t both[] = {1};

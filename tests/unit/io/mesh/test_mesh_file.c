@@ -125,8 +125,8 @@ static void test_element_kinds(void **state)
                          rows[k].elements * element_node_count(rows[k].kind));
         const MeshGroup *contact = mesh_file_group(&mesh, path, "contact", 1, &err);
         assert_non_null(contact);
-        assert_int_equal(contact->edge_count, 3);
-        assert_int_equal(contact->nodes_per_edge, rows[k].width);
+        assert_int_equal(contact->face_count, 3);
+        assert_int_equal(contact->nodes_per_face, rows[k].width);
         assert_int_equal(contact->node_count, rows[k].contact_nodes);
         for (int32_t i = 0; i < contact->node_count; i++)
             assert_true(mesh.position[2 * contact->nodes[i] + 1] == 0);
@@ -157,8 +157,8 @@ static void test_node_order(void **state)
         }
     }
     const MeshGroup *top = mesh_file_group(&mesh, path, "top", 1, &err);
-    for (int32_t k = 0; k < top->edge_count; k++) {
-        const int32_t *nodes = top->edge_nodes + 3 * k;
+    for (int32_t k = 0; k < top->face_count; k++) {
+        const int32_t *nodes = top->face_nodes + 3 * k;
         assert_near(mesh.position[2 * nodes[2]],
                     (mesh.position[2 * nodes[0]] + mesh.position[2 * nodes[1]]) / 2, 1e-12);
     }
@@ -180,10 +180,10 @@ static void assert_same(const MeshFile *a, const MeshFile *b, double tolerance)
         assert_string_equal(p->name, q->name);
         assert_int_equal(p->dimension, q->dimension);
         assert_int_equal(p->number, q->number);
-        assert_int_equal(p->edge_count, q->edge_count);
+        assert_int_equal(p->face_count, q->face_count);
         assert_int_equal(p->node_count, q->node_count);
-        assert_memory_equal(p->edge_nodes, q->edge_nodes,
-                            (size_t)(p->edge_count * p->nodes_per_edge) * sizeof(int32_t));
+        assert_memory_equal(p->face_nodes, q->face_nodes,
+                            (size_t)(p->face_count * p->nodes_per_face) * sizeof(int32_t));
         assert_memory_equal(p->nodes, q->nodes, (size_t)p->node_count * sizeof(int32_t));
     }
 }
@@ -285,7 +285,7 @@ static void test_by_hand(void **state)
     assert_memory_equal(mesh.element_nodes, nodes, sizeof nodes);
     assert_int_equal(mesh.group_count, 2);
     assert_string_equal(mesh.groups[0].name, "contact");
-    assert_memory_equal(mesh.groups[0].edge_nodes, edges, sizeof edges);
+    assert_memory_equal(mesh.groups[0].face_nodes, edges, sizeof edges);
     assert_string_equal(mesh.groups[1].name, "body");
     assert_int_equal(mesh.groups[1].number, 7);
     mesh_file_destroy(&mesh);
@@ -299,7 +299,7 @@ static void test_groups_by_number(void **state)
     Error err = {0};
     write_file("unnamed.msh", HEAD_22 NODES_22 ELEMENTS_22, path);
     read_well(path, NULL, 0, &mesh);
-    assert_int_equal(mesh_file_group(&mesh, path, "1", 1, &err)->edge_count, 2);
+    assert_int_equal(mesh_file_group(&mesh, path, "1", 1, &err)->face_count, 2);
     assert_non_null(mesh_file_group(&mesh, path, "7", 2, &err));
     mesh_file_destroy(&mesh);
 }
@@ -360,8 +360,8 @@ static void test_two_groups_in_22(void **state)
                path);
     read_well(path, NULL, 0, &mesh);
     assert_int_equal(mesh.element_count, 2);
-    assert_int_equal(mesh.groups[0].edge_count, 2);
-    assert_int_equal(mesh.groups[1].edge_count, 2);
+    assert_int_equal(mesh.groups[0].face_count, 2);
+    assert_int_equal(mesh.groups[1].face_count, 2);
     mesh_file_destroy(&mesh);
 }
 
@@ -437,11 +437,12 @@ static void test_elements_refused(void **state)
                "Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1}; Mesh.ElementOrder = 3;\n",
                path);
     read_badly(path, NULL, "Triangle 10", "T3, T6, Q4, Q8, Q9", NULL);
-    write_file("solid.msh",
-               HEAD_22 "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-                       "$Elements\n2\n1 2 2 1 1 1 2 3\n2 4 2 1 1 1 2 3 4\n$EndElements\n",
+    write_file("pyramid.geo",
+               "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n"
+               "Transfinite Curve \"*\" = 2; Transfinite Surface \"*\"; Recombine Surface \"*\";\n"
+               "Transfinite Volume 1; Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;\n",
                path);
-    read_badly(path, NULL, "volume elements", "Tetrahedron 4", NULL);
+    read_badly(path, NULL, "Hexahedron 20", "corners of negative weight", "HEX27");
     write_file("tilted.msh",
                HEAD_22 "$Nodes\n3\n1 0 0 0\n2 1 0 0.5\n3 0 1 0\n$EndNodes\n"
                        "$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",

@@ -3,6 +3,8 @@
 // finite differences, polynomials reproduced; quadrature against exact integrals.
 #include "io/mesh/shape_functions.h"
 
+#include "plane.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +26,7 @@ enum { PROBE_COUNT = sizeof PROBES / sizeof *PROBES };
 static void test_nodes(void **state)
 {
     (void)state;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++)
         for (int32_t b = 0; b < element_node_count((ElementKind)kind); b++) {
             const double *at = shape_node((ElementKind)kind, b);
             double xi = at[0], eta = at[1];
@@ -38,7 +40,7 @@ static void test_sum_and_slopes(void **state)
 {
     (void)state;
     const double h = 1e-5;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++)
         for (int32_t p = 0; p < PROBE_COUNT; p++) {
             double xi = PROBES[p][0], eta = PROBES[p][1], sum = 0, slopes[2] = {0};
             ShapeValues here = shape_at((ElementKind)kind, (double[]){xi, eta});
@@ -71,12 +73,12 @@ static void test_polynomials(void **state)
 {
     (void)state;
     // xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2, xi^2 eta^2
-    static const bool holds[ELEMENT_KIND_COUNT][8] = {[ELEMENT_T3] = {1, 1},
-                                                      [ELEMENT_T6] = {1, 1, 1, 1, 1},
-                                                      [ELEMENT_Q4] = {1, 1, 1},
-                                                      [ELEMENT_Q8] = {1, 1, 1, 1, 1, 1, 1},
-                                                      [ELEMENT_Q9] = {1, 1, 1, 1, 1, 1, 1, 1}};
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+    static const bool holds[PLANE_KINDS][8] = {[ELEMENT_T3] = {1, 1},
+                                               [ELEMENT_T6] = {1, 1, 1, 1, 1},
+                                               [ELEMENT_Q4] = {1, 1, 1},
+                                               [ELEMENT_Q8] = {1, 1, 1, 1, 1, 1, 1},
+                                               [ELEMENT_Q9] = {1, 1, 1, 1, 1, 1, 1, 1}};
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++)
         for (int32_t m = 0; m < 8; m++) {
             double error = 0;
             for (int32_t p = 0; p < PROBE_COUNT; p++) {
@@ -114,7 +116,7 @@ static void test_quadrature(void **state)
     // Degree in total for triangles, in each direction for squares; one more must fail.
     static const int32_t degree[] = {
         [ELEMENT_T3] = 1, [ELEMENT_T6] = 2, [ELEMENT_Q4] = 3, [ELEMENT_Q8] = 5, [ELEMENT_Q9] = 5};
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         bool triangle = kind == ELEMENT_T3 || kind == ELEMENT_T6;
         Quadrature rule = shape_quadrature((ElementKind)kind);
         for (int32_t i = 0; i <= degree[kind] + 1; i++)
@@ -136,7 +138,7 @@ static void test_quadrature(void **state)
 static void test_jacobian(void **state)
 {
     (void)state;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
             const double *at = shape_node((ElementKind)kind, a);

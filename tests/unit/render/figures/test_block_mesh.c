@@ -3,6 +3,8 @@
 // edges where they belong; energies of a known strain.
 #include "render/figures/block_mesh.h"
 
+#include "plane.h"
+
 #include "base/memory.h"
 #include "io/mesh/shape_functions.h"
 #include "near.h"
@@ -133,7 +135,7 @@ static void draw_and_read(ElementKind kind)
 static void every_element_shows_its_field(void **state)
 {
     (void)state;
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) draw_and_read((ElementKind)kind);
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) draw_and_read((ElementKind)kind);
 }
 
 // Ink lies on the curve field = 0.3, all along it, and nowhere else.
@@ -213,7 +215,7 @@ static void energies_of_one_strain(void **state)
     (void)state;
     const double a = 0.02, b = 0.03, c = -0.01, d = 0.05, stress[3] = {2, -3, 0.7};
     const double work = stress[0] * a + stress[1] * d + stress[2] * (b + c);
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+    for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         Error err = {0};
         Patch patch;
         Block block = patch_make((ElementKind)kind, &patch);

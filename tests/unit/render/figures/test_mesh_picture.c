@@ -18,13 +18,13 @@ static int32_t LEFT[] = {0, 1}, RIGHT[] = {1, 2}, FACE[] = {3, 0};
 
 static RenderMesh mesh_by_hand(MeshGroup groups[3])
 {
-    groups[0] = (MeshGroup){.name = "contact_1", .dimension = 1, .edge_count = 1};
-    groups[1] = (MeshGroup){.name = "contact_2", .dimension = 1, .edge_count = 1};
-    groups[2] = (MeshGroup){.name = "rod", .dimension = 1, .edge_count = 1};
+    groups[0] = (MeshGroup){.name = "contact_1", .dimension = 1, .face_count = 1};
+    groups[1] = (MeshGroup){.name = "contact_2", .dimension = 1, .face_count = 1};
+    groups[2] = (MeshGroup){.name = "rod", .dimension = 1, .face_count = 1};
     int32_t *const edges[] = {LEFT, RIGHT, FACE};
     for (int32_t g = 0; g < 3; g++) {
-        groups[g].nodes_per_edge = 2;
-        groups[g].edge_nodes = edges[g];
+        groups[g].nodes_per_face = 2;
+        groups[g].face_nodes = edges[g];
     }
     return (RenderMesh){.title = "two squares",
                         .note = "a note that is far too long for the width of the picture it is "

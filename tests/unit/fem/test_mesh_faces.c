@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The edge table against Euler's formula and against what is known of a block's sides.
-#include "fem/mesh_edges.h"
+// The table of faces, in the plane edges, against Euler's formula and against what is known of a block's sides.
+#include "fem/mesh_faces.h"
 
 #include "base/memory.h"
 #include "mesh_by_hand.h"
@@ -30,26 +30,32 @@ static void build(Mesh *mesh)
     assert_true(mesh_build(&file, "two.msh", mesh, &err));
 }
 
+static FaceNodes edge_of(const int32_t *ends)
+{
+    return (FaceNodes){ELEMENT_L2, ends};
+}
+
 static void test_find(void **state)
 {
     (void)state;
     Error err = {0};
     Mesh mesh;
-    MeshEdges table;
+    MeshFaces table;
     build(&mesh);
-    assert_true(mesh_edges_build(&mesh, &table, &err));
-    const MeshEdge *shared = mesh_edges_find(&table, 2, 1);
+    assert_true(mesh_faces_build(&mesh, &table, &err));
+    const MeshFace *shared = mesh_faces_find(&table, edge_of((int32_t[]){2, 1}));
     assert_non_null(shared);
-    assert_ptr_equal(shared, mesh_edges_find(&table, 1, 2));
-    assert_int_equal(shared->high, 2);
+    assert_ptr_equal(shared, mesh_faces_find(&table, edge_of((int32_t[]){1, 2})));
+    assert_int_equal(shared->key.corner[0], 1);
+    assert_int_equal(shared->key.corner[1], 2);
     assert_int_equal(shared->elements, 2);
-    assert_int_equal(shared->middle, -1);
-    assert_int_equal(mesh_edges_find(&table, 1, 4)->elements, 1);
-    assert_int_equal(mesh_edges_find(&table, 4, 2)->element, 1);
-    assert_null(mesh_edges_find(&table, 0, 2));   // a diagonal
-    assert_null(mesh_edges_find(&table, 3, 4));
-    mesh_edges_destroy(&table);
-    mesh_edges_destroy(&table);
+    assert_int_equal(shared->key.inner[0], -1);
+    assert_int_equal(mesh_faces_find(&table, edge_of((int32_t[]){1, 4}))->elements, 1);
+    assert_int_equal(mesh_faces_find(&table, edge_of((int32_t[]){4, 2}))->element, 1);
+    assert_null(mesh_faces_find(&table, edge_of((int32_t[]){0, 2})));   // a diagonal
+    assert_null(mesh_faces_find(&table, edge_of((int32_t[]){3, 4})));
+    mesh_faces_destroy(&table);
+    mesh_faces_destroy(&table);
     mesh_destroy(&mesh);
 }
 
@@ -68,24 +74,24 @@ static void test_euler(void **state)
         Error err = {0};
         MeshFile file;
         Mesh mesh;
-        MeshEdges table;
+        MeshFaces table;
         snprintf(parameters[2].text, GROUP_NAME_SIZE, "%s", shapes[k % 2]);
         snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
         if (!mesh_file_read(path, parameters, 5, &file, &err) ||
-            !mesh_build(&file, path, &mesh, &err) || !mesh_edges_build(&mesh, &table, &err))
+            !mesh_build(&file, path, &mesh, &err) || !mesh_faces_build(&mesh, &table, &err))
             fail_msg("%s", err.message);
         int32_t edges = 0, middles = 0, boundary = 0, centres = 0;
         for (int32_t i = 0; i < mesh.node_count; i++)
             for (int32_t j = table.first[i]; j < table.last[i]; j++) {
                 edges++;
-                middles += table.edges[j].middle >= 0;
-                boundary += table.edges[j].elements == 1;
+                middles += table.faces[j].key.inner[0] >= 0;
+                boundary += table.faces[j].elements == 1;
             }
         for (int32_t e = 0; e < mesh.element_count; e++) centres += mesh.kind[e] == ELEMENT_Q9;
         assert_int_equal(mesh.node_count - middles - centres - edges + mesh.element_count, 1);
         assert_int_equal(middles, k / 2 ? edges : 0);
         assert_int_equal(boundary, 2 * (10 + 6));
-        mesh_edges_destroy(&table);
+        mesh_faces_destroy(&table);
         mesh_destroy(&mesh);
     }
 }
@@ -99,11 +105,11 @@ static void test_memory_faults(void **state)
     int64_t live = memory_counters().live;
     for (int64_t k = 0; !done; k++) {
         Error err = {0};
-        MeshEdges table;
+        MeshFaces table;
         memory_fail_after(k);
-        done = mesh_edges_build(&mesh, &table, &err);
+        done = mesh_faces_build(&mesh, &table, &err);
         memory_fail_after(-1);
-        mesh_edges_destroy(&table);
+        mesh_faces_destroy(&table);
         if (!done) assert_int_equal(err.code, ERROR_MEMORY);
         assert_int_equal(memory_counters().live, live);
     }
