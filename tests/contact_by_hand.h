@@ -13,7 +13,10 @@
 #ifndef HAND_NODES   // a test may need more
 #define HAND_NODES 40
 #endif
-enum { HAND_RODS = 4, HAND_UNKNOWNS = 2 * HAND_NODES + HAND_RODS };
+#ifndef HAND_DIM
+#define HAND_DIM 2
+#endif
+enum { HAND_RODS = 4, HAND_UNKNOWNS = HAND_DIM * HAND_NODES + HAND_RODS };
 
 typedef struct HandContact {
     Interface interface;   // counts only
@@ -30,10 +33,10 @@ typedef struct HandContact {
 static inline void hand_contact_size(HandContact *hand, int32_t contacts, int32_t rods)
 {
     memset(hand, 0, sizeof *hand);
-    hand->interface.dim = 2;
+    hand->interface.dim = HAND_DIM;
     hand->interface.contact_count = contacts;
     hand->interface.rod_count = rods;
-    hand->interface.count = 2 * contacts + rods;
+    hand->interface.count = HAND_DIM * contacts + rods;
     hand->rod_kind = ROD_PUSHES;
 }
 
@@ -119,8 +122,9 @@ static inline void hand_random_schur(Random *random, double diagonal, double cou
         for (int32_t i = 0; i < count; i++) {
             double sum = 0;
             for (int32_t k = 0; k < count; k++) sum += b[k * count + i] * b[k * count + j];
-            bool across = i < 2 * hand->interface.contact_count &&
-                          j < 2 * hand->interface.contact_count && i % 2 != j % 2;
+            int32_t contacts = HAND_DIM * hand->interface.contact_count, n = HAND_DIM - 1;
+            bool across = i < contacts && j < contacts &&
+                          (i % HAND_DIM == n) != (j % HAND_DIM == n);
             hand->schur[j * count + i] = (across ? coupling : 1) * 3 * sum / count +
                                          (i == j ? diagonal : 0);
         }

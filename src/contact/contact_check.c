@@ -4,6 +4,8 @@
 // wrongly but meets the conditions is right, one that does not is found out.
 #include "contact/contact_check.h"
 
+#include "contact/slip.h"
+
 #include <math.h>
 
 // Below this fraction of the velocity scale a tangential velocity counts as zero.
@@ -28,16 +30,18 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
     ContactResidual worst = {0};
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
-        double pressing = reaction[n] / force_scale, shear = reaction[t] / force_scale;
+        double pressing = reaction[n] / force_scale;
         check_unilateral((velocity[n] - problem->bound[n]) / velocity_scale, pressing, &worst);
-        double slip_rate = velocity[t];
-        double limit = friction_coefficient(friction_at(problem->law, i), fabs(slip_rate)) *
+        double speed = slip_size(interface, i, velocity);
+        double limit = friction_coefficient(friction_at(problem->law, i), speed) *
                        fmax(pressing, 0);
-        worst.cone = fmax(worst.cone, fabs(shear) - limit);
+        worst.cone = fmax(worst.cone, slip_size(interface, i, reaction) / force_scale - limit);
         // Where it slips, friction is mu p against the slip; at rest any shear inside the cone will
         // do.
-        if (fabs(slip_rate) > STILL * velocity_scale)
-            worst.direction = fmax(worst.direction, fabs(shear + (slip_rate > 0 ? limit : -limit)));
+        double off = 0;
+        for (int32_t c = 0; c < slip_tangents(interface); c++)
+            off = hypot(off, reaction[t + c] / force_scale + limit * (velocity[t + c] / speed));
+        if (speed > STILL * velocity_scale) worst.direction = fmax(worst.direction, off);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);

@@ -13,7 +13,7 @@ typedef struct ContactResidual {
     double pull;   // -r_n (or rod), force
     double gap_force;   // min(v_n - bound, r_n) in scaled quantities: pressed though apart
     double cone;   // |r_t| - mu r_n, force
-    double direction;   // |r_t + mu r_n sign(v_t)| where |v_t| is above rounding, force
+    double direction;   // |r_t + mu r_n v_t/|v_t|| where |v_t| is above rounding, force
 } ContactResidual;
 
 ContactResidual contact_residual(const ContactProblem *problem, const double *velocity,

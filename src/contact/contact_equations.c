@@ -40,8 +40,10 @@ void contact_list_free(ContactEquations *equations, bool of_open)
     int32_t *free = equations->free, count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         bool open = of_open && at->status[i] == CONTACT_OPEN;
-        if (open || status_slips(at->status[i])) free[count++] = interface_tangent(interface, i);
-        if (open) free[count++] = interface_normal(interface, i);
+        int32_t components = open ? interface->dim : interface->dim - 1;
+        if (!open && !status_slips(at->status[i])) continue;
+        for (int32_t c = 0; c < components; c++)
+            free[count++] = interface_unknown(interface, i, c);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)
@@ -56,10 +58,11 @@ void contact_hold(const ContactEquations *equations)
     const Interface *interface = problem->interface;
     const ContactSolution *at = equations->at;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
+        int32_t n = interface_normal(interface, i);
         if (at->status[i] == CONTACT_OPEN) continue;
         at->velocity[n] = problem->bound[n];
-        if (at->status[i] == CONTACT_STICK) at->velocity[t] = 0;
+        if (at->status[i] != CONTACT_STICK) continue;
+        for (int32_t t = interface_tangent(interface, i); t < n; t++) at->velocity[t] = 0;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);

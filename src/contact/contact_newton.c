@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Order of one step: factors, kept or made -> what forces at open nodes do to the others (`pull`)
-// -> the step of what is free -> what follows from it (`take_step`).
+// -> the step of what is free -> what follows from it (`contact_newton_take`).
 #include "contact/contact_newton.h"
 
 #include "base/dense.h"
@@ -40,14 +40,15 @@ void contact_newton_react(ContactNewton *newton)
     newton->exact = true;
 }
 
-// Held unknowns take their values. A node that would slip against its status starts from rest.
+// Held unknowns take their values. A node that would slip against its status starts from rest; in
+// space there is no such thing, it turns.
 static void hold(ContactNewton *newton)
 {
     const Interface *interface = newton->equations.problem->interface;
     const ContactSolution *at = newton->equations.at;
     newton->listed = false;
     contact_hold(&newton->equations);
-    for (int32_t i = 0; i < interface->contact_count; i++) {
+    for (int32_t i = 0; interface->dim == 2 && i < interface->contact_count; i++) {
         double *slip_rate = &at->velocity[interface_tangent(interface, i)];
         if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
             *slip_rate = 0;
@@ -82,7 +83,7 @@ void contact_newton_settle(ContactNewton *newton)
                       at->reaction);
 }
 
-bool contact_newton_list(ContactNewton *newton)
+bool contact_newton_close(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
@@ -92,13 +93,19 @@ bool contact_newton_list(ContactNewton *newton)
     newton->open_count = 0;
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
         if (at->status[i] != CONTACT_OPEN) continue;
-        newton->open[newton->open_count++] = interface_tangent(problem->interface, i);
-        newton->open[newton->open_count++] = interface_normal(problem->interface, i);
+        for (int32_t c = 0; c < problem->interface->dim; c++)
+            newton->open[newton->open_count++] = interface_unknown(problem->interface, i, c);
     }
     contact_list_free(&newton->equations, false);
+    newton->listed = true;
+    return true;
+}
+
+bool contact_newton_list(ContactNewton *newton)
+{
+    if (!contact_newton_close(newton)) return false;
     contact_find_rows(&newton->equations);
     contact_residuals(&newton->equations, newton->step);
-    newton->listed = true;
     return true;
 }
 
@@ -138,7 +145,7 @@ static bool find_factors(ContactNewton *newton)
 // pull = S' r_O: what the forces at open nodes, which shall have none, do to all others when they
 // are taken away and, on O, -S_OO^-1 r_O: how these nodes would move if nothing else did. Rounding
 // is left as it is.
-static void find_pull(ContactNewton *newton)
+void contact_newton_find_pull(ContactNewton *newton)
 {
     int32_t count = newton->equations.problem->interface->count;
     bool pulls = false;
@@ -158,7 +165,7 @@ static void find_pull(ContactNewton *newton)
 // Velocities and reactions after a step of what is free. Where nodes are open one product with S'
 // gives what the step adds to the reactions of the others and how open nodes follow; S v, which
 // has their columns too, is left to the end.
-static void take_step(ContactNewton *newton)
+void contact_newton_take(ContactNewton *newton)
 {
     ContactSolution *at = newton->equations.at;
     int32_t count = newton->equations.problem->interface->count,
@@ -189,14 +196,14 @@ bool contact_newton_step(ContactNewton *newton)
     if (!find_factors(newton)) return false;
     for (int32_t a = 0; a < free_count; a++) newton->step[a] = -newton->step[a];
     if (newton->open_count > 0) {
-        find_pull(newton);
+        contact_newton_find_pull(newton);
         contact_combine(equations, newton->pull, newton->more);
         dense_add_scaled(1, newton->more, free_count, newton->step);
     }
     if (!contact_factors_solve(&newton->factors, equations, newton->step) &&
         !(factor(newton) && contact_factors_solve(&newton->factors, equations, newton->step)))
         return false;
-    take_step(newton);
+    contact_newton_take(newton);
     return true;
 }
 

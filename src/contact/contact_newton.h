@@ -53,6 +53,15 @@ void contact_newton_settle(ContactNewton *newton);
 // Lists what is free and open by the statuses as they are. false: nothing holds the open nodes.
 bool contact_newton_list(ContactNewton *newton);
 
+// The same without residuals, which are the caller's.
+bool contact_newton_close(ContactNewton *newton);
+
+// Parts of a step, of those who find `step` themselves. `pull` = S' r_O: what the forces at open
+// nodes do to the others when they are taken away; and then what `step` makes of velocities and
+// reactions.
+void contact_newton_find_pull(ContactNewton *newton);
+void contact_newton_take(ContactNewton *newton);
+
 // One step, after contact_newton_list and with residuals in `step`. false: the derivative is
 // singular.
 bool contact_newton_step(ContactNewton *newton);

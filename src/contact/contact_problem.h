@@ -3,7 +3,8 @@
 //
 //     S v = g + r
 //     contact, normal     v_n >= bound_n,  r_n >= 0,  (v_n - bound_n) r_n = 0
-//     contact, tangent    |r_t| <= mu(|v_t|) r_n,  r_t = -mu(|v_t|) r_n sign(v_t) where v_t != 0
+//     contact, tangent    |r_t| <= mu(|v_t|) r_n,  r_t = -mu(|v_t|) r_n v_t/|v_t| where v_t != 0
+//                         vectors of dim - 1 components
 //     rod                 v_x >= bound_x,  r_x >= 0,  complementary (push)
 //                         v_x  = bound_x (bonded),    r_x = 0 (away)
 //                         bound_x - r_x softness/(rod_reach + lag) in its place at a soft node

@@ -22,7 +22,11 @@ static const double CLEARLY = 100;
 // The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
-    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 40, .tolerance = 1e-12};
+    return (ContactSolverDef){.iterations_all = 30,
+                              .iterations_one = 40,
+                              .tolerance = 1e-12,
+                              .rounds = 4,
+                              .sweeps = 15};
 }
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
@@ -31,13 +35,17 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
 {
     *solver = (ContactSolver){.def = def, .follows_path = true};
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
-    return error_is_clean(err) && contact_newton_create(interface, &solver->newton, err) &&
-           contact_path_create(interface, &solver->path, err);
+    if (!error_is_clean(err) || !contact_newton_create(interface, &solver->newton, err))
+        return false;
+    return interface->dim == 2
+               ? contact_path_create(interface, &solver->path, err)
+               : contact_discs_create(interface, &solver->newton, &solver->discs, err);
 }
 
 void contact_solver_destroy(ContactSolver *solver)
 {
     contact_path_destroy(&solver->path);
+    contact_discs_destroy(&solver->discs);
     contact_newton_destroy(&solver->newton);
     memory_free(solver->anchor);
     *solver = (ContactSolver){0};
@@ -253,16 +261,42 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     return false;
 }
 
+static bool solve_discs(ContactSolver *solver, const ContactProblem *problem,
+                        ContactSolution *solution)
+{
+    ContactDiscs *discs = &solver->discs;
+    DiscsDef def = {.steps = solver->def.iterations_all,
+                    .rounds = solver->def.rounds,
+                    .sweeps = solver->def.sweeps,
+                    .tolerance = solver->def.tolerance};
+    fix_rod_kind(problem, solution);
+    int64_t before = discs->iterations, swept = discs->swept;
+    bool solved = contact_discs_solve(discs, &def, problem, solution);
+    solver->iterations += discs->iterations - before;
+    solver->fallbacks += discs->swept - swept;
+    solver->rescued += solved && discs->swept > swept;
+    return solved;
+}
+
 // After a path was followed its end is handed to Newton once more, which brings the last digits and
 // has the last word on whether it is solved.
-bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
+static bool solve_plane(ContactSolver *solver, const ContactProblem *problem,
+                        ContactSolution *solution)
 {
-    double started = clock_seconds();
     bool solved = solve_statuses(solver, problem, solution);
     if (!solved && solver->follows_path && contact_path_follow(&solver->path, problem, solution)) {
         solved = solve_statuses(solver, problem, solution);
         solver->rescued += solved;
     }
+    return solved;
+}
+
+bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
+{
+    double started = clock_seconds();
+    bool plane = problem->interface->dim == 2;
+    bool solved = plane ? solve_plane(solver, problem, solution)
+                        : solve_discs(solver, problem, solution);
     solver->solves++;
     solver->unsolved += !solved;
     solver->seconds += clock_seconds() - started;

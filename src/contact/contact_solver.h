@@ -8,10 +8,12 @@
 // residual no longer falls, a path to a solution is followed (contact/contact_path): there is one,
 // as S is positive definite and mu bounded and continuous. Where even that is not found, or the
 // caller prefers a shorter step to a path, the problem counts as unsolved and the caller must take
-// a shorter step. Called by stepping/sdirk.
+// a shorter step. All of this holds for one tangent; in space contact/contact_discs solves.
+// Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
+#include "contact/contact_discs.h"
 #include "contact/contact_newton.h"
 #include "contact/contact_path.h"
 #include "contact/contact_problem.h"
@@ -21,6 +23,8 @@ typedef struct ContactSolverDef {
         iterations_all;   // Newton steps in which every violated status is changed: 30, some ten
     // times what a solvable problem was seen to need
     int32_t iterations_one;   // and then those that change only the worst: 40
+    int32_t rounds, sweeps;   // in space: so many sweeps over the nodes where Newton's steps do not
+        // settle, and so many times: 15, 4
     double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
         // above what rounding leaves in S v - g
 } ContactSolverDef;
@@ -29,6 +33,7 @@ ContactSolverDef contact_solver_def(void);
 typedef struct ContactSolver {
     ContactSolverDef def;
     ContactNewton newton;   // steps with these statuses; owned
+    ContactDiscs discs;   // of a contact in space, which uses the same `newton`; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a contact node does: it is open, sticks, or slips one way or the other.
+// What a contact node does: it is open, sticks, or slips one way or the other along the drive. In
+// space its velocity says where to exactly (contact/slip), and these two which way it gets on.
 #ifndef AMONTONS_CONTACT_CONTACT_STATUS_H
 #define AMONTONS_CONTACT_CONTACT_STATUS_H
 
@@ -24,7 +25,12 @@ static inline bool status_slips(uint8_t status)
     return status == CONTACT_SLIP_FORWARD || status == CONTACT_SLIP_BACKWARD;
 }
 
-// +1 or -1: the direction of v_t.
+static inline uint8_t status_of_slip(double along_drive)
+{
+    return along_drive < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_SLIP_FORWARD;
+}
+
+// +1 or -1: the direction of v_t in the plane.
 static inline double status_direction(uint8_t status)
 {
     return status == CONTACT_SLIP_FORWARD ? 1.0 : -1.0;

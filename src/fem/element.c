@@ -15,17 +15,18 @@ double element_strain_matrix(ElementKind kind, const MeshPlace *position, const 
     ShapeValues shape = shape_at(kind, point);
     MeshPlace gradient[ELEMENT_NODES_MAX];
     double determinant = shape_gradients(kind, &shape, position, gradient);
-    int32_t dim = element_dim(kind), nodes = element_node_count(kind), row = dim;
+    int32_t dim = element_dim(kind), nodes = element_node_count(kind);
     for (int32_t r = 0; r < strain_count(dim); r++)
         memset(b[r], 0, (size_t)(dim * nodes) * sizeof(double));
     for (int32_t a = 0; a < nodes; a++)
         for (int32_t d = 0; d < dim; d++) b[d][dim * a + d] = gradient[a][d];
-    for (int32_t d = 0; d < dim; d++)
-        for (int32_t f = d + 1; f < dim; f++, row++)
-            for (int32_t a = 0; a < nodes; a++) {
-                b[row][dim * a + d] = gradient[a][f];
-                b[row][dim * a + f] = gradient[a][d];
-            }
+    for (int32_t row = dim; row < strain_count(dim); row++) {
+        int32_t d = SHEAR_AXES[row - dim][0], f = SHEAR_AXES[row - dim][1];
+        for (int32_t a = 0; a < nodes; a++) {
+            b[row][dim * a + d] = gradient[a][f];
+            b[row][dim * a + f] = gradient[a][d];
+        }
+    }
     return determinant;
 }
 

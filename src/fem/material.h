@@ -48,9 +48,12 @@ static inline int32_t strain_count(int32_t dim)
     return dim * (dim + 1) / 2;
 }
 
+// The pairs of axes in the order of shears: in the plane the first, xz.
+static const int32_t SHEAR_AXES[3][2] = {{0, 1}, {1, 2}, {0, 2}};
+
 // stress = D strain, of an entry for each axis, then one for each pair of axes: xx, zz, 2 xz in the
-// plane, xx, yy, zz, 2 xy, 2 xz, 2 yz in space; stresses without the 2. Symmetric; entries beyond
-// are 0.
+// plane, xx, yy, zz, 2 xy, 2 yz, 2 xz in space (VTK's order); stresses without the 2. Symmetric;
+// entries beyond are 0.
 void moduli_matrix(Moduli moduli, int32_t dim, double d[STRAINS_MAX][STRAINS_MAX]);
 
 // Of a strain in the plane sigma_yy, which von Mises needs, with its viscous part: 0 in plane

@@ -187,10 +187,11 @@ typedef struct Strains {
 // strain += that of a node's displacement u by the slopes of its shape function.
 static void add_strain(int32_t dim, const double *slope, const double *u, double *strain)
 {
-    int32_t row = dim;
     for (int32_t d = 0; d < dim; d++) strain[d] += slope[d] * u[d];
-    for (int32_t d = 0; d < dim; d++)
-        for (int32_t f = d + 1; f < dim; f++) strain[row++] += slope[f] * u[d] + slope[d] * u[f];
+    for (int32_t row = dim; row < strain_count(dim); row++) {
+        int32_t d = SHEAR_AXES[row - dim][0], f = SHEAR_AXES[row - dim][1];
+        strain[row] += slope[f] * u[d] + slope[d] * u[f];
+    }
 }
 
 // A row of the operator times displacement and velocity.

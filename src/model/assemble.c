@@ -31,6 +31,38 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A material in space is neither in plane stress nor in plane strain; lambda is that of the latter.
+static bool take_to_space(Model *model, Error *err)
+{
+    Materials *materials = &model->materials;
+    bool possible = true;
+    for (int32_t k = 0; k < materials->count; k++) {
+        materials->list[k].plane_strain = true;
+        possible = possible && materials->list[k].poisson < 0.5;
+    }
+    materials->mean.plane_strain = true;
+    if (!possible)
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "a mesh in space needs Poisson's ratios below 0.5");
+    return scene_blame(model->scene, "material.poisson", possible, err);
+}
+
+static bool blame_across(const Scene *scene, const char *key, Error *err)
+{
+    error_set(err, ERROR_INPUT, __FILE__, __LINE__, "the mesh is in the plane: there is no y");
+    return scene_blame(scene, key, false, err);
+}
+
+static bool refuse_across(const Scene *scene, Error *err)
+{
+    if (scene->rod.breadth > 0) return blame_across(scene, "rod.breadth", err);
+    for (int32_t k = 0; k < scene->load.traction_count; k++)
+        if (scene->load.tractions[k].y != 0) return blame_across(scene, "load.tractions", err);
+    for (int32_t k = 0; k < scene->load.support_count; k++)
+        if (scene->load.supports[k].y) return blame_across(scene, "load.supports", err);
+    return true;
+}
+
 // Where gmsh has to make it, the slowest part of a small run (76 ms to load).
 bool model_read_mesh(Model *model, Error *err)
 {
@@ -48,6 +80,8 @@ bool model_read_mesh(Model *model, Error *err)
     model->middle = 0.5 * (mesh->x_min + mesh->x_max);
     model->height = mesh->z_max - mesh->z_min;
     model->elements = mesh->element_count;
+    if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
+    TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
     TRY(model_mark_regions(model, err));
 cleanup:
     mesh_file_destroy(&file);
@@ -55,15 +89,16 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A force to measure by where no load presses: the loads' size, or the impact's.
-// Force per width: of an impact, the stress rho c_L v over the length.
+// A force to measure by where no load presses: the loads' size, or the impact's, the stress
+// rho c_L v over the floor.
 static double free_scale(const Model *model, double load)
 {
     const Material *material = &model->materials.mean;
     double impedance = material->density * material_speeds(material).longitudinal;
-    double impact = impedance * fabs(model->scene->start.velocity_z) * model->length;
+    double floor = model->length * model->breadth;
+    double impact = impedance * fabs(model->scene->start.velocity_z) * floor;
     if (impact > 0) return impact;
-    return load < 0 ? -load : material->young * model->length;
+    return load < 0 ? -load : material->young * floor;
 }
 
 // What is held needs no load, and what flies towards the plane has its momentum.
@@ -89,23 +124,23 @@ static bool add_loads(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     Bulk *bulk = &model->bulk;
-    MeshBoundary curve;
+    MeshBoundary boundary;
     double reference = load_reference(scene), unit = 0;
     int32_t up = bulk->dim - 1;
     if (scene->load.pressure != 0) {
         MeshPlace traction = {0};
         traction[up] = -scene->load.pressure / reference;
-        bool found = mesh_boundary(&model->mesh, scene->groups.top, &curve, err);
+        bool found = mesh_boundary(&model->mesh, scene->groups.top, &boundary, err);
         TRY(scene_blame(scene, "groups.top", found, err));
-        bulk_add_traction(&model->mesh, &curve, traction, bulk);
+        bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         const SceneTraction *given = &scene->load.tractions[k];
-        MeshPlace traction = {given->x / reference};
+        MeshPlace traction = {given->x / reference, given->y / reference};
         traction[up] = given->z / reference;
-        bool found = mesh_boundary(&model->mesh, given->group, &curve, err);
+        bool found = mesh_boundary(&model->mesh, given->group, &boundary, err);
         TRY(scene_blame(scene, "load.tractions", found, err));
-        bulk_add_traction(&model->mesh, &curve, traction, bulk);
+        bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }
     for (int32_t dof = up; dof < bulk->dof_count; dof += bulk->dim) unit -= bulk->load[dof];
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
@@ -131,6 +166,8 @@ bool model_build_bulk(Model *model, Error *err)
                         .rod_name = scene->groups.rod,
                         .rod_height = middle,
                         .rod_width = width,
+                        .rod_breadth = scene->rod.breadth,
+                        .rod_whole = scene->rod.whole,
                         .rod_in_part = scene->rod.ends == ROD_ENDS_EXACT};
     const Interface *interface = &model->interface;
     bool done = interface_build(&model->mesh, &def, &model->interface, err);
@@ -151,12 +188,13 @@ bool model_hold_supports(Model *model, Error *err)
     const Scene *scene = model->scene;
     for (int32_t k = 0; k < scene->load.support_count; k++) {
         const SceneSupport *support = &scene->load.supports[k];
-        MeshBoundary curve;
-        bool found = mesh_boundary(&model->mesh, support->group, &curve, err);
+        MeshBoundary boundary;
+        bool found = mesh_boundary(&model->mesh, support->group, &boundary, err);
         if (!scene_blame(scene, "load.supports", found, err)) return false;
-        for (int32_t i = 0; i < curve.node_count; i++) {
-            int32_t first = node_dof(model->mesh.dim, curve.nodes[i], 0);
+        for (int32_t i = 0; i < boundary.node_count; i++) {
+            int32_t first = node_dof(model->mesh.dim, boundary.nodes[i], 0);
             if (support->x) bulk_hold(first, &model->bulk);
+            if (support->y) bulk_hold(first + 1, &model->bulk);
             if (support->z) bulk_hold(first + model->mesh.dim - 1, &model->bulk);
         }
     }

@@ -55,12 +55,13 @@ static Materials scene_materials(const Scene *scene)
 
 Model model_of(const Scene *scene)
 {
-    return (Model){.scene = scene, .materials = scene_materials(scene), .law = scene->friction};
+    return (Model){
+        .scene = scene, .materials = scene_materials(scene), .law = scene->friction, .breadth = 1};
 }
 
 double model_friction_slip(const Model *model)
 {
-    double pressure = model->scales.load / model->length;
+    double pressure = model->scales.load / (model->length * model->breadth);
     return friction_slip(&model->law, pressure, model->height, model->materials.mean.young);
 }
 
@@ -68,7 +69,7 @@ double model_friction_slip(const Model *model)
 double model_machine_yield(const Model *model)
 {
     double stiffness = model_machine(model).stiffness;
-    double block = model->materials.mean.young * model->length / model->height;
+    double block = model->materials.mean.young * model->length * model->breadth / model->height;
     return stiffness > 0 ? model_friction_slip(model) * block / stiffness : 0;
 }
 
@@ -102,7 +103,7 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
     RodGround ground[2];
     for (int k = 0; k < 2; k++) ground[k] = rod_ground(model, &model->rod_end[k]);
     if (!rod_build(&model->interface, kind, 0, rod, err)) return false;
-    rod->stiffness = model->scene->rod.stiffness;
+    rod->stiffness = model_machine(model).stiffness;
     rod_soften(&model->interface, ground, rod);
     return true;
 }
@@ -110,8 +111,9 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
 Machine model_machine(const Model *model)
 {
     const Interface *interface = &model->interface;
-    return (Machine){.stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness : 0,
-                     .first = interface_rod(interface, 0)};
+    return (Machine){
+        .stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness * model->breadth : 0,
+        .first = interface_rod(interface, 0)};
 }
 
 void model_rod_strip(const Scene *scene, double height, double *middle, double *width)

@@ -38,6 +38,7 @@ typedef struct Model {
     ReducedBulk reduced;   // count 0: the full mesh is stepped
     BulkOperator system;   // what is stepped: the reduced bulk or the full one
     double length, height;   // L, H of the block, length
+    double breadth;   // of the block along y, length; 1 in the plane, where forces are per width
     double middle;   // x of its middle, length
     int32_t elements, full_dofs;   // of the mesh
     MeshOrigin mesh_origin;   // where it was read

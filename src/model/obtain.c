@@ -209,13 +209,15 @@ static bool is_viscous(const Scene *scene)
     return viscous;
 }
 
-// The scene's bulk can be reduced: stepped implicitly, with viscosity, from states the interface
+// The scene's bulk can be reduced: in the plane, stepped implicitly, with viscosity, from states the interface
 // made.
-static bool is_reducible(const Scene *scene)
+static bool is_reducible(const Model *model)
 {
+    const Scene *scene = model->scene;
+    bool plane = model->mesh.dim <= 2;   // 0: not read yet
     bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
     bool allowed = scene->reduction.use != REDUCE_NEVER && scene->reduction.decided != REDUCE_NEVER;
-    return allowed && implicit && is_viscous(scene) && starts_at_interface(scene);
+    return allowed && plane && implicit && is_viscous(scene) && starts_at_interface(scene);
 }
 
 // Sets what the run is expected to cost. held: the basis is in the cache.
@@ -224,7 +226,7 @@ static bool expect(Model *model, bool held, Error *err)
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
     bool mirrored = model->reduced.part_count > 1;
-    if (!held && is_reducible(scene))
+    if (!held && is_reducible(model))
         TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
                              model->interface.count, &mirrored, err));
     Drive drive = stages_drive(model);
@@ -261,12 +263,26 @@ cleanup:
     return error_is_clean(err);
 }
 
+// What is not there yet for a mesh in space.
+static bool check_space(const Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    if (model->mesh.dim > 2 && scene->reduction.use == REDUCE_ALWAYS)
+        FAIL(err, ERROR_INPUT,
+             "%s: reduction.use: always, but blocks in space are stepped on the whole mesh "
+             "(`auto` or `never`)",
+             scene->path);
+cleanup:
+    return error_is_clean(err);
+}
+
 // Of the assembled bulk.
 static bool choose(Model *model, Error *err)
 {
     TRY(model_hold_supports(model, err));
+    TRY(check_space(model, err));
     TRY(expect(model, false, err));
-    model->is_reduced = is_reducible(model->scene) && reduction_pays(model);
+    model->is_reduced = is_reducible(model) && reduction_pays(model);
 cleanup:
     return error_is_clean(err);
 }
@@ -292,7 +308,7 @@ static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
     int64_t limit;   // of the cache that is to be used
     key[0] = 0;
     if (scene->reduction.cache && !cache_folder_limit(&limit, err)) return false;
-    if (!is_reducible(scene) || scene->load.support_count > 0) return true;
+    if (!is_reducible(model) || scene->load.support_count > 0) return true;
     bool done = shape_key(scene, reduction_tolerance(scene), key, err);
     if (done && !key[0] && scene->reduction.cache)
         snprintf(model->cache_note, sizeof model->cache_note,
@@ -339,7 +355,8 @@ static void set_scales(Model *model)
                                                           : scene->friction.critical_velocity;
     // Nothing gives a velocity: that with which the load would deform the block in that time.
     if (!(model->scales.slip_velocity > 0))
-        model->scales.slip_velocity = model->scales.load / material->young / model->scales.time;
+        model->scales.slip_velocity = model->scales.load / model->breadth / material->young /
+                                      model->scales.time;
 }
 
 bool model_forecast(const Scene *scene, Model *model, Error *err)

@@ -39,7 +39,7 @@ static double block_yield(const Model *model)
     model_rod_strip(model->scene, height, &middle, &width);
     double slender = middle / length;
     double yield = 0.5 * length / height + SHEAR_YIELD * slender + 4 * pow(slender, 3);
-    return yield / model->materials.mean.young;
+    return yield / (model->materials.mean.young * model->breadth);
 }
 
 // What touches the floor is a layer, or pads, of a material of its own: sheared over its height.
@@ -68,7 +68,7 @@ Drive stages_drive(const Model *model)
     return (Drive){.load = model->scales.load,
                    .yield = yield,
                    .damping = damped / (yield * yield),
-                   .mass = mean->density * model->length * model->height,
+                   .mass = mean->density * model->length * model->breadth * model->height,
                    .weakening = -slope * model->scales.load};
 }
 

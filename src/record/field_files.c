@@ -34,9 +34,13 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
     }
     const int32_t *all = nodal_stress_points(&files->stress, mesh, 0);
     for (int64_t e = 0; e <= cells; e++) files->offsets[e] = mesh->first_node[e];
-    for (int64_t k = 0; k < corners; k++) files->connectivity[k] = all[k];
-    for (int64_t e = 0; e < cells; e++)
-        files->cell_types[e] = element_info((ElementKind)mesh->kind[e])->vtk_type;
+    for (int64_t e = 0; e < cells; e++) {
+        ElementKind kind = (ElementKind)mesh->kind[e];
+        int32_t first = mesh->first_node[e];
+        for (int32_t k = 0; k < element_node_count(kind); k++)
+            files->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
+        files->cell_types[e] = element_info(kind)->vtk_type;
+    }
     return true;
 }
 
@@ -90,6 +94,7 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
 {
     const Mesh *mesh = files->mesh;
     int64_t points = files->stress.point_count;
+    int32_t strains = strain_count(mesh->dim);
     double *displacement = files->vectors, *velocity = files->vectors + 3 * points;
     for (int64_t i = 0; i < points; i++) {
         int32_t first = node_dof(mesh->dim, node_of(files, i), 0);
@@ -102,8 +107,8 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
     FieldArray arrays[] = {
         {.name = "displacement", .components = 3, .values = displacement},
         {.name = "velocity", .components = 3, .values = velocity},
-        {.name = "stress_elastic", .components = 3, .values = files->stress.elastic},
-        {.name = "stress", .components = 3, .values = files->stress.total},
+        {.name = "stress_elastic", .components = strains, .values = files->stress.elastic},
+        {.name = "stress", .components = strains, .values = files->stress.total},
         {.name = "von_mises", .components = 1, .values = files->stress.von_mises}};
     FieldGrid grid = {.point_count = points,
                       .points = files->points,

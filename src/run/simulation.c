@@ -15,6 +15,7 @@
 #include "run/start.h"
 #include "run/summary.h"
 #include "run/warnings.h"
+#include "scene/keys.h"
 #include "scene/programs.h"
 
 #include <math.h>
@@ -213,6 +214,9 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     StageNotice notice = {.tell = tell_stage, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
     TRY(start_prepare_steps(simulation, err));
+    if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
+        warnings_add(&simulation->warnings,
+                     "material.plane means nothing here: the mesh is in space");
     Schedule load = scene_schedule(&scene->load.program);
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),

@@ -81,6 +81,9 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
     int64_t nodes = mesh->node_count, contacts = interface->contact_count;
+    int32_t dim = mesh->dim;
+    bool plane = dim == 2;
+    const char *force = plane ? "force/width" : "force";
     ArrayFile *file = NULL;
     char path[PATH_SIZE];
     double *number = NEW_ARRAY(double, nodes, err);
@@ -93,28 +96,34 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
     }
     const Column columns[] = {
         {{"nodes/number", ARRAY_INT32, 1, "1", "the mesh's node tags"}, number, nodes},
-        {{"nodes/position", ARRAY_FLOAT64, 2, "length", "x, z"}, mesh->position, nodes},
-        {{"nodes/displacement", ARRAY_FLOAT64, 2, "length", "u_x, u_z"},
+        {{"nodes/position", ARRAY_FLOAT64, dim, "length", plane ? "x, z" : "x, y, z"},
+         mesh->position,
+         nodes},
+        {{"nodes/displacement", ARRAY_FLOAT64, dim, "length", plane ? "u_x, u_z" : "u_x, u_y, u_z"},
          solution->displacement,
          nodes},
-        {{"nodes/load", ARRAY_FLOAT64, 2, "force/width", "of pressure and tractions"},
+        {{"nodes/load", ARRAY_FLOAT64, dim, force, "of pressure and tractions"},
          solution->load,
          nodes},
-        {{"nodes/reaction", ARRAY_FLOAT64, 2, "force/width",
+        {{"nodes/reaction", ARRAY_FLOAT64, dim, force,
           "of plane, rod and supports on the block; rounding at free nodes"},
          solution->reaction,
          nodes},
-        {{"nodes/stress", ARRAY_FLOAT64, 3, "stress", "xx, zz, xz, mean of the elements around"},
+        {{"nodes/stress", ARRAY_FLOAT64, strain_count(dim), "stress",
+          plane ? "xx, zz, xz, mean of the elements around"
+                : "xx, yy, zz, xy, yz, xz, mean of the elements around"},
          stress->elastic,
          nodes},
         {{"contact/node", ARRAY_INT32, 1, "1", "row of nodes/*, by ascending x"},
          contact,
          contacts},
         {{"contact/status", ARRAY_UINT8, 1, "1",
-          "0 open, 1 stick, 2 slip towards +x, 3 slip towards -x"},
+          plane ? "0 open, 1 stick, 2 slip towards +x, 3 slip towards -x"
+                : "0 open, 1 stick, 2 slip"},
          contact + contacts,
          contacts},
-        {{"contact/weight", ARRAY_FLOAT64, 1, "length", "integral of the shape function"},
+        {{"contact/weight", ARRAY_FLOAT64, 1, plane ? "length" : "length^2",
+          "integral of the shape function"},
          interface->weight,
          contacts}};
     snprintf(path, sizeof path, "%s/static.h5", folder);

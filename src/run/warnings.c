@@ -70,11 +70,12 @@ void warnings_of_resolution(const Certificate *certificate, double load, RunWarn
 // any error bar that a run gives.
 static const double GRADIENT_SMALL = 0.05;
 
-// Across how much of the block's length region k takes the load.
+// Across how much of the block's length, in space of its floor, region k takes the load.
 static double loaded_width(const Model *model, int32_t k)
 {
     const Interface *interface = &model->interface;
-    double width = model->materials.width[k] > 0 ? model->materials.width[k] : model->length;
+    double width = model->materials.width[k] > 0 ? model->materials.width[k]
+                                                 : model->length * model->breadth;
     double contact = 0;
     if (k != model->contact_region) return width;
     for (int32_t i = 0; i < interface->contact_count; i++) contact += interface->weight[i];

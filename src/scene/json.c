@@ -31,15 +31,11 @@ static void write_tractions(const Scene *scene, JsonWriter *json, const char *na
         json_begin_object(json, NULL);
         json_text(json, "group", scene->load.tractions[i].group);
         json_number(json, "x", scene->load.tractions[i].x);
+        if (scene->load.tractions[i].y != 0) json_number(json, "y", scene->load.tractions[i].y);
         json_number(json, "z", scene->load.tractions[i].z);
         json_end(json);
     }
     json_end(json);
-}
-
-static const char *support_direction(const SceneSupport *support)
-{
-    return support->x && support->z ? "both" : support->x ? "x" : "z";
 }
 
 static void write_supports(const Scene *scene, JsonWriter *json, const char *name)
@@ -48,7 +44,7 @@ static void write_supports(const Scene *scene, JsonWriter *json, const char *nam
     for (int32_t i = 0; i < scene->load.support_count; i++) {
         json_begin_object(json, NULL);
         json_text(json, "group", scene->load.supports[i].group);
-        json_text(json, "direction", support_direction(&scene->load.supports[i]));
+        json_text(json, "direction", scene_support_direction(&scene->load.supports[i]));
         json_end(json);
     }
     json_end(json);

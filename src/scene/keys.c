@@ -67,10 +67,12 @@ static const SceneKey keys[] = {
     {"material.eta2", KEY_NUMBER, offsetof(Scene, material.eta2), "viscosity", RANGE_NOT_NEGATIVE,
      "1", .sentence = "Viscosity of the volume rate: stress eta2 tr(eps') I.", .given_in_si = true},
     {"material.plane", KEY_CHOICE, offsetof(Scene, material.plane), "1", RANGE_ANY, "stress",
-     .sentence = "Plane stress (a thin plate) or plane strain (a wide block).",
+     .sentence =
+         "Plane stress (a thin plate) or plane strain (a wide block); a mesh in space is neither.",
      .choices = plane_choices},
     {"materials", KEY_MATERIALS, offsetof(Scene, materials), "1", RANGE_ANY, NULL, .may_lack = true,
-     .sentence = "Materials of regions, by the names of physical surfaces of the mesh: those of "
+     .sentence = "Materials of regions, by the names of physical surfaces of the mesh (in space "
+                 "volumes): those of "
                  "young, poisson, density, eta1, eta2 that differ there from `material`."},
     {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
      .sentence =
@@ -141,10 +143,14 @@ static const SceneKey keys[] = {
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
-     .sentence = "Further tractions, a list of {group, x, z}: a stress vector on a curve group."},
+     .sentence =
+         "Further tractions, a list of {group, x, z}, in space also y: a stress vector on a curve "
+         "or surface of the mesh."},
     {"load.supports", KEY_SUPPORTS, offsetof(Scene, load.supports), "1", RANGE_ANY, "[]",
-     .sentence = "Where the block is held, a list of {group, direction}: nodes of a curve group "
-                 "that do not move along `x`, `z` or `both`."},
+     .sentence =
+         "Where the block is held, a list of {group, direction}: nodes of a curve or surface "
+         "of the mesh that do not move along `x`, `z` or `both`, in space also `y` or "
+         "`all`."},
     {"load.program.t", KEY_NUMBERS, offsetof(Scene, load.program.t), "time", RANGE_NOT_NEGATIVE,
      NULL, .may_lack = true,
      .sentence = "Times of the program, ascending from 0; the same twice: a jump."},
@@ -164,7 +170,8 @@ static const SceneKey keys[] = {
     {"rod.stiffness", KEY_NUMBER, offsetof(Scene, rod.stiffness), "stress", RANGE_POSITIVE, NULL,
      .may_lack = true,
      .sentence = "Stiffness of the machine: a spring between the drive, which moves with "
-                 "`rod.velocity`, and the rod; force per width of the block over length. If not "
+                 "`rod.velocity`, and the rod; force per width of the block, in space per its "
+                 "breadth, over length. If not "
                  "given, the rod itself moves with `rod.velocity`."},
     {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
      .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
@@ -173,6 +180,12 @@ static const SceneKey keys[] = {
      .sentence = "Height of the strip's centre over the substrate; 0: half the block's height."},
     {"rod.width", KEY_NUMBER, offsetof(Scene, rod.width), "length", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Extent of the driven strip; 0: a tenth of the block's height."},
+    {"rod.breadth", KEY_NUMBER, offsetof(Scene, rod.breadth), "length", RANGE_POSITIVE, NULL,
+     .may_lack = true,
+     .sentence = "Of a mesh in space: extent of the strip along y, around the middle of its face; "
+                 "if not given, all of it."},
+    {"rod.whole", KEY_FLAG, offsetof(Scene, rod.whole), "1", RANGE_ANY, NULL, .may_lack = true,
+     .sentence = "true: all of groups.rod is driven, in the place of a strip."},
     {"rod.kind", KEY_CHOICE, offsetof(Scene, rod.kind), "1", RANGE_ANY, "push",
      .sentence = "`push`: can lose contact, never pulls. `bonded`: glued on. `none`: no rod.",
      .choices = rod_choices},

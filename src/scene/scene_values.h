@@ -39,13 +39,13 @@ typedef struct SceneWindow {
 
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
-    double x, z;   // stress
+    double x, y, z;   // stress; y: in space only
 } SceneTraction;
 
-// Nodes of a group that do not move along x, or z, or both.
+// Nodes of a group that do not move along some of the axes; y: in space only.
 typedef struct SceneSupport {
     char group[GROUP_NAME_SIZE];
-    bool x, z;
+    bool x, y, z;
 } SceneSupport;
 
 // The numbers of a material, in the order of scene/materials.

@@ -61,6 +61,12 @@ static void add_parameters(Line *line, const Scene *scene)
     add(line, "}");
 }
 
+const char *scene_support_direction(const SceneSupport *support)
+{
+    if (support->x && support->z) return support->y ? "all" : "both";
+    return support->x ? "x" : support->y ? "y" : "z";
+}
+
 static void add_tractions(Line *line, const Scene *scene)
 {
     add(line, "[");
@@ -68,6 +74,10 @@ static void add_tractions(Line *line, const Scene *scene)
         const SceneTraction *traction = &scene->load.tractions[i];
         add(line, "%s{group: %s, x: ", i ? ", " : "", traction->group);
         add_number(line, traction->x);
+        if (traction->y != 0) {
+            add(line, ", y: ");
+            add_number(line, traction->y);
+        }
         add(line, ", z: ");
         add_number(line, traction->z);
         add(line, "}");
@@ -80,8 +90,8 @@ static void add_supports(Line *line, const Scene *scene)
     add(line, "[");
     for (int32_t i = 0; i < scene->load.support_count; i++) {
         const SceneSupport *support = &scene->load.supports[i];
-        const char *direction = support->x && support->z ? "both" : support->x ? "x" : "z";
-        add(line, "%s{group: %s, direction: %s}", i ? ", " : "", support->group, direction);
+        add(line, "%s{group: %s, direction: %s}", i ? ", " : "", support->group,
+            scene_support_direction(support));
     }
     add(line, "]");
 }

@@ -291,11 +291,14 @@ static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scen
         return copy_text(key, value, GROUP_NAME_SIZE, traction->group, err);
     if (strcmp(name, "x") == 0)
         return read_number(&component, value, scene->units, &traction->x, err);
+    component.name = "load.tractions.y";
+    if (strcmp(name, "y") == 0)
+        return read_number(&component, value, scene->units, &traction->y, err);
     component.name = "load.tractions.z";
     if (strcmp(name, "z") == 0)
         return read_number(&component, value, scene->units, &traction->z, err);
     yaml_key_error(value->document, value->node, err,
-                   "%s: unknown key `%.60s`; allowed: group, x, z", key->name, name);
+                   "%s: unknown key `%.60s`; allowed: group, x, y, z", key->name, name);
     return false;
 }
 
@@ -313,6 +316,11 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool support_holds(const SceneSupport *support)
+{
+    return support->x || support->y || support->z;
+}
+
 static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneSupport *support = &scene->load.supports[scene->load.support_count];
@@ -325,12 +333,14 @@ static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene
                        "%s: unknown key `%.60s`; allowed: group, direction", key->name, name);
         return false;
     }
-    bool both = strcmp(text, "both") == 0;
+    bool all = strcmp(text, "all") == 0, both = all || strcmp(text, "both") == 0;
     support->x = both || strcmp(text, "x") == 0;
+    support->y = all || strcmp(text, "y") == 0;
     support->z = both || strcmp(text, "z") == 0;
-    if (!support->x && !support->z)
+    if (!support_holds(support))
         yaml_error(value->document, value->node, err,
-                   "%s.direction: found `%.60s`; allowed: one of x, z, both", key->name, text);
+                   "%s.direction: found `%.60s`; allowed: one of x, y, z, both, all", key->name,
+                   text);
     return error_is_clean(err);
 }
 
@@ -340,7 +350,7 @@ static bool add_support(const SceneKey *key, const SceneValue *value, Scene *sce
     SceneSupport *support = &scene->load.supports[scene->load.support_count];
     *support = (SceneSupport){0};
     TRY(set_items(key, value, YAML_MAP, set_support_part, scene, err));
-    if (!*support->group || (!support->x && !support->z))
+    if (!*support->group || !support_holds(support))
         yaml_error(value->document, value->node, err,
                    "%s: a support needs its `group` and its `direction`", key->name);
     scene->load.support_count++;

@@ -76,6 +76,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     if (!damping || (part > 0 && !own)) return false;
     moving_set_gather(moving, damping, 1 - part, 0, certificate->matrix);
     if (part > 0) moving_set_gather(moving, own, part, 1, certificate->matrix);
+    moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, certificate->matrix);
     certificate->checks++;
@@ -110,6 +111,7 @@ static void fill_coupled(Certificate *certificate, const double *closed)
 {
     moving_set_gather(&certificate->moving, closed, 1, 0, certificate->matrix);
     moving_set_couple(&certificate->moving, closed, certificate->matrix);
+    moving_set_turn(&certificate->moving, false, certificate->matrix);
     moving_set_add_dampers(&certificate->moving, 0, certificate->matrix);
 }
 
@@ -119,6 +121,7 @@ static bool is_positive(Certificate *certificate, const double *closed)
 {
     MovingSet *moving = &certificate->moving;
     moving_set_gather_symmetric(moving, closed, certificate->matrix);
+    moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, certificate->matrix);
     return dense_cholesky(certificate->matrix, moving->count);

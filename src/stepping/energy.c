@@ -2,6 +2,7 @@
 #include "stepping/energy.h"
 
 #include "base/dense.h"
+#include "contact/slip.h"
 
 #include <math.h>
 
@@ -28,10 +29,8 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
                         const ContactSolution *contact)
 {
     StagePower power = {.viscous = dense_dot(velocity, viscous_force, dof_count)};
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(interface, i);
-        power.frictional -= contact->velocity[t] * contact->reaction[t];
-    }
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        power.frictional -= slip_dot(interface, i, contact->velocity, contact->reaction);
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
         power.rod += contact->velocity[x] * contact->reaction[x];

@@ -12,7 +12,8 @@
 // smoothing:
 //
 //     normal     v'_n >= -u_n/dt,  r_n >= 0, complementary         (no gap below 0 at t_n+1)
-//     tangent    stick, or |v'_t| + (dt/m) mu(|v'_t|) r_n = |free v_t|,   friction against v'_t
+//     tangent    stick, or |v'_t| + (dt/m) mu(|v'_t|) r_n = |free v_t|,   friction against v'_t,
+//                which has the direction of the free v_t
 //     rod        v'_x >= (target(t_n+1) - u_n)/dt,  r_x >= 0, complementary; bonded: =
 //
 // A rod on a spring couples its nodes: first its own velocity is found, for which their forces and
@@ -41,11 +42,11 @@ typedef struct ExplicitReference {
     int32_t node_count;
     int32_t *start;   // [node_count + 1] of the node's blocks; owned, like all that follows
     int32_t *column;   // [blocks] node; the first of each row is the diagonal
-    double *blocks;   // [blocks * 8] upper triangle of K and C by nodes, see explicit_reference.c
+    double *blocks;   // [blocks * block_size] upper triangle of K and C by nodes, see explicit_reference.c
     double *kick;   // [node_count] dt / mass
-    double *now;   // [node_count * 4] u_x, u_z at t_n, v_x, v_z at t_n - dt/2
-    double *next;   // [node_count * 4] the same a step later
-    double *force;   // [node_count * 4] work: K u, C v
+    double *now;   // [field_size] u of a node at t_n, then its v at t_n - dt/2
+    double *next;   // [field_size] the same a step later
+    double *force;   // [field_size] work: K u, C v
     double *bound;   // [interface->count] of the last step, as in contact/contact_problem
     double rod_way;   // R at t_n, of a rod on a spring, length
     double time;   // t_n at the start

@@ -126,6 +126,7 @@ static double ratio_at(Growth *growth, int32_t k)
 {
     MovingSet *moving = &growth->moving;
     moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
+    moving_set_turn(moving, false, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
     if (!dense_lu(growth->matrix, moving->count, growth->pivots)) return INFINITY;
     return weakening_ratio(moving, growth->matrix, growth->pivots, 1e-12, growth->step);
@@ -159,6 +160,7 @@ static bool factor_moving(Growth *growth, int32_t k)
     const double *schur = interface_operator_schur(growth->at[k]);
     moving_set_gather(moving, schur, 1, 0, growth->matrix);
     moving_set_couple(moving, schur, growth->matrix);
+    moving_set_turn(moving, false, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
     moving_set_subtract_weakening(moving, growth->matrix);
     return dense_lu(growth->matrix, moving->count, growth->pivots);
@@ -203,7 +205,9 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
         growth->step[r] = growth->g[row->unknown] + row->spring * way / square;
         if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
     }
+    moving_set_turn_vector(&growth->moving, false, growth->step);
     dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
+    moving_set_turn_vector(&growth->moving, true, growth->step);
     memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
     for (int32_t r = 0; r < growth->moving.count; r++)
         growth->border[growth->moving.list[r].unknown] = growth->step[r];
@@ -294,8 +298,9 @@ static void scale_mode(const Growth *growth, double *re, double *im)
 {
     int32_t largest = 0;
     double square = 0;
-    for (int32_t i = 0; i < growth->interface->contact_count; i++) {
-        int32_t t = interface_tangent(growth->interface, i);
+    int32_t dim = growth->interface->dim;
+    for (int32_t t = 0; t < dim * growth->interface->contact_count; t++) {
+        if (dof_axis(dim, t) == dim - 1) continue;
         double here = re[t] * re[t] + (im ? im[t] * im[t] : 0);
         if (here > square) {
             square = here;

@@ -2,8 +2,10 @@
 #include "stepping/moving_set.h"
 
 #include "base/memory.h"
+#include "contact/slip.h"
 
 #include <math.h>
+#include <string.h>
 
 bool moving_set_create(const Block *block, MovingSet *set, Error *err)
 {
@@ -13,6 +15,8 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
     set->unknown = NEW_ARRAY(int32_t, count, err);
     set->normal = NEW_ARRAY(int32_t, count, err);
     set->friction = NEW_ARRAY(double, count, err);
+    set->turned = NEW_ARRAY(int32_t, count, err);
+    set->direction = NEW_ARRAY(double, count, err);
     return error_is_clean(err);
 }
 
@@ -22,6 +26,8 @@ void moving_set_destroy(MovingSet *set)
     memory_free(set->unknown);
     memory_free(set->normal);
     memory_free(set->friction);
+    memory_free(set->turned);
+    memory_free(set->direction);
     *set = (MovingSet){0};
 }
 
@@ -33,14 +39,44 @@ static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
     return moving;
 }
 
+// d [dim - 1] of node i: against friction where it has no speed.
+static void find_direction(const MovingSet *set, const State *state, int32_t i, double *d)
+{
+    int32_t t = interface_tangent(set->interface, i);
+    d[0] = status_direction(state->status[i]);
+    if (slip_tangents(set->interface) == 1) return;
+    d[1] = 0;
+    double speed = slip_size(set->interface, i, state->slip_rate);
+    double shear = slip_size(set->interface, i, state->reaction);
+    const double *along = speed > 0 ? state->slip_rate + t : state->reaction + t;
+    double length = speed > 0 ? speed : -shear;
+    for (int32_t c = 0; c < 2 && length != 0; c++) d[c] = along[c] / length;
+}
+
+// Across: friction mu r_n against a slip of that speed, which turns with it.
+static void add_across(MovingSet *set, int32_t t, int32_t n, double friction, double speed)
+{
+    set->turned[set->turned_count++] = set->count - 1;
+    MovingUnknown *across = add_unknown(set, t + 1);
+    across->normal = n;
+    if (speed > 0) across->damper = friction / speed;
+}
+
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
 {
     int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
     const FrictionLaw *law = friction_at(set->law, i);
-    double speed = fabs(state->slip_rate[t]);
+    double speed = slip_size(set->interface, i, state->slip_rate);
+    double mu = friction_coefficient(law, speed), d[TANGENTS_MAX];
     MovingUnknown *moving = add_unknown(set, t);
+    find_direction(set, state, i, d);
     moving->normal = n;
-    moving->friction = status_direction(state->status[i]) * friction_coefficient(law, speed);
+    moving->friction = d[0] * mu;
+    if (slip_tangents(set->interface) > 1) {
+        memcpy(set->direction + 2 * (size_t)set->turned_count, d, sizeof d);
+        add_across(set, t, n, mu * state->reaction[n], speed);
+        moving[1].friction = d[1] * mu;
+    }
     double slope = friction_slope(law, speed);
     *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
     set->weakens = set->weakens || moving->weakening > 0;
@@ -49,13 +85,13 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
 void moving_set_find(MovingSet *set, const State *state, bool with_open)
 {
     const Interface *interface = set->interface;
-    set->count = 0;
+    set->count = set->turned_count = 0;
     set->weakens = false;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (status_slips(state->status[i])) add_slipping(set, state, i);
         if (!with_open || state->status[i] != CONTACT_OPEN) continue;
-        add_unknown(set, interface_tangent(interface, i));
-        add_unknown(set, interface_normal(interface, i));
+        for (int32_t c = 0; c < interface->dim; c++)
+            add_unknown(set, interface_unknown(interface, i, c));
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         double softness = set->rod->softness[j];
@@ -110,6 +146,51 @@ void moving_set_gather_symmetric(const MovingSet *set, const double *schur, doub
         for (int64_t a = b; a < count; a++)
             out[a] = column[row[a]] +
                      0.5 * (friction[a] * column[normal[a]] + friction[b] * pressed[row[a]]);
+    }
+}
+
+// (x, y) becomes (d.(x, y), e.(x, y)).
+static void turn(const double d[2], double *x, double *y)
+{
+    double along = d[0] * *x + d[1] * *y;
+    *y = d[0] * *y - d[1] * *x;
+    *x = along;
+}
+
+void moving_set_turn_vector(const MovingSet *set, bool back, double *vector)
+{
+    for (int32_t k = 0; k < set->turned_count; k++) {
+        const double *d = set->direction + 2 * k, other[] = {d[0], -d[1]};
+        turn(back ? other : d, vector + set->turned[k], vector + set->turned[k] + 1);
+    }
+}
+
+// The block of a node's own rows and columns, which has no upper triangle.
+static void turn_lower_block(const double d[2], double *block, int64_t count)
+{
+    double upper = block[1], *second = block + count;
+    turn(d, block, block + 1);
+    turn(d, &upper, second + 1);
+    turn(d, block, &upper);
+    turn(d, block + 1, second + 1);
+}
+
+void moving_set_turn(const MovingSet *set, bool lower, double *matrix)
+{
+    int64_t count = set->count;
+    for (int64_t b = 0; set->turned_count > 0 && b < count; b++) {
+        double *column = matrix + count * b;
+        for (int32_t k = 0; k < set->turned_count; k++) {
+            int32_t a = set->turned[k];
+            if (!lower || a > b) turn(set->direction + 2 * k, column + a, column + a + 1);
+        }
+    }
+    for (int32_t k = 0; k < set->turned_count; k++) {
+        int64_t a = set->turned[k];
+        double *column = matrix + count * a;
+        if (lower) turn_lower_block(set->direction + 2 * k, column + a, count);
+        for (int64_t r = lower ? a + 2 : 0; r < count; r++)
+            turn(set->direction + 2 * k, column + r, column + count + r);
     }
 }
 

@@ -9,7 +9,19 @@
 //                                            (linear law: (mu_S - mu_K) r_n / v_c below v_c).
 //
 // w > 0 is the node's weakening. Where the law strengthens, -w is a damper like any other, and is
-// counted among what resists. A soft rod node that touches has a spring and a damper of its own
+// counted among what resists.
+//
+// In space a node that slips with the speed s along d obeys r_t = -mu(s) r_n d, d = v_t/s, and the
+// derivative of that is
+//
+//     -mu d r_n' + (w d d' - (mu r_n/s) e e') v_t',       e across d:
+//
+// weakening along the slip, a damper across it, as friction turns with the slip. So matrices are
+// turned into d and e of each slipping node (moving_set_turn), where both lie on the diagonal: its
+// first unknown is then along the slip, with weakening and damper of the plane, its second across,
+// with the damper mu r_n/s. Pressure follows slip along d only.
+//
+// A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).
 // Called by stepping/certificate and stepping/growth.
 #ifndef AMONTONS_STEPPING_MOVING_SET_H
@@ -20,10 +32,10 @@
 typedef struct MovingUnknown {
     int32_t unknown;   // of the interface
     int32_t normal;   // of a slipping tangent; -1: no friction here
-    double friction;   // of a slipping tangent: d mu(|v_t|)
+    double friction;   // of a slipping tangent: d mu(|v_t|), in space that component of it
     double weakening;   // w >= 0, force * time / length
     double damper;   // of a soft rod node that touches: lag / softness; of a node whose friction
-        // strengthens: mu' r_n; force * time / length
+        // strengthens: mu' r_n; across slip: mu r_n/s; force * time / length
     double spring;   // of the same: 1 / softness, force / length
 } MovingUnknown;
 
@@ -38,6 +50,9 @@ typedef struct MovingSet {
     double *friction;   // likewise
     int32_t count;   // |F|
     bool weakens;   // some weakening is above 0
+    int32_t turned_count;   // slipping nodes in space
+    int32_t *turned;   // [turned_count] which of F is their first unknown; owned, like the next
+    double *direction;   // [turned_count * 2] d
 } MovingSet;
 
 bool moving_set_create(const Block *block, MovingSet *set, Error *err);
@@ -54,6 +69,13 @@ void moving_set_gather(const MovingSet *set, const double *schur, double factor,
 void moving_set_couple(const MovingSet *set, const double *schur, double *matrix);
 // Both at once, of that matrix only the symmetric part, and of this the lower triangle.
 void moving_set_gather_symmetric(const MovingSet *set, const double *schur, double *matrix);
+// Rows and columns, or (lower) of a symmetric matrix those of the lower triangle, of slipping nodes
+// in space come along their slip and across it; after which dampers and weakening are on the
+// diagonal. In the plane nothing is done.
+void moving_set_turn(const MovingSet *set, bool lower, double *matrix);
+// The same for a vector [count], and back.
+void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
+
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
 // diagonal.
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);

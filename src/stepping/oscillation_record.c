@@ -2,6 +2,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "base/memory.h"
+#include "contact/slip.h"
 
 #include <math.h>
 
@@ -44,7 +45,7 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (k >= contacts) return state->rod_touches[k - contacts] ? -1 : 0;
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
-    double speed = fabs(state->slip_rate[interface_tangent(record->interface, k)]);
+    double speed = slip_size(record->interface, k, state->slip_rate);
     double slope = friction_slope(friction_at(record->law, k), speed);
     return slope < 0 ? -slope * state->reaction[interface_normal(record->interface, k)]
                      : 0;   // 0: it strengthens
@@ -54,7 +55,7 @@ static bool is_fast(const OscillationRecord *record, const State *state)
 {
     for (int32_t i = 0; i < record->interface->contact_count; i++) {
         double limit = SMALL_RATE * friction_at(record->law, i)->critical_velocity;
-        if (fabs(state->slip_rate[interface_tangent(record->interface, i)]) > limit) return true;
+        if (slip_size(record->interface, i, state->slip_rate) > limit) return true;
     }
     return false;
 }

@@ -316,7 +316,7 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
 }
 
 // Counters (whose factors are used again depends on one of them) and what is kept.
-static void solver_archive(ContactSolver *solver, Archive *archive)
+static void solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive)
 {
     archive_section(archive, "contact solver");
     contact_newton_archive(&solver->newton, archive);
@@ -326,6 +326,7 @@ static void solver_archive(ContactSolver *solver, Archive *archive)
     archive_count(archive, &solver->rescued);
     archive_count(archive, &solver->unsolved);
     archive_count(archive, &solver->path.steps);
+    if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
 }
 
 void sdirk_archive(Sdirk *scheme, Archive *archive)
@@ -334,5 +335,5 @@ void sdirk_archive(Sdirk *scheme, Archive *archive)
     archive_numbers(archive, scheme->bound, scheme->interface->count);
     archive_number(archive, &scheme->reach);
     archive_count(archive, &scheme->steps);
-    solver_archive(&scheme->solver, archive);
+    solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
 }

@@ -7,6 +7,8 @@
 // and accepting swaps the two.
 #include "stepping/step_control.h"
 
+#include "contact/slip.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -127,8 +129,7 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
 {
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
-        fastest =
-            fmax(fastest, fabs(state->slip_rate[interface_tangent(control->scheme.interface, i)]));
+        fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
     return growth > 1 &&
            certificate_oscillates_less(&control->certificate, state, &control->ladder, growth);

@@ -38,7 +38,6 @@ REASONS = {
     "src/record/field_files.c": ("a line has two ends", r"line_connectivity"),
     "src/record/fields.c": ("displacement and velocity", r"unknowns\[k % 2\]|whole\[k % 2\]|slot \+ k / 2|entries"),
     "src/reduction/training_points.c": ("levels", r"2 \* steps"),
-    "src/io/mesh/shape_functions.c": ("a triangle is flat", r"d < 2"),
     "render/figures/map_page.c": ("begin and end of a stretch of time", r"events"),
     "src/run/static_report.c": ("two arrays", r"contact = NEW_ARRAY"),
     "src/study/line/modes.c": ("even modes", r"j % 2 == 0"),

@@ -63,7 +63,8 @@ static bool find_kind(double type, uint8_t *kind)
 {
     for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
         *kind = (uint8_t)k;
-        if (element_info((ElementKind)k)->vtk_type == type) return true;
+        const ElementInfo *info = element_info((ElementKind)k);
+        if (info->dim > 1 && info->vtk_type == type) return true;
     }
     return false;
 }

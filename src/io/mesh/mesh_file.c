@@ -40,6 +40,14 @@ const char *element_name(ElementKind kind)
     return element_info(kind)->name;
 }
 
+int32_t element_vtk_node(ElementKind kind, int32_t k)
+{
+    static const uint8_t mid_sides[] = {8,  11, 13, 9,  16, 18, 19, 17, 10, 12,
+                                        14, 15, 22, 23, 21, 24, 20, 25, 26};
+    if (kind == ELEMENT_TET10 && k >= 8) return 17 - k;
+    return kind == ELEMENT_HEX27 && k >= 8 ? mid_sides[k - 8] : k;
+}
+
 void mesh_file_destroy(MeshFile *mesh)
 {
     for (int32_t k = 0; k < mesh->group_count; k++) {

@@ -9,8 +9,7 @@
 #include <stdint.h>
 
 // kind, dimension, nodes, corners among them, gmsh's type, VTK's, name. Node order is gmsh's:
-// corners, mid-sides, faces, centre; VTK's, where it is another, is known to io/fields. Those of one
-// dimension are faces of a mesh in the plane.
+// corners, mid-sides, faces, centre. Those of one dimension are faces of a mesh in the plane.
 #define ELEMENT_KINDS(X)                                                                           \
     X(ELEMENT_T3, 2, 3, 3, 2, 5, "T3")                                                             \
     X(ELEMENT_T6, 2, 6, 3, 9, 22, "T6")                                                            \
@@ -110,5 +109,7 @@ int32_t element_dim(ElementKind kind);
 int32_t element_node_count(ElementKind kind);
 int32_t element_corner_count(ElementKind kind);
 const char *element_name(ElementKind kind);
+// Which of its nodes VTK has in place k.
+int32_t element_vtk_node(ElementKind kind, int32_t k);
 
 #endif

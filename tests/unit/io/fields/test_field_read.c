@@ -88,7 +88,7 @@ static void test_damaged(void **state)
 {
     (void)state;
     Parts parts = GOOD;
-    parts.types = "5 10";   // a tetrahedron
+    parts.types = "5 3";   // a line
     assert_damaged(parts, "it has cells that are no elements of a block");
     parts.types = "5 9";   // a quadrilateral of three nodes
     assert_damaged(parts, "its cells have the wrong number of nodes");

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The contact problem in space, where friction is a disc of forces: a semismooth Newton method
+// (Alart and Curnier, Comp. Meth. Appl. Mech. Eng. 92, 1991). Before each step the status of a node
+// follows from r - rho v, rho the node's own entry of S:
+//
+//     p = r_n - rho (v_n - bound) <= 0       open
+//     z = r_t - rho v_t, |z| <= mu p         sticks
+//     else                                   slips along d = -z/|z|, e across it, |v_t| = s
+//
+// and a slipping node has two equations,
+//
+//     along      d.r_t + mu(s) r_n = 0
+//     across     (1 - theta) e.r_t + theta rho e.v_t = 0,      theta = mu p/(mu p + rho s),
+//
+// which say r_t = -mu(s) r_n v_t/s. The second is e.(r_t + mu r_n v_t/s) by (1 - theta): so a node
+// that only starts, s = 0, holds its direction, and one that slips fast turns as its force does.
+// Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is condensed
+// out as in the plane (contact/contact_newton).
+// Where steps do not settle, sweeps over the nodes come next (contact/contact_sweeps), then steps
+// again. Called by contact/contact_solver.
+#ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
+#define AMONTONS_CONTACT_CONTACT_DISCS_H
+
+#include "contact/contact_newton.h"
+#include "contact/slip.h"
+
+typedef struct DiscsDef {
+    int32_t steps;   // of Newton before sweeps, and after each round of them
+    int32_t rounds, sweeps;   // rounds of so many sweeps
+    double tolerance;   // of residual forces, relative to the largest force
+} DiscsDef;
+
+// The two equations of a slipping node.
+typedef struct DiscRow {
+    double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
+    double mu;
+    double theta, rho;   // rho: force/width per velocity
+    double along[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
+} DiscRow;
+
+typedef struct ContactDiscs {
+    ContactNewton *newton;   // lists, products with S and factors; not owned
+    DiscRow *row;   // [contact_count] of slipping nodes, at the velocities as they are; owned
+    DiscRow *kept;   // [contact_count] of the derivative that was factored; owned
+    int64_t iterations;   // counted, Newton steps
+    int64_t sweeps;   // counted
+    int64_t swept;   // counted, solves that needed any
+} ContactDiscs;
+
+bool contact_discs_create(const Interface *interface, ContactNewton *newton, ContactDiscs *discs,
+                          Error *err);
+void contact_discs_destroy(ContactDiscs *discs);
+
+// From velocities, reactions and statuses in `solution`, which may be of another g: the first
+// step's derivative is theirs. Allocates nothing. false: unsolved.
+bool contact_discs_solve(ContactDiscs *discs, const DiscsDef *def, const ContactProblem *problem,
+                         ContactSolution *solution);
+
+void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive);
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A node alone: r = S v - b, S its 3 x 3 block. Pressed, v_n = bound, it has with A the block of
+// its tangents, c their coupling to the normal, q = b_t - c bound and r_n = r_0 + c.v
+//
+//     (A + l) v = q,    l = mu(s) r_n/s,    s = |v|,
+//
+// so that v(l), and with it everything, follows from one number: s falls from |A^-1 q| to 0 as l
+// rises from 0. Of several roots the slowest is taken.
+#include "contact/contact_sweeps.h"
+
+#include "base/dense.h"
+#include "contact/contact_equations.h"
+#include "contact/slip.h"
+
+// Parts of the range of l in which a root is looked for; halvings of the part that has it.
+enum { PARTS = 64, HALVINGS = 60 };
+
+typedef struct NodeAlone {
+    const FrictionLaw *law;
+    double s[3][3];
+    double b[3], bound;
+    double q[2], r_0;
+    double soft;   // an eigenvalue of A is no less
+} NodeAlone;
+
+// v(l) with l = soft (1/x - 1), 0 < x <= 1, and r_n. Returns l s - mu r_n: above 0 it is too slow.
+static double slip_at(const NodeAlone *node, double x, double v[2], double *pressing)
+{
+    double l = node->soft * (1 / x - 1);
+    double a = node->s[0][0] + l, b = node->s[0][1], d = node->s[1][1] + l;
+    double determinant = a * d - b * b;
+    v[0] = (d * node->q[0] - b * node->q[1]) / determinant;
+    v[1] = (a * node->q[1] - b * node->q[0]) / determinant;
+    double speed = hypot(v[0], v[1]);
+    *pressing = fmax(node->r_0 + node->s[0][2] * v[0] + node->s[1][2] * v[1], 0);
+    return l * speed - friction_coefficient(node->law, speed) * *pressing;
+}
+
+static void find_slip(const NodeAlone *node, double v[2], double *pressing)
+{
+    double low = 0, high = 1;
+    for (int32_t k = 1; k <= PARTS; k++) {
+        high = (double)k / PARTS;
+        if (slip_at(node, high, v, pressing) <= 0) break;
+        low = high;
+    }
+    for (int32_t k = 0; k < HALVINGS; k++) {
+        double middle = 0.5 * (low + high);
+        *(slip_at(node, middle, v, pressing) > 0 ? &low : &high) = middle;
+    }
+    slip_at(node, high, v, pressing);
+}
+
+// v where nothing touches: S v = b.
+static bool leaves(const NodeAlone *node, double v[3])
+{
+    const double(*s)[3] = node->s;
+    double cross[3] = {s[1][1] * s[2][2] - s[1][2] * s[1][2],
+                       s[0][2] * s[1][2] - s[0][1] * s[2][2],
+                       s[0][1] * s[1][2] - s[0][2] * s[1][1]};
+    double determinant = s[0][0] * cross[0] + s[0][1] * cross[1] + s[0][2] * cross[2];
+    double second = s[0][0] * s[2][2] - s[0][2] * s[0][2];
+    double third = s[0][0] * s[1][1] - s[0][1] * s[0][1];
+    double mixed = s[0][1] * s[0][2] - s[0][0] * s[1][2];
+    const double *b = node->b;
+    v[0] = (cross[0] * b[0] + cross[1] * b[1] + cross[2] * b[2]) / determinant;
+    v[1] = (cross[1] * b[0] + second * b[1] + mixed * b[2]) / determinant;
+    v[2] = (cross[2] * b[0] + mixed * b[1] + third * b[2]) / determinant;
+    return v[2] >= node->bound;
+}
+
+static uint8_t solve_alone(NodeAlone *node, double v[3])
+{
+    if (leaves(node, v)) return CONTACT_OPEN;
+    v[0] = v[1] = 0;
+    v[2] = node->bound;
+    for (int32_t c = 0; c < 2; c++) node->q[c] = node->b[c] - node->s[c][2] * node->bound;
+    node->r_0 = node->s[2][2] * node->bound - node->b[2];
+    double trace = node->s[0][0] + node->s[1][1];
+    double determinant = node->s[0][0] * node->s[1][1] - node->s[0][1] * node->s[0][1];
+    node->soft = determinant / trace;
+    double limit = friction_coefficient(node->law, 0) * fmax(node->r_0, 0), pressing;
+    if (hypot(node->q[0], node->q[1]) <= limit) return CONTACT_STICK;
+    find_slip(node, v, &pressing);
+    return status_of_slip(v[0]);
+}
+
+// Velocity of `unknown` becomes v; reactions follow.
+static void move_to(const ContactProblem *problem, ContactSolution *at, int32_t unknown, double v)
+{
+    int32_t count = problem->interface->count;
+    double change = v - at->velocity[unknown];
+    if (change == 0) return;
+    dense_add_scaled(change, problem->matrix->schur + (int64_t)count * unknown, count,
+                     at->reaction);
+    at->velocity[unknown] = v;
+}
+
+static void sweep_node(const ContactProblem *problem, ContactSolution *at, int32_t i)
+{
+    int64_t count = problem->interface->count, t = interface_tangent(problem->interface, i);
+    NodeAlone node = {.law = friction_at(problem->law, i), .bound = problem->bound[t + 2]};
+    double v[3];
+    for (int64_t a = 0; a < 3; a++) {
+        node.b[a] = -at->reaction[t + a];
+        for (int64_t b = 0; b < 3; b++) {
+            node.s[a][b] = problem->matrix->schur[count * (t + b) + t + a];
+            node.b[a] += node.s[a][b] * at->velocity[t + b];
+        }
+    }
+    at->status[i] = solve_alone(&node, v);
+    for (int32_t a = 0; a < 3; a++) move_to(problem, at, (int32_t)t + a, v[a]);
+}
+
+static void sweep_rod(const ContactProblem *problem, ContactSolution *at, int32_t j)
+{
+    int64_t count = problem->interface->count;
+    int32_t x = interface_rod(problem->interface, j);
+    double own = problem->matrix->schur[(count + 1) * x], stiffness = rod_stiffness(problem, j);
+    double b = own * at->velocity[x] - at->reaction[x], v = b / own;
+    if (problem->rod_kind == ROD_PUSHES) at->rod_touches[j] = v < problem->bound[x];
+    if (at->rod_touches[j])
+        v = stiffness > 0 ? (b + stiffness * problem->bound[x]) / (own + stiffness)
+                          : problem->bound[x];
+    move_to(problem, at, x, v);
+}
+
+void contact_sweep(const ContactProblem *problem, ContactSolution *solution, int32_t sweeps)
+{
+    const Interface *interface = problem->interface;
+    ContactEquations equations = {.problem = problem, .at = solution};
+    contact_react(&equations);
+    for (int32_t k = 0; k < sweeps; k++) {
+        for (int32_t i = 0; i < interface->contact_count; i++) sweep_node(problem, solution, i);
+        for (int32_t j = 0; j < interface->rod_count; j++) sweep_rod(problem, solution, j);
+    }
+}
