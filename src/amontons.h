@@ -42,8 +42,10 @@ enum { NODE_OPEN, NODE_STICKS, NODE_WEAKENS, NODE_SLIPS };
 // accepted step.
 typedef struct ContactView {
     int32_t count;   // contact nodes
-    int32_t tangents;   // directions of slip: 1, along x; the fastest index of [count][tangents]
+    int32_t tangents;   // directions of slip: 1, along x; in space 2, along y, too; the fastest index
+        // of [count][tangents]
     const double *x;   // [count] position, ascending, length
+    const double *y;   // [count] across the drive, length; NULL in the plane
     const double *slip_rate;   // [count][tangents] velocity
     const double *slip;   // [count][tangents] since t = 0, length
     const double *pressure;   // [count] stress

@@ -6,6 +6,7 @@
 #include "contact/interface.h"
 
 #include "base/memory.h"
+#include "contact/contact_line.h"
 #include "fem/assembly.h"
 
 #include <math.h>
@@ -78,6 +79,7 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
         interface->weight[i] = weight[node];
         interface->pad[i] = contact.pad_of[i];
     }
+    TRY(contact_line_find(interface, err));
     if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
         for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
 cleanup:
@@ -316,6 +318,7 @@ void interface_destroy(Interface *interface)
     memory_free(interface->pad_name);
     memory_free(interface->rod_node);
     memory_free(interface->y);
+    memory_free(interface->line);
     memory_free(interface->rod_z);
     memory_free(interface->rod_y);
     memory_free(interface->rod_length);

@@ -25,6 +25,9 @@ typedef struct Interface {
     int32_t *pad;   // [contact_count] which contact boundary, from 0; owned
     int32_t pad_count;
     char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact boundaries; owned
+    int32_t line_count;
+    int32_t *line;   // [line_count] contact nodes one behind the other along the drive, in space those
+        // along the middle (contact/contact_line); NULL: all of them; owned
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
     double *rod_z;   // [rod_count] height, length; owned
@@ -68,6 +71,20 @@ static inline int32_t interface_normal(const Interface *interface, int32_t i)
 static inline int32_t interface_rod(const Interface *interface, int32_t j)
 {
     return interface->dim * interface->contact_count + j;
+}
+
+// The nodes of its line along the drive: how many, the contact node that is number k, and its x.
+static inline int32_t interface_line_count(const Interface *interface)
+{
+    return interface->line ? interface->line_count : interface->contact_count;
+}
+static inline int32_t interface_line_node(const Interface *interface, int32_t k)
+{
+    return interface->line ? interface->line[k] : k;
+}
+static inline double interface_line_x(const Interface *interface, int32_t k)
+{
+    return interface->x[interface_line_node(interface, k)];
 }
 
 // How many contact nodes stand along its length, were they spread evenly over all its directions:

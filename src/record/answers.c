@@ -69,18 +69,20 @@ static void answer_peaks(const Drops *drops, Answers *answers)
 // Means over the peaks that count; l_sc where it was seen at all.
 static void answer_lengths(const Drops *drops, Answers *answers)
 {
-    double critical = 0, subcritical = 0;
+    double critical = 0, part = 0, subcritical = 0;
     int32_t count = 0, seen = 0;
     for (int32_t k = answers->first; k < drops->count; k++) {
         if (!drops->list[k].bulk) continue;
         Drop peak = drops_as(drops, DROP_BULK, k);
         critical += peak.critical_length;
+        part += peak.critical_part;
         count++;
         if (isnan(peak.front_uncertified)) continue;
         subcritical += peak.front_uncertified;
         seen++;
     }
     if (count > 0) answers->critical_length = critical / count;
+    if (count > 0) answers->critical_part = part / count;
     if (seen > 0) answers->subcritical_length = subcritical / seen;
 }
 
@@ -94,6 +96,7 @@ Answers answers_of(const Drops *drops)
                        .mu_hold_known_to = NAN,
                        .mu_max_known_to = NAN,
                        .critical_length = NAN,
+                       .critical_part = NAN,
                        .subcritical_length = NAN};
     answers.regime = regime_of(drops);
     answers.first = answers.regime.first;
@@ -146,6 +149,7 @@ void answers_write_peaks(const Answers *answers, const Drops *drops, double leng
         json_number(json, "l_sc_over_L", peak.front_uncertified / length);
         json_number(json, "l_c_over_L", peak.critical_length / length);
         json_number(json, "l_c_growth_over_L", peak.front_growth / length);
+        if (drops->events->in_space) json_number(json, "A_c_over_A", peak.critical_part);
         json_end(json);
     }
     json_end(json);
@@ -238,6 +242,7 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     json_number(json, "mu_max_known_to", answers->mu_max_known_to);
     json_number(json, "l_sc_over_L", answers->subcritical_length / length);
     json_number(json, "l_c_over_L", answers->critical_length / length);
+    if (drops->events->in_space) json_number(json, "A_c_over_A", answers->critical_part);
     answers_write_peaks(answers, drops, length, json);
     write_drops(answers, drops, json);
     write_run_in(&answers->regime, json);

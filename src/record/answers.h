@@ -41,6 +41,7 @@ typedef struct Answers {
     // nine of ten meshes are off by (record/error_bars). NaN: cells are too long for slip.
     double mu_M_known_to, mu_hold_known_to, mu_max_known_to;
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none
+    double critical_part;   // mean A_c/A of them; NaN: none
     double subcritical_length;   // mean l_sc of those that have one
 } Answers;
 

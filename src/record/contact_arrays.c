@@ -4,6 +4,7 @@
 #include "record/contact_arrays.h"
 
 #include "base/memory.h"
+#include "contact/slip.h"
 
 #include <math.h>
 
@@ -11,14 +12,14 @@
 bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
                            ContactArrays *arrays, Error *err)
 {
-    int32_t count = interface->contact_count;
-    *arrays = (ContactArrays){.law = law, .count = count};
-    arrays->slip_rate = NEW_ARRAY(double, count, err);
-    arrays->slip = NEW_ARRAY(double, count, err);
+    int32_t count = interface->contact_count, tangents = slip_tangents(interface);
+    *arrays = (ContactArrays){.law = law, .count = count, .tangents = tangents};
+    arrays->slip_rate = NEW_ARRAY(double, count *tangents, err);
+    arrays->slip = NEW_ARRAY(double, count *tangents, err);
     arrays->pressure = NEW_ARRAY(double, count, err);
-    arrays->shear = NEW_ARRAY(double, count, err);
+    arrays->shear = NEW_ARRAY(double, count *tangents, err);
     arrays->status = NEW_ARRAY(uint8_t, count, err);
-    arrays->origin = NEW_ARRAY(double, count, err);
+    arrays->origin = NEW_ARRAY(double, count *tangents, err);
     return error_is_clean(err);
 }
 
@@ -33,10 +34,21 @@ void contact_arrays_destroy(ContactArrays *arrays)
     *arrays = (ContactArrays){0};
 }
 
-static uint8_t shown_status(const FrictionLaw *law, uint8_t status, double slip_rate)
+static uint8_t shown_status(const FrictionLaw *law, uint8_t status, double speed)
 {
     if (!status_slips(status)) return status;
-    return friction_weakens(law, fabs(slip_rate)) ? 2 : 3;
+    return friction_weakens(law, speed) ? 2 : 3;
+}
+
+// Of node i, its component c.
+static void read_slip(ContactArrays *arrays, const Observation *seen, int32_t i, int32_t c)
+{
+    int32_t t = interface_unknown(seen->interface, i, c), k = arrays->tangents * i + c;
+    double displacement = seen->state->displacement[seen->system->interface_dofs[t]];
+    if (!arrays->started) arrays->origin[k] = displacement;
+    arrays->slip_rate[k] = seen->state->slip_rate[t];
+    arrays->slip[k] = displacement - arrays->origin[k];
+    arrays->shear[k] = -seen->state->reaction[t] / seen->interface->weight[i];
 }
 
 bool contact_arrays_record(void *self, const Observation *seen, Error *err)
@@ -45,16 +57,11 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
     ContactArrays *arrays = self;
     const State *state = seen->state;
     for (int32_t i = 0; i < arrays->count; i++) {
-        int32_t t = interface_tangent(seen->interface, i), n = interface_normal(seen->interface, i);
-        double weight = seen->interface->weight[i];
-        double displacement = state->displacement[seen->system->interface_dofs[t]];
-        if (!arrays->started) arrays->origin[i] = displacement;
-        arrays->slip_rate[i] = state->slip_rate[t];
-        arrays->slip[i] = displacement - arrays->origin[i];
-        arrays->pressure[i] = state->reaction[n] / weight;
-        arrays->shear[i] = -state->reaction[t] / weight;
-        arrays->status[i] =
-            shown_status(friction_at(arrays->law, i), state->status[i], state->slip_rate[t]);
+        int32_t n = interface_normal(seen->interface, i);
+        for (int32_t c = 0; c < arrays->tangents; c++) read_slip(arrays, seen, i, c);
+        arrays->pressure[i] = state->reaction[n] / seen->interface->weight[i];
+        arrays->status[i] = shown_status(friction_at(arrays->law, i), state->status[i],
+                                         slip_size(seen->interface, i, state->slip_rate));
     }
     arrays->started = true;
     return true;
@@ -64,5 +71,5 @@ void contact_arrays_archive(ContactArrays *arrays, Archive *archive)
 {
     archive_section(archive, "contact arrays");
     archive_flag(archive, &arrays->started);
-    archive_numbers(archive, arrays->origin, arrays->count);
+    archive_numbers(archive, arrays->origin, (int64_t)arrays->count * arrays->tangents);
 }

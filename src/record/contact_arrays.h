@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the contact nodes do in the step seen last, an array a quantity: what record/history writes
-// and a caller of amontons.h sees. The arrays stay where they are. A Recorder, before both.
+// and a caller of amontons.h sees. Slip is a vector of as many components as there are tangents, x
+// first. The arrays stay where they are. A Recorder, before both.
 #ifndef AMONTONS_RECORD_CONTACT_ARRAYS_H
 #define AMONTONS_RECORD_CONTACT_ARRAYS_H
 
@@ -11,13 +12,14 @@ typedef struct ContactArrays {
     const FrictionLaw *law;   // not owned
     int32_t count;   // contact nodes
     bool started;   // the first step was seen
-    double *slip_rate;   // [count] velocity; owned, like all that follows
-    double *slip;   // [count] since the first step, length
+    int32_t tangents;   // 1 in the plane, 2 in space
+    double *slip_rate;   // [count * tangents] velocity; owned, like all that follows
+    double *slip;   // [count * tangents] since the first step, length
     double *pressure;   // [count] stress
-    double *shear;   // [count] positive where the plane drags the block back, stress
+    double *shear;   // [count * tangents] positive where the plane drags the block back, stress
     uint8_t *status;   // [count] 0 open, 1 sticks, 2 slips where friction weakens, 3 where it does
         // not
-    double *origin;   // [count] u_x in the first step, length
+    double *origin;   // [count * tangents] displacement in the first step, length
 } ContactArrays;
 
 bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,

@@ -146,6 +146,7 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
     }
     bool divided = seen->interface->pad_count > 1;
     rising->critical_length = divided ? event->slip_length : event->front_start - seen->trailing;
+    rising->critical_part = event->slip_before / drops->events->size;
     rising->pads = count_slid(drops->events, seen->interface);
     rising->bulk = bulk;
     rising->load = bulk || has_fallen(drops);
@@ -251,6 +252,7 @@ static void drop_archive(Drop *drop, int32_t events, Archive *archive)
     archive_flag(archive, &drop->bulk);
     archive_flag(archive, &drop->load);
     archive_number(archive, &drop->critical_length);
+    archive_number(archive, &drop->critical_part);
     archive_number(archive, &drop->front_uncertified);
     archive_number(archive, &drop->front_growth);
 }

@@ -26,6 +26,7 @@ typedef struct Drop {
     bool bulk, load;   // of these kinds; every bulk sliding is a load drop
     double critical_length;   // when the event began: l; on several pads how much slipped of the
         // one on which slow slip turned fast. Of a bulk sliding l_c from the dynamics, length
+    double critical_part;   // of the whole contact, how much slipped then: A_c/A
     // On one pad: l when the certificate was first lost (l_sc) and when real growth was first seen
     // (l_c from the rates) since the drop before, length; NaN: not seen.
     double front_uncertified, front_growth;

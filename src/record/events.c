@@ -9,6 +9,7 @@
 #include "record/events.h"
 
 #include "base/memory.h"
+#include "contact/slip.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,15 +44,17 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 {
     *events = (Events){.rate_start = RATE_START * rate_scale,
                        .rate_stop = RATE_STOP * rate_scale,
+                       .in_space = interface->dim > 2,
                        .rapid = -1,
                        .slow = -1,
-                       .front_before = interface->x[0],
+                       .front_before = interface_line_x(interface, 0),
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
     events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
     events->pads = NEW_ARRAY(PadSum, interface->pad_count, err);
     events->pads_before = NEW_ARRAY(PadSum, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
+    for (int32_t i = 0; i < interface->contact_count; i++) events->size += interface->weight[i];
     for (int32_t p = 0; p < interface->pad_count; p++)
         events->pads[p].slipping = events->pads[p].slipping_cells = NAN;
     return front_path_create(interface, events->rate_start, &events->path, err);
@@ -84,7 +87,8 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .front_speed = NAN,
                                    .pad = -1,
                                    .slip_length = NAN,
-                                   .slip_cells = NAN};
+                                   .slip_cells = NAN,
+                                   .slip_before = NAN};
     for (int32_t k = 0; k < FRONT_STATIONS; k++) events->list[*index].front_times[k] = NAN;
     return true;
 }
@@ -102,10 +106,12 @@ static void extend_event(Event *event, const Observation *seen, double reach)
 static double gaps_between(const Interface *interface, double from, double to)
 {
     double width = 0;
-    for (int32_t i = 1; i < interface->contact_count; i++)
-        if (interface->pad[i] != interface->pad[i - 1] && interface->x[i - 1] >= from &&
-            interface->x[i] <= to)
-            width += interface->x[i] - interface->x[i - 1];
+    for (int32_t k = 1; k < interface_line_count(interface); k++) {
+        double before = interface_line_x(interface, k - 1), x = interface_line_x(interface, k);
+        int32_t pad = interface->pad[interface_line_node(interface, k)];
+        bool gap = pad != interface->pad[interface_line_node(interface, k - 1)];
+        if (gap && before >= from && x <= to) width += x - before;
+    }
     return width;
 }
 
@@ -134,38 +140,43 @@ static bool mark_slipped(Events *events, const Observation *seen)
 {
     bool all = true;
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
-        if (seen->state->status[i] != CONTACT_STICK) events->slipped[i] = 1;
+        if (seen->state->status[i] != CONTACT_STICK && !events->slipped[i]) {
+            events->slipped[i] = 1;
+            events->list[events->rapid].slipped += seen->interface->weight[i];
+        }
         all = all && events->slipped[i];
     }
     return all;
 }
 
 // The x up to which pad p has slipped in the event, from its trailing end on without a gap; the
-// start of the contact where it has not. *takes_part: some node of it was fast; a node or two at
-// the ends of the other pads creep.
-static double pad_reach(const Events *events, const Interface *interface, int32_t p,
-                        bool *takes_part)
+// start of the contact where it has not.
+static double pad_reach(const Events *events, const Interface *interface, int32_t p)
 {
-    double reach = interface->x[0];
-    bool whole = true;
-    *takes_part = false;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
+    double reach = interface_line_x(interface, 0);
+    for (int32_t k = 0; k < interface_line_count(interface); k++) {
+        int32_t i = interface_line_node(interface, k);
         if (interface->pad[i] != p) continue;
-        whole = whole && events->slipped[i];
-        if (whole) reach = interface->x[i];
-        *takes_part = *takes_part || !isnan(events->path.arrival[i]);
+        if (!events->slipped[i]) break;
+        reach = interface->x[i];
     }
     return reach;
 }
 
+// Some node of pad p was fast; a node or two at the ends of the other pads creep.
+static bool takes_part(const Events *events, const Interface *interface, int32_t p)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (interface->pad[i] == p && !isnan(events->path.arrival[i])) return true;
+    return false;
+}
+
 static double farthest_reach(const Events *events, const Interface *interface)
 {
-    double farthest = interface->x[0];
-    for (int32_t p = 0; p < interface->pad_count; p++) {
-        bool takes_part = false;
-        double reach = pad_reach(events, interface, p, &takes_part);
-        if (takes_part) farthest = fmax(farthest, reach);
-    }
+    double farthest = interface_line_x(interface, 0);
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        if (takes_part(events, interface, p))
+            farthest = fmax(farthest, pad_reach(events, interface, p));
     return farthest;
 }
 
@@ -174,12 +185,33 @@ static double farthest_reach(const Events *events, const Interface *interface)
 static double fast_front(const Events *events, const Observation *seen, int32_t pad)
 {
     const Interface *interface = seen->interface;
-    for (int32_t i = interface->contact_count - 1; i >= 0; i--) {
+    for (int32_t k = interface_line_count(interface) - 1; k >= 0; k--) {
+        int32_t i = interface_line_node(interface, k);
         if (interface->pad[i] == pad &&
-            fabs(seen->state->slip_rate[interface_tangent(interface, i)]) > events->rate_start)
+            slip_size(interface, i, seen->state->slip_rate) > events->rate_start)
             return interface->x[i];
     }
     return NAN;
+}
+
+static double sum_slipping(const PadSum *pads, int32_t count)
+{
+    double sum = 0;
+    for (int32_t p = 0; p < count; p++) sum += pads[p].slipping;
+    return sum;
+}
+
+// How much slipped in the step before, on the event's pad and in all. A cell in space is as long as
+// the root of its mean area.
+static void note_slip(const Events *events, const Interface *interface, Event *event)
+{
+    const PadSum *before = &events->pads_before[event->pad];
+    PadSize size = pad_size(interface, event->pad);
+    event->slip_length = before->slipping / size.breadth;
+    event->slip_cells = interface->dim == 2
+                            ? before->slipping_cells
+                            : event->slip_length / sqrt(size.weight / size.nodes);
+    event->slip_before = sum_slipping(events->pads_before, interface->pad_count);
 }
 
 // Slip has turned fast in this step: where, and how much slipped there before.
@@ -187,12 +219,11 @@ static bool start_rapid(Events *events, const Observation *seen, Error *err)
 {
     if (!start_event(events, EVENT_BOUNDED, seen, &events->rapid, err)) return false;
     Event *event = &events->list[events->rapid];
-    event->reach = seen->interface->x[0];   // slow slip of other pads is none of it
+    event->reach = interface_line_x(seen->interface, 0);   // slow slip of other pads is none of it
     event->pad = 0;
     for (int32_t p = 1; p < seen->interface->pad_count; p++)
         if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
-    event->slip_length = events->pads_before[event->pad].slipping;
-    event->slip_cells = events->pads_before[event->pad].slipping_cells;
+    note_slip(events, seen->interface, event);
     events->began = true;
     front_path_restart(seen->interface, &events->path);
     memset(events->slipped, 0, (size_t)seen->interface->contact_count);
@@ -201,14 +232,17 @@ static bool start_rapid(Events *events, const Observation *seen, Error *err)
     return true;
 }
 
-// The mean speed on the pad where the event began, from its first step to the last one in which
-// slip has grown there.
+// The mean speed on the pad where the event began, from the first step in which its front is on the
+// line to the last one in which slip has grown there.
 static void follow_front(Events *events, const Observation *seen)
 {
     Event *event = &events->list[events->rapid];
-    bool takes_part = false;
-    double reach = pad_reach(events, seen->interface, event->pad, &takes_part);
+    double reach = pad_reach(events, seen->interface, event->pad);
     double front = fast_front(events, seen, event->pad), elapsed = seen->t - events->fast_t_start;
+    if (seen->interface->line && isnan(events->fast_front_start)) {   // it may begin beside the line
+        events->fast_front_start = front;
+        events->fast_t_start = seen->t;
+    }
     if (front > events->fast_front_start && reach > events->fast_reach && elapsed > 0)
         event->front_speed = (front - events->fast_front_start) / elapsed;
     events->fast_reach = reach;
@@ -246,10 +280,15 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
         }
         goto cleanup;
     }
-    bool slips = seen->front > seen->interface->x[0] && seen->max_slip_rate > 0;
+    bool slips = seen->front > interface_line_x(seen->interface, 0) && seen->max_slip_rate > 0;
     if (events->slow < 0 && slips)
         TRY(start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err));
-    if (events->slow >= 0) extend_event(&events->list[events->slow], seen, seen->front);
+    if (events->slow >= 0) {
+        Event *event = &events->list[events->slow];
+        extend_event(event, seen, seen->front);
+        event->slipped =
+            fmax(event->slipped, sum_slipping(events->pads, seen->interface->pad_count));
+    }
 cleanup:
     return error_is_clean(err);
 }
@@ -297,11 +336,13 @@ static void event_archive(Event *event, int32_t pad_count, Archive *archive)
     archive_number(archive, &event->t_stop);
     archive_number(archive, &event->front_start);
     archive_number(archive, &event->reach);
+    archive_number(archive, &event->slipped);
     archive_number(archive, &event->peak_slip_rate);
     archive_number(archive, &event->front_speed);
     archive_index(archive, &event->pad, -1, pad_count);
     archive_number(archive, &event->slip_length);
     archive_number(archive, &event->slip_cells);
+    archive_number(archive, &event->slip_before);
     archive_numbers(archive, event->front_times, FRONT_STATIONS);
 }
 

@@ -29,14 +29,18 @@ typedef struct Event {
     double t_start, t_stop;   // time
     double front_start;   // front when it began, length
     double reach;   // slow: the farthest front; rapid: largest x up to which a pad that took part
-        // has slipped from its trailing end on, length
+        // has slipped from its trailing end on, along the line of the contact, length
+    double slipped;   // how much of the contact slipped: rapid: in all of it; slow: at most at once;
+        // length, in space length^2
     double peak_slip_rate;   // velocity
     double front_speed;   // mean along the contact; rapid: of the fast front on `pad`; NaN: it did
         // not move
     // Rapid: the pad on which slow slip turned fast, and how much of it slipped in the step before,
-    // length and cells (PadSum). Slow: -1, NaN; in the first step of all: NaN.
+    // length and cells: in space the mean over its breadth. Slow: -1, NaN; in the first step of all:
+    // NaN.
     int32_t pad;
     double slip_length, slip_cells;
+    double slip_before;   // the same of the whole contact: length, in space length^2
     double
         front_times[FRONT_STATIONS];   // rapid: when its front came to each station, from t_start
 } Event;
@@ -56,6 +60,8 @@ typedef struct Events {
     double fast_t_start;
     double fast_reach;   // on the pad where it began, length
     FrontPath path;   // of the rapid event under way
+    double size;   // of the contact: length, in space length^2
+    bool in_space;
     PadSum *pads, *pads_before;   // [pad_count] of the step seen last, and before it; owned
 } Events;
 

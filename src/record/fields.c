@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "contact/slip.h"
 #include "io/files/folder.h"
 
 #include <math.h>
@@ -180,8 +181,7 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) columns[k] = line + k * count;
     for (int32_t i = 0; i < count; i++) {
         int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
-        double slip_rate = state->slip_rate[t];
-        columns[0][i] = slip_rate;
+        columns[0][i] = state->slip_rate[t];
         columns[1][i] = state->displacement[dofs[t]];
         columns[2][i] = state->displacement[dofs[n]] + interface_gap(interface, i);
         columns[3][i] = state->reaction[n] / interface->weight[i];
@@ -189,7 +189,8 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
         columns[5][i] =
             state->status[i] == CONTACT_OPEN
                 ? 0
-                : friction_contact_density(friction_at(fields->law, i), fabs(slip_rate));
+                : friction_contact_density(friction_at(fields->law, i),
+                                           slip_size(interface, i, state->slip_rate));
     }
 }
 

@@ -5,6 +5,7 @@
 #include "record/front_path.h"
 
 #include "base/memory.h"
+#include "contact/slip.h"
 
 #include <math.h>
 
@@ -13,18 +14,22 @@ static const double AT_NODE = 1e-6;   // of the way to the next
 
 static void place_stations(const Interface *interface, FrontPath *path)
 {
-    int32_t last = interface->contact_count - 1, i = 0;
-    const double *x = interface->x;
-    double length = x[last] - x[0];
+    int32_t last = interface_line_count(interface) - 1, i = 0;
+    double start = interface_line_x(interface, 0);
+    double length = interface_line_x(interface, last) - start;
     path->spacing = length / (FRONT_STATIONS - 1);
     for (int32_t k = 0; k < FRONT_STATIONS; k++) {
-        double place = x[0] + length * k / (FRONT_STATIONS - 1);
-        while (i < last - 1 && x[i + 1] <= place) i++;   // place within [x_i, x_i+1]
-        double part = last > 0 ? (place - x[i]) / (x[i + 1] - x[i]) : 0;
+        double place = start + length * k / (FRONT_STATIONS - 1);
+        while (i < last - 1 && interface_line_x(interface, i + 1) <= place) i++;
+        int32_t node = interface_line_node(interface, i);   // place within [x_i, x_i+1]
+        int32_t behind = last > 0 ? interface_line_node(interface, i + 1) : node;
+        const double *x = interface->x;
+        double part = last > 0 ? (place - x[node]) / (x[behind] - x[node]) : 0;
         FrontStation *station = &path->station[k];
-        *station = (FrontStation){.node = i, .part = part, .pad = interface->pad[i]};
+        *station =
+            (FrontStation){.node = {node, behind}, .part = part, .pad = interface->pad[node]};
         if (part < AT_NODE) continue;
-        int32_t next = interface->pad[i + 1];
+        int32_t next = interface->pad[behind];
         if (part > 1 - AT_NODE)
             station->pad = next;
         else if (next != station->pad)
@@ -66,7 +71,7 @@ static double passage(const FrontPath *path, double before, double now, double t
 void front_path_follow(FrontPath *path, const Observation *seen)
 {
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
-        double rate = fabs(seen->state->slip_rate[interface_tangent(seen->interface, i)]);
+        double rate = slip_size(seen->interface, i, seen->state->slip_rate);
         if (rate > path->threshold && isnan(path->arrival[i]))
             path->arrival[i] = passage(path, path->rate_before[i], rate, seen->t);
     }
@@ -77,7 +82,7 @@ void front_path_follow(FrontPath *path, const Observation *seen)
 void front_path_keep(FrontPath *path, const Observation *seen)
 {
     for (int32_t i = 0; i < seen->interface->contact_count; i++)
-        path->rate_before[i] = fabs(seen->state->slip_rate[interface_tangent(seen->interface, i)]);
+        path->rate_before[i] = slip_size(seen->interface, i, seen->state->slip_rate);
     path->t_before = seen->t;
 }
 
@@ -86,16 +91,16 @@ void front_path_stations(const FrontPath *path, double origin, double times[FRON
 {
     for (int32_t k = 0; k < FRONT_STATIONS; k++) {
         const FrontStation *station = &path->station[k];
-        const double *arrival = path->arrival + station->node;
+        double first = path->arrival[station->node[0]], second = path->arrival[station->node[1]];
         double part = station->part;
         if (station->pad < 0)
             times[k] = NAN;
         else if (part < AT_NODE)
-            times[k] = arrival[0] - origin;
+            times[k] = first - origin;
         else if (part > 1 - AT_NODE)
-            times[k] = arrival[1] - origin;
+            times[k] = second - origin;
         else
-            times[k] = (1 - part) * arrival[0] + part * arrival[1] - origin;
+            times[k] = (1 - part) * first + part * second - origin;
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How the front of a rapid event runs along the contact: when slip first became faster than the
-// event's threshold, node by node while it goes on, and at evenly spaced stations once it is over.
+// event's threshold, node by node while it goes on, and at evenly spaced stations along the contact's
+// line (contact/contact_line) once it is over.
 // A front of slip that was slow before is a front of speeding up, and may run faster than any wave;
 // ahead of where slow slip had come to it is a rupture. Between pads nothing slips: there is no
 // station in a gap, and no speed across one. Kept by record/events.
@@ -9,11 +10,11 @@
 
 #include "record/observation.h"
 
-enum { FRONT_STATIONS = 21 };   // from the first contact node to the last, evenly spaced
+enum { FRONT_STATIONS = 21 };   // from the first node of the line to the last, evenly spaced
 
-// A place between contact nodes i and i + 1, or on one of them.
+// A place between two contact nodes one behind the other, or on one of them.
 typedef struct FrontStation {
-    int32_t node;   // i
+    int32_t node[2];   // the second the same where there is none behind the first
     double part;   // of the way to the next node, from 0 to 1
     int32_t pad;   // that it stands on; -1: in a gap
 } FrontStation;

@@ -33,7 +33,9 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
         history->pad_length[interface->pad[i]] += interface->weight[i];
     }
     head->contact_count = count;
+    head->tangents = contact->tangents;
     head->nodes[NODES_X] = interface->x;
+    head->nodes[NODES_Y] = interface->y;
     head->nodes[NODES_WEIGHT] = interface->weight;
     head->nodes[NODES_PAD] = history->pad;
     history->file = head->goes_on ? result_file_reopen(folder, err)
@@ -110,6 +112,8 @@ static double pad_value(const History *history, const Observation *seen, ResultS
 {
     const PadSum *sum = &history->pad_sums[p];
     const Interface *interface = seen->interface;
+    const double *along = history->contact->slip;
+    int32_t tangents = history->contact->tangents;
     double slip = 0;
     switch (series) {
     case SERIES_PAD_NORMAL:
@@ -121,7 +125,7 @@ static double pad_value(const History *history, const Observation *seen, ResultS
     case SERIES_PAD_SLIP:
         for (int32_t i = 0; i < interface->contact_count; i++)
             if (interface->pad[i] == p)
-                slip += interface->weight[i] / history->pad_length[p] * history->contact->slip[i];
+                slip += interface->weight[i] / history->pad_length[p] * along[i * tangents];
         return slip;
     default:
         return NAN;
@@ -129,7 +133,8 @@ static double pad_value(const History *history, const Observation *seen, ResultS
 }
 
 // One series of one step.
-// `row` has as many entries as the series has columns: 1, the contact nodes or the pads.
+// `row` has as many entries as the series has columns: 1, the contact nodes (or their tangents) or
+// the pads.
 static bool append(History *history, const Observation *seen, ResultSeries series, Error *err)
 {
     const double *row = history->row;
@@ -257,6 +262,8 @@ static double event_column(const Event *event, ResultTable table)
         return event->t_stop;
     case EVENTS_REACH:
         return event->reach;
+    case EVENTS_SLIPPED:
+        return event->slipped;
     case EVENTS_PEAK_RATE:
         return event->peak_slip_rate;
     default:
@@ -278,6 +285,7 @@ bool history_finish(History *history, const Drops *drops, const Answers *answers
     if (!column) goto cleanup;
     for (ResultTable table = 0; table < RESULT_TABLES_COUNT; table++) {
         int32_t count = events->count;
+        if (table == EVENTS_SLIPPED && !events->in_space) continue;
         if (is_peak_table(table))
             count = peak_column(drops, answers, table, column);
         else

@@ -26,7 +26,7 @@ typedef struct History {
     int32_t pad_count;
     PadSum *pad_sums;   // [pad_count] of the step under way; owned
     double *pad_row;   // [pad_count] work; owned
-    double *pad_length;   // [pad_count] sum of the nodes' weights, length; owned
+    double *pad_length;   // [pad_count] sum of the nodes' weights; owned
     const ContactArrays *contact;   // of the step under way; not owned
 } History;
 

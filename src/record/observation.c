@@ -2,6 +2,7 @@
 #include "record/observation.h"
 
 #include "base/dense.h"
+#include "contact/slip.h"
 
 #include <assert.h>
 #include <float.h>
@@ -23,8 +24,9 @@ static double judged_velocity(const StepControl *control, const ObservationScale
 // x of the last node of the run of nodes from the trailing edge that do not stick: l.
 static double slip_front(const Interface *interface, const State *state)
 {
-    double front = interface->x[0];
-    for (int32_t i = 0; i < interface->contact_count; i++) {
+    double front = interface_line_x(interface, 0);
+    for (int32_t k = 0; k < interface_line_count(interface); k++) {
+        int32_t i = interface_line_node(interface, k);
         if (state->status[i] == CONTACT_STICK) break;
         front = interface->x[i];
     }
@@ -71,11 +73,12 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
     double load = scales->load * load_factor(scheme->course, state->time);
     seen.mu = seen.rod_force / load;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
+        int32_t n = interface_normal(interface, i);
         seen.normal_force += state->reaction[n];
         double height = state->displacement[seen.system->interface_dofs[n]];
         seen.penetration = fmax(seen.penetration, -height - interface_gap(interface, i));
-        seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[t]));
+        seen.max_slip_rate =
+            fmax(seen.max_slip_rate, slip_size(interface, i, state->slip_rate));
     }
     Moments moments = sum_moments(control);
     double moment_scale = scales->load * scales->length;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "record/pad_sums.h"
 
+#include "contact/slip.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -25,8 +27,26 @@ void pad_sums(const Observation *seen, PadSum *sums)
         if (!status_slips(state->status[i])) continue;
         sum->slipping += interface->weight[i];
         sum->slipping_cells += cells_of(interface, i);
-        sum->fastest = fmax(sum->fastest, fabs(state->slip_rate[interface_tangent(interface, i)]));
+        sum->fastest = fmax(sum->fastest, slip_size(interface, i, state->slip_rate));
     }
+}
+
+PadSize pad_size(const Interface *interface, int32_t p)
+{
+    PadSize size = {.x_from = INFINITY, .x_to = -INFINITY, .breadth = 1};
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double y = interface->y ? interface->y[i] : 0;
+        if (interface->pad[i] != p) continue;
+        size.x_from = fmin(size.x_from, interface->x[i]);
+        size.x_to = fmax(size.x_to, interface->x[i]);
+        size.y_from = size.nodes == 0 ? y : fmin(size.y_from, y);
+        size.y_to = size.nodes == 0 ? y : fmax(size.y_to, y);
+        size.weight += interface->weight[i];
+        size.nodes++;
+    }
+    if (interface->y && size.x_to > size.x_from)
+        size.breadth = size.weight / (size.x_to - size.x_from);
+    return size;
 }
 
 void pad_sums_archive(PadSum *sums, int32_t count, Archive *archive)

@@ -31,18 +31,13 @@ bool pads_create(const Interface *interface, const Events *events, Pads *pads, E
     pads->count = interface->pad_count;
     for (int32_t p = 0; p < pads->count; p++) {
         Pad *pad = &pads->list[p];
-        *pad =
-            (Pad){.x_from = INFINITY, .x_to = -INFINITY, .now = NOTHING_YET, .last = NOTHING_YET};
+        *pad = (Pad){
+            .size = pad_size(interface, p), .now = NOTHING_YET, .last = NOTHING_YET};
+        pad->length = pad->size.weight / pad->size.breadth;
         if (interface->pad_name)
             snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
     }
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        Pad *pad = &pads->list[interface->pad[i]];
-        pad->x_from = fmin(pad->x_from, interface->x[i]);
-        pad->x_to = fmax(pad->x_to, interface->x[i]);
-        pad->length += interface->weight[i];
-        pad->nodes++;
-    }
+    pads->in_space = interface->dim > 2;
     return true;
 }
 
@@ -98,7 +93,7 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
         now->shear = sum->shear;
     }
     if (slipped > 0 && isnan(now->U_first_slip)) now->U_first_slip = seen->U;
-    if (slipped == pad->nodes && isnan(now->U_detached)) {
+    if (slipped == pad->size.nodes && isnan(now->U_detached)) {
         now->U_detached = seen->U;
         now->order = pads->detached + 1;
         ++*detaching;
@@ -157,9 +152,14 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
         const PadCycle *last = &pad->last;
         json_begin_object(json, NULL);
         json_text(json, "name", pad->name);
-        json_number(json, "x_from", pad->x_from);
-        json_number(json, "x_to", pad->x_to);
-        json_integer(json, "nodes", pad->nodes);
+        json_number(json, "x_from", pad->size.x_from);
+        json_number(json, "x_to", pad->size.x_to);
+        if (pads->in_space) {
+            json_number(json, "y_from", pad->size.y_from);
+            json_number(json, "y_to", pad->size.y_to);
+            json_number(json, "area", pad->size.weight);
+        }
+        json_integer(json, "nodes", pad->size.nodes);
         json_number(json, "normal_force_start", pad->normal_force_start);
         json_number(json, "normal_force_peak", last->normal_force);
         json_number(json, "shear_peak", last->shear);

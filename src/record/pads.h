@@ -23,9 +23,8 @@ typedef struct PadCycle {
 
 typedef struct Pad {
     char name[GROUP_NAME_SIZE];
-    double x_from, x_to;   // length
-    double length;   // sum of its nodes' weights
-    int32_t nodes;
+    PadSize size;
+    double length;   // sum of its nodes' weights, in space over its breadth
     double normal_force_start;   // when the rod starts, force/width
     PadCycle now, last;   // of the cycle under way; of the last one that ended in sliding
     int32_t slidings;   // rapid events in which all of it slipped
@@ -43,6 +42,7 @@ typedef struct Pads {
     int32_t cycles;   // that ended in sliding
     double mu;   // the largest of this cycle
     bool started;   // the first step was seen
+    bool in_space;
 } Pads;
 
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err);

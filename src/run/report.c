@@ -156,6 +156,10 @@ static void write_events(JsonWriter *json, const Events *events, const Pads *pad
         json_number(json, "t_stop", event->t_stop);
         json_number(json, "front_start", event->front_start);
         json_number(json, "reach", event->reach);
+        if (events->in_space) {
+            json_number(json, "slipped_over_A", event->slipped / events->size);
+            json_number(json, "slip_before_over_A", event->slip_before / events->size);
+        }
         json_number(json, "peak_slip_rate", event->peak_slip_rate);
         json_number(json, "front_speed", event->front_speed);
         if (event->kind != EVENT_QUASI_STATIC) {

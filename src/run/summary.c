@@ -13,8 +13,9 @@
 static ContactView contact_view(const Interface *interface, const ContactArrays *contact)
 {
     return (ContactView){.count = contact->count,
-                         .tangents = 1,
+                         .tangents = contact->tangents,
                          .x = interface->x,
+                         .y = interface->y,
                          .slip_rate = contact->slip_rate,
                          .slip = contact->slip,
                          .pressure = contact->pressure,

@@ -74,7 +74,13 @@ void array_file_abandon(ArrayFile *file)
 
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err)
 {
-    return file->module->add_series(file->hdf5, series, err);
+    return file->module->add_vectors(file->hdf5, series, 1, err);
+}
+
+bool array_file_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t components,
+                            Error *err)
+{
+    return file->module->add_vectors(file->hdf5, series, components, err);
 }
 
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,

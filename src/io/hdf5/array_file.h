@@ -29,6 +29,9 @@ void array_file_abandon(ArrayFile *file);
 
 // An empty series.
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
+// Of vectors: their components are the last axis, [rows][width / components][components].
+bool array_file_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t components,
+                            Error *err);
 
 // Appends `rows` rows of doubles, [rows * width], converted to the stored type (integers: the
 // nearest that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
@@ -46,7 +49,7 @@ bool array_file_set_text(ArrayFile *file, const char *name, const char *value, E
 bool array_file_get_number(ArrayFile *file, const char *name, double *value, Error *err);
 bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err);
 
-// A whole dataset as doubles: *values [rows * width], owned by the caller (memory_free).
+// A whole dataset as doubles: *values [rows * width], components the fastest, owned by the caller (memory_free).
 bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                      int32_t *width, Error *err);
 bool array_file_has(ArrayFile *file, const char *name);

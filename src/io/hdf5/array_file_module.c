@@ -297,14 +297,15 @@ static bool grow_series_list(Hdf5File *file, Error *err)
 }
 
 // Unit and description are attributes of the dataset: a reader finds them beside the numbers.
-static bool hdf5_add_series(Hdf5File *file, const ArraySeries *series, Error *err)
+static bool hdf5_add_vectors(Hdf5File *file, const ArraySeries *series, int32_t components,
+                             Error *err)
 {
     SeriesWriter added = {0};
     TRY(check_writable(file, err));
     if (find_series(file, series->name))
         FAIL(err, ERROR_LIBRARY, "%s holds %s already", file->path, series->name);
     TRY(grow_series_list(file, err));
-    TRY(series_create(&added, file->id, series, err));
+    TRY(series_create(&added, file->id, series, components, err));
     herr_t status = attribute_write_text(added.dataset, "unit", series->unit);
     if (status >= 0)
         status = attribute_write_text(added.dataset, "description", series->description);
@@ -359,22 +360,25 @@ cleanup:
 
 // --- reading ------------------------------------------------------------------------------------
 
-// Rows and width of a dataset of one or two dimensions. The numbers come from a file, which may be
+// Rows and width of a dataset; of vectors all components. The numbers come from a file, which may be
 // damaged: a product that would overflow is refused here, one too large by the allocator.
 static bool read_shape(const Hdf5File *file, const char *name, hid_t dataset, int64_t *rows,
                        int32_t *width, Error *err)
 {
-    hsize_t shape[2] = {0, 1};
+    hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1};
     hid_t space = H5Dget_space(dataset);
     int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 1 || rank > 2)
-        FAIL(err, ERROR_FILE, "%s: %s has %d dimensions, not 1 or 2", file->path, name, rank);
+    if (rank < 1 || rank > ARRAY_RANK_MAX)
+        FAIL(err, ERROR_FILE, "%s: %s has %d dimensions, not 1 to %d", file->path, name, rank,
+             ARRAY_RANK_MAX);
     H5Sget_simple_extent_dims(space, shape, NULL);
-    if (shape[0] > INT64_MAX || shape[1] > INT32_MAX ||
-        (shape[1] > 0 && shape[0] > INT64_MAX / shape[1]))
+    bool fits = shape[1] <= INT32_MAX && shape[2] <= INT32_MAX;
+    hsize_t across = fits ? shape[1] * shape[2] : 0;
+    if (!fits || across > INT32_MAX || shape[0] > INT64_MAX ||
+        (across > 0 && shape[0] > INT64_MAX / across))
         FAIL(err, ERROR_FILE, "%s: %s is too large to be true", file->path, name);
     *rows = (int64_t)shape[0];
-    *width = (int32_t)shape[1];
+    *width = (int32_t)across;
 cleanup:
     H5Sclose(space);
     return error_is_clean(err);
@@ -418,7 +422,7 @@ __attribute__((visibility("default"))) const ArrayFileModule *amontons_array_fil
         .reopen = hdf5_reopen,
         .close = hdf5_close,
         .abandon = hdf5_abandon,
-        .add_series = hdf5_add_series,
+        .add_vectors = hdf5_add_vectors,
         .append = hdf5_append,
         .flush = hdf5_flush,
         .sync = hdf5_sync,

@@ -17,7 +17,7 @@ typedef struct ArrayFileModule {
     Hdf5File *(*reopen)(const char *path, Error *err);
     bool (*close)(Hdf5File *file, Error *err);   // frees `file` either way
     void (*abandon)(Hdf5File *file);
-    bool (*add_series)(Hdf5File *file, const ArraySeries *series, Error *err);
+    bool (*add_vectors)(Hdf5File *file, const ArraySeries *series, int32_t components, Error *err);
     bool (*append)(Hdf5File *file, const char *name, const double *values, int64_t rows,
                    Error *err);
     bool (*flush)(Hdf5File *file, Error *err);

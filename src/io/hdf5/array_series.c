@@ -66,15 +66,24 @@ static hid_t memory_type(ArrayType type)
 // Scalars have one dimension, so that h5py users need not index a column.
 static int rank_of(const SeriesWriter *writer)
 {
-    return writer->width > 1 ? 2 : 1;
+    return writer->components > 1 ? 3 : writer->width > 1 ? 2 : 1;
+}
+
+// Of a part with so many rows, in as many dimensions as the rank says.
+static void shape_of(const SeriesWriter *writer, hsize_t rows, hsize_t shape[ARRAY_RANK_MAX])
+{
+    shape[0] = rows;
+    shape[1] = (hsize_t)(writer->width / writer->components);
+    shape[2] = (hsize_t)writer->components;
 }
 
 // An empty, extendable dataset. The id, or a negative number.
 static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
 {
-    hsize_t shape[2] = {0, (hsize_t)writer->width};
-    hsize_t shape_max[2] = {H5S_UNLIMITED, (hsize_t)writer->width};
-    hsize_t chunk[2] = {(hsize_t)writer->chunk_rows, (hsize_t)writer->width};
+    hsize_t shape[ARRAY_RANK_MAX], shape_max[ARRAY_RANK_MAX], chunk[ARRAY_RANK_MAX];
+    shape_of(writer, 0, shape);
+    shape_of(writer, H5S_UNLIMITED, shape_max);
+    shape_of(writer, (hsize_t)writer->chunk_rows, chunk);
     size_t chunk_bytes = (size_t)(writer->chunk_rows * writer->width) * item_size(writer->type);
     hid_t space = H5Screate_simple(rank_of(writer), shape, shape_max);
     hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
@@ -102,11 +111,13 @@ static int64_t chunk_rows(ArrayType type, int32_t width)
 }
 
 // A chunk is compressed and read as one. The buffer holds one.
-bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err)
+bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, int32_t components,
+                   Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    *writer = (SeriesWriter){.type = series->type, .width = series->width};
-    if (series->width < 1 || item_size(series->type) == 0)
+    *writer =
+        (SeriesWriter){.type = series->type, .width = series->width, .components = components};
+    if (series->width < 1 || series->width % components != 0 || item_size(series->type) == 0)
         FAIL(err, ERROR_LIBRARY, "%s has no values or no type", series->name);
     writer->chunk_rows = chunk_rows(series->type, series->width);
     writer->name = memory_text(series->name, err);
@@ -134,17 +145,20 @@ static bool find_type(hid_t stored, ArrayType *type)
 // Type, width and rows of the dataset; its chunks are those that series_create would give it.
 static bool read_layout(SeriesWriter *writer)
 {
-    hsize_t shape[2] = {0, 1};
+    hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1};
     hid_t type = H5Dget_type(writer->dataset), space = H5Dget_space(writer->dataset);
     bool known = find_type(type, &writer->type);
     int rank = H5Sget_simple_extent_ndims(space);
-    known = known && rank >= 1 && rank <= 2 && H5Sget_simple_extent_dims(space, shape, NULL) >= 0 &&
-            shape[0] <= INT64_MAX && shape[1] >= 1 && shape[1] <= INT32_MAX;
+    known = known && rank >= 1 && rank <= ARRAY_RANK_MAX &&
+            H5Sget_simple_extent_dims(space, shape, NULL) >= 0 && shape[0] <= INT64_MAX &&
+            shape[2] >= 1 && shape[2] <= INT32_MAX && shape[1] >= 1 &&
+            shape[1] <= INT32_MAX / shape[2];
     H5Tclose(type);
     H5Sclose(space);
     if (!known) return false;
     writer->row_count = (int64_t)shape[0];
-    writer->width = (int32_t)shape[1];
+    writer->components = (int32_t)shape[2];
+    writer->width = (int32_t)(shape[1] * shape[2]);
     return true;
 }
 
@@ -171,7 +185,8 @@ cleanup:
 // Buffered rows may be among those that go.
 bool series_cut(SeriesWriter *writer, const ArrayDisk *disk, int64_t rows, Error *err)
 {
-    hsize_t shape[2] = {(hsize_t)rows, (hsize_t)writer->width};
+    hsize_t shape[ARRAY_RANK_MAX];
+    shape_of(writer, (hsize_t)rows, shape);
     TRY(series_hand_over(writer, disk, err));
     if (writer->row_count < rows)
         FAIL(err, ERROR_FILE, "%s has %lld rows, %lld are to be kept", writer->name,
@@ -196,9 +211,10 @@ bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
     if (writer->buffered == 0) return true;
     // The dataset grows by the rows, which are the hyperslab that is written:
     //   [0, row_count) stays, [row_count, row_count + buffered) x [0, width) is `from` the buffer.
-    hsize_t start[2] = {(hsize_t)writer->row_count, 0};
-    hsize_t count[2] = {(hsize_t)writer->buffered, (hsize_t)writer->width};
-    hsize_t shape[2] = {start[0] + count[0], count[1]};
+    hsize_t start[ARRAY_RANK_MAX] = {(hsize_t)writer->row_count};
+    hsize_t count[ARRAY_RANK_MAX], shape[ARRAY_RANK_MAX];
+    shape_of(writer, (hsize_t)writer->buffered, count);
+    shape_of(writer, start[0] + count[0], shape);
     hid_t from = H5Screate_simple(rank_of(writer), count, NULL);
     hid_t to = -1;
     herr_t status = H5Dset_extent(writer->dataset, shape);

@@ -16,6 +16,7 @@ typedef struct SeriesWriter {
     char *name;   // owned
     ArrayType type;   // as stored, in the file and in `buffer`
     int32_t width;   // values a row
+    int32_t components;   // of a vector, their last axis; 1: they are numbers
     int64_t chunk_rows;   // rows of a chunk
     int64_t row_count;   // rows that HDF5 has
     int64_t buffered;   // rows after them, in `buffer`
@@ -23,9 +24,10 @@ typedef struct SeriesWriter {
     hid_t dataset;   // 0: none; owned
 } SeriesWriter;
 
-// Makes the empty dataset in the HDF5 file `id`. A scalar series (width 1) has one dimension, the
-// others two. *writer is destroyed by the caller, also after a failure.
-bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err);
+// Makes the empty dataset in the HDF5 file `id`. A scalar series (width 1) has one dimension, one
+// of vectors three, the others two. *writer is destroyed by the caller, also after a failure.
+bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, int32_t components,
+                   Error *err);
 void series_destroy(SeriesWriter *writer);
 
 // One that is in the file already, as it was created. *writer as above.

@@ -5,6 +5,8 @@
 
 #include <stdint.h>
 
+enum { ARRAY_RANK_MAX = 3 };
+
 typedef enum ArrayType { ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32 } ArrayType;
 
 // A series of rows of `width` values (1: a scalar series), extendable, empty. `name` may hold

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { FORMAT_VECTORS = 2 };   // the latest; 1 says nothing of itself
+
 // Of any of the four tables.
 typedef struct ResultRow {
     const char *name;   // in the file, with its folder
@@ -75,15 +77,43 @@ cleanup:
 
 // --- writing ------------------------------------------------------------------------------------
 
-// Makes the array of a table's row, empty.
-static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, Error *err)
+// Of a row of the tables, or of all with such a unit in the plane, where all is per width.
+static const char *unit_in_space(const ResultRow *row)
 {
+    static const char *const units[][2] = {{"force/width", "force"},
+                                           {"energy/width", "energy"},
+                                           {"nodes/weight", "length^2"},
+                                           {"pads/slipping", "length^2"}};
+    for (size_t k = 0; k < sizeof units / sizeof units[0]; k++)
+        if (strcmp(units[k][0], row->unit) == 0 || strcmp(units[k][0], row->name) == 0)
+            return units[k][1];
+    return row->unit;
+}
+
+// What has a direction on the contact is a vector.
+static int32_t row_components(const ResultRow *row, int32_t tangents)
+{
+    static const ResultSeries vectors[] = {SERIES_SLIP_RATE, SERIES_SLIP, SERIES_SHEAR};
+    for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+        if (row == &series_rows[vectors[k]] && tangents > 1) return tangents;
+    return 1;
+}
+
+// Makes the array of a table's row, empty. tangents: of the contact.
+static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, int32_t tangents,
+                    Error *err)
+{
+    char words[160];
+    bool space = tangents > 1;
+    int32_t components = row_components(row, tangents);
+    snprintf(words, sizeof words, "%s%s", row->description,
+             components > 1 ? "; then the same along y" : "");
     ArraySeries series = {.name = row->name,
                           .type = row->type,
                           .width = width,
-                          .unit = row->unit,
-                          .description = row->description};
-    return array_file_add_series(file, &series, err);
+                          .unit = space ? unit_in_space(row) : row->unit,
+                          .description = words};
+    return array_file_add_vectors(file, &series, components, err);
 }
 
 // Texts, and the numbers known by now.
@@ -93,8 +123,10 @@ static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err
     TRY(array_file_set_text(file, "units", head->units, err));
     TRY(array_file_set_text(file, "version", head->version, err));
     if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
+    if (head->tangents > 1)
+        TRY(array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
-        if (!isnan(head->numbers[k]))
+        if (k != NUMBER_FORMAT && !isnan(head->numbers[k]))
             TRY(array_file_set_number(file, number_rows[k].name, head->numbers[k], err));
 cleanup:
     return error_is_clean(err);
@@ -106,7 +138,7 @@ static int32_t series_width(const ResultHead *head, ResultSeries series)
     double last = 0;   // pads are numbered from 0
     switch (series_rows[series].columns) {
     case COLUMNS_NODES:
-        return head->contact_count;
+        return head->contact_count * row_components(&series_rows[series], head->tangents);
     case COLUMNS_PADS:
         for (int32_t i = 0; i < head->contact_count; i++)
             if (head->nodes[NODES_PAD][i] > last) last = head->nodes[NODES_PAD][i];
@@ -128,12 +160,14 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     if (!file) goto cleanup;
     TRY(write_attributes(file, head, err));
     for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
-        TRY(add_row(file, &nodes_rows[k], 1, err));
+        if (k == NODES_Y && !head->nodes[k]) continue;
+        TRY(add_row(file, &nodes_rows[k], 1, head->tangents, err));
         TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         if (k == SERIES_ROD_WAY && !head->rod_on_spring) continue;
-        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), err));
+        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head->tangents,
+                    err));
     }
     TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
     return file;
@@ -175,7 +209,7 @@ cleanup:
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err)
 {
-    TRY(add_row(file, &table_rows[table], 1, err));
+    TRY(add_row(file, &table_rows[table], 1, 1, err));
     TRY(array_file_append(file, table_rows[table].name, values, count, err));
 cleanup:
     return error_is_clean(err);
@@ -192,6 +226,12 @@ ArrayFile *result_file_open(const char *folder, Error *err)
     if (!file && err->code == ERROR_FILE) {
         err->code = ERROR_INPUT;   // the folder is what the user gave
         error_context(err, "%s holds no history of a run", folder);
+    }
+    if (file && result_file_number(file, NUMBER_FORMAT) > FORMAT_VECTORS) {
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "the history in %s was written by a later version of amontons", folder);
+        array_file_abandon(file);
+        file = NULL;
     }
     return file;
 }

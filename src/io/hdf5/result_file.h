@@ -18,7 +18,7 @@ const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);
 
 // Writing: creates RESULT/history.h5(.part) with the series of the table, empty, and the fixed
-// arrays. `nodes[k]`: [contact_count] for each ResultNodes; nodes[NODES_PAD] says how many pads.
+// arrays. `nodes[k]`: [contact_count] for each ResultNodes, nodes[NODES_Y] in space only; nodes[NODES_PAD] says how many pads.
 typedef struct ResultHead {
     const char *title, *units, *version;
     const char *pads;   // NULL: without names
@@ -26,6 +26,7 @@ typedef struct ResultHead {
     bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
     bool rod_on_spring;   // SERIES_ROD_WAY is written, too
     int32_t contact_count;
+    int32_t tangents;   // directions of slip: 0 or 1 in the plane, 2 in space
     const double *nodes[RESULT_NODES_COUNT];
 } ResultHead;
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err);

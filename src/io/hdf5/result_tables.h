@@ -10,7 +10,8 @@ typedef enum ResultColumns {
     COLUMNS_PADS   // one a contact curve: nodes/pad numbers them
 } ResultColumns;
 
-// Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start.
+// Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start. In
+// space slip_rate, slip and shear have a last axis: along x, along y.
 // X(symbol, name, stored type, columns, unit, description)
 #define RESULT_SERIES(X)                                                                           \
     X(SERIES_TIME, "series/time", ARRAY_FLOAT64, ONE, "time", "t, 0 when the rod starts")          \
@@ -52,6 +53,7 @@ typedef enum ResultColumns {
 // Fixed arrays over contact nodes, ordered by x. X(symbol, name, stored type, unit, description)
 #define RESULT_NODES(X)                                                                            \
     X(NODES_X, "nodes/x", ARRAY_FLOAT64, "length", "position of the contact nodes")                \
+    X(NODES_Y, "nodes/y", ARRAY_FLOAT64, "length", "the same across the drive; in space only")     \
     X(NODES_WEIGHT, "nodes/weight", ARRAY_FLOAT64, "length", "integral of the shape function")     \
     X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which contact curve the node is on, from 0")
 
@@ -66,6 +68,8 @@ typedef enum ResultColumns {
     X(EVENTS_T_START, "events/t_start", "time", "when it starts")                                  \
     X(EVENTS_T_STOP, "events/t_stop", "time", "when it stops")                                     \
     X(EVENTS_REACH, "events/reach", "length", "largest x it came to, on the pads it ran over")     \
+    X(EVENTS_SLIPPED, "events/slipped", "length^2",                                                \
+      "how much of the contact slipped, of slow slip at most at once; in space only")              \
     X(EVENTS_PEAK_RATE, "events/peak_slip_rate", "velocity", "largest slip rate")                  \
     X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity",                                        \
       "mean speed of the front along the contact; nan: none")
@@ -74,6 +78,8 @@ typedef enum ResultColumns {
 // contact curves' names, by number, a line each), warnings (a line each; absent: none).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
+    X(NUMBER_FORMAT, "format", "1",                                                                \
+      "2 in space, where slip_rate, slip and shear are vectors; absent in the plane")              \
     X(NUMBER_LENGTH, "length", "length", "L, extent of the block along x")                         \
     X(NUMBER_TRAILING, "trailing_end", "length", "x at which the block begins")                    \
     X(NUMBER_PRESSURE, "pressure", "stress", "P_ext on the top")                                   \

@@ -55,8 +55,8 @@ static void test_what_they_are(void **state)
     assert_int_equal(fixture.pads.count, 2);
     assert_string_equal(left->name, "left");
     assert_string_equal(right->name, "right");
-    assert_true(left->nodes == 3 && right->nodes == 2);
-    assert_true(left->x_from == 0 && left->x_to == 0.5 && right->x_from == 0.75);
+    assert_true(left->size.nodes == 3 && right->size.nodes == 2);
+    assert_true(left->size.x_from == 0 && left->size.x_to == 0.5 && right->size.x_from == 0.75);
     assert_near("length", left->length, 0.625, 1e-15);
     assert_near("length", right->length, 0.375, 1e-15);
     see(&fixture, 0, REST);
