@@ -130,6 +130,11 @@ void memory_fail_after(int64_t allocations)
     tally_now()->until_failure = allocations;
 }
 
+bool memory_may_fail(void)
+{
+    return tally_now()->until_failure >= 0;
+}
+
 MemoryTallyFunction memory_tally(void)
 {
     return atomic_load_explicit(&tally_function, memory_order_relaxed);

@@ -39,6 +39,7 @@ void memory_take_over(MemoryCounters counted);   // by a thread that has ended, 
 // Fault injection: this thread's allocation after `allocations` more successful ones fails, and
 // every later one too, until called with -1. For tests only.
 void memory_fail_after(int64_t allocations);
+bool memory_may_fail(void);   // a failure is asked for: all is allocated in this thread then
 
 // A module has a copy of base/ in it. It counts where the library that opened it does.
 typedef struct MemoryTally {

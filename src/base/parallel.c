@@ -56,7 +56,7 @@ void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t
 {
     Work work = {piece, context, count, 0};
     Helper helpers[PARALLEL_WORKERS_MAX];
-    int32_t workers = within_piece ? 1 : parallel_workers(), made = 1;
+    int32_t workers = within_piece || memory_may_fail() ? 1 : parallel_workers(), made = 1;
     for (; made < workers && made < count; made++) {
         helpers[made] = (Helper){.work = &work, .number = made};
         if (thread_start(help, &helpers[made], &helpers[made].thread) != 0) break;
