@@ -259,13 +259,6 @@ void dense_multiply_by_transposed(DenseView a, DenseView b, double *c)
                 a.rows, b.values, b.rows, 1, c, a.rows);
 }
 
-void dense_add_square(DenseView a, double *c)
-{
-    if (a.columns == 0 || a.rows == 0) return;
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, a.rows, a.columns, 1, a.values, a.rows, 1,
-                c, a.rows);
-}
-
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)
 {
     if (a.columns == 0 || a.rows == 0) return;

@@ -95,8 +95,6 @@ void dense_multiply_transposed(DenseView a, DenseView b, double factor, double k
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
 // c += a b'
 void dense_multiply_by_transposed(DenseView a, DenseView b, double *c);
-// c += a a', its lower triangle.
-void dense_add_square(DenseView a, double *c);
 // Where c or b are rows of a larger matrix, whose columns are `stride` apart: c = factor
 // a' b + keep c, and c += factor a b, b [a.columns * columns].
 void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,

@@ -4,16 +4,13 @@
 #include "base/parallel.h"
 
 #include <cblas.h>
-#include <string.h>
 
 enum { PIECES_MAX = 8, PIECE_COLUMNS = 32 };   // at least: narrower ones read `a` for little
 
-// c = factor op(a) b + keep c, c [rows * columns], summed over `depth`.
+// c = factor op(a) b + keep c, op(a) = a or a'.
 typedef struct Product {
-    CBLAS_TRANSPOSE turned;
-    int64_t rows, columns, depth;
-    DenseView a;
-    const double *b;
+    bool turned;
+    DenseView a, b;
     int64_t b_stride;
     double factor, keep;
     double *c;
@@ -24,20 +21,22 @@ typedef struct Product {
 static void multiply_piece(void *context, int32_t k, int32_t worker)
 {
     const Product *all = context;
-    int64_t from = all->columns * k / all->pieces, end = all->columns * (k + 1) / all->pieces;
+    const DenseView *a = &all->a, *b = &all->b;
+    int64_t from = (int64_t)b->columns * k / all->pieces;
+    int64_t end = (int64_t)b->columns * (k + 1) / all->pieces;
     (void)worker;
-    cblas_dgemm(CblasColMajor, all->turned, CblasNoTrans, (int)all->rows, (int)(end - from),
-                (int)all->depth, all->factor, all->a.values, all->a.rows,
-                all->b + from * all->b_stride, (int)all->b_stride, all->keep,
+    cblas_dgemm(CblasColMajor, all->turned ? CblasTrans : CblasNoTrans, CblasNoTrans,
+                all->turned ? a->columns : a->rows, (int)(end - from),
+                all->turned ? a->rows : a->columns, all->factor, a->values, a->rows,
+                b->values + from * all->b_stride, (int)all->b_stride, all->keep,
                 all->c + from * all->c_stride, (int)all->c_stride);
 }
 
 static void multiply(Product all)
 {
-    if (all.rows == 0 || all.columns == 0 || all.depth == 0) return;
-    bool few = 2.0 * (double)all.rows * (double)all.columns * (double)all.depth <
-               PARALLEL_OPERATIONS;
-    int64_t pieces = few ? 1 : all.columns / PIECE_COLUMNS;
+    double operations = 2.0 * all.a.rows * all.a.columns * all.b.columns;
+    int64_t pieces = operations < PARALLEL_OPERATIONS ? 1 : all.b.columns / PIECE_COLUMNS;
+    if (!(operations > 0)) return;
     all.pieces = (int32_t)(pieces < 1 ? 1 : pieces < PIECES_MAX ? pieces : PIECES_MAX);
     parallel_for(all.pieces, multiply_piece, &all);
 }
@@ -45,17 +44,7 @@ static void multiply(Product all)
 void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,
                                     int64_t stride)
 {
-    multiply((Product){.turned = CblasTrans,
-                       .rows = a.columns,
-                       .columns = b.columns,
-                       .depth = a.rows,
-                       .a = a,
-                       .b = b.values,
-                       .b_stride = b.rows,
-                       .factor = factor,
-                       .keep = keep,
-                       .c = c,
-                       .c_stride = stride});
+    multiply((Product){true, a, b, b.rows, factor, keep, c, stride, 0});
 }
 
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
@@ -66,30 +55,15 @@ void dense_multiply_transposed(DenseView a, DenseView b, double factor, double k
     dense_multiply_transposed_rows(a, b, factor, keep, c, a.columns);
 }
 
-static void multiply_rows(DenseView a, DenseView b, double factor, double keep, double *c,
-                          int64_t b_stride)
-{
-    multiply((Product){.turned = CblasNoTrans,
-                       .rows = a.rows,
-                       .columns = b.columns,
-                       .depth = a.columns,
-                       .a = a,
-                       .b = b.values,
-                       .b_stride = b_stride,
-                       .factor = factor,
-                       .keep = keep,
-                       .c = c,
-                       .c_stride = a.rows});
-}
-
 // Where there is nothing to sum over (a.columns 0) `c` is left as it is, not even scaled.
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c)
 {
-    multiply_rows(a, b, factor, keep, c, b.rows);
+    multiply((Product){false, a, b, b.rows, factor, keep, c, a.rows, 0});
 }
 
 void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,
                          double factor, double *c)
 {
-    multiply_rows(a, dense_view(b, a.columns, columns), factor, 1, c, stride);
+    multiply(
+        (Product){false, a, dense_view(b, a.columns, columns), stride, factor, 1, c, a.rows, 0});
 }

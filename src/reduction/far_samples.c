@@ -4,7 +4,6 @@
 #include "reduction/far_samples.h"
 
 #include "base/dense.h"
-#include "base/largest_eigen.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "reduction/factored_points.h"
@@ -28,10 +27,6 @@ static const double INERTIA_STEP = 6;
 
 // e^-5 of a response has come through the elements between at most, where inertia is asked last.
 static const double FALLEN = 5;
-
-// S of what the far field leaves is not below that of the mesh; beyond this part of what is allowed
-// all eigenvalues are looked at.
-static const double NEGATIVE = 1e-3;
 
 // Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
 static const double LIFT = 1;
@@ -275,58 +270,28 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Few boundary motions are above what is allowed, or S is of no use.
-static bool find_largest(const InterfaceOperator *full, const double *excess, int32_t m,
-                         double allowed, double *error, Error *err)
-{
-    const double *lower = interface_operator_schur_lower(full);
-    LargestEigen largest = {0};
-    bool found = false;
-    double *work = NEW_ARRAY(double, dense_eigen_work(m), err), *values = NEW_ARRAY(double, m, err);
-    double *turned = NEW_ARRAY(double, (int64_t)m *m, err);
-    if (!error_is_clean(err)) goto cleanup;
-    LargestEigenDef def = {.size = m,
-                           .a = excess,
-                           .b = interface_operator_schur(full),
-                           .lower = lower,
-                           .above = fmin(allowed, 1),
-                           .least = -NEGATIVE * allowed,
-                           .work = work};
-    TRY(largest_eigen_find(&def, &largest, &found, err));
-    if (found) {
-        *error = largest.count > 0 ? largest.values[largest.count - 1] : largest.next;
-        goto cleanup;
-    }
-    memcpy(turned, excess, (size_t)m * (size_t)m * sizeof *turned);
-    dense_divide_both_sides(lower, m, turned);
-    if (!dense_eigen_above(turned, m, INFINITY, values, work))   // values alone
-        FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues");
-    *error = fmax(fabs(values[0]), fabs(values[m - 1]));
-cleanup:
-    largest_eigen_destroy(&largest);
-    memory_free(work);
-    memory_free(values);
-    memory_free(turned);
-    return error_is_clean(err);
-}
-
 bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOperator *left,
                          double *error, Error *err)
 {
     int32_t m = left->interface_count;
     InterfaceOperator *full = NULL, *condensed = NULL;
-    double *excess = NEW_ARRAY(double, (int64_t)m *m, err);
-    if (!excess) goto cleanup;
+    double *excess = NEW_ARRAY(double, (int64_t)m *m, err), *values = NEW_ARRAY(double, m, err);
+    double *work = NEW_ARRAY(double, dense_eigen_work(m), err);
+    if (!error_is_clean(err)) goto cleanup;
     full = interface_operator_create(mesh, samples->compared, err);
     condensed = full ? interface_operator_create(left, samples->compared, err) : NULL;
     if (!condensed) goto cleanup;
     memcpy(excess, interface_operator_schur(condensed), (size_t)m * (size_t)m * sizeof *excess);
     dense_add_scaled(-1, interface_operator_schur(full), m * m, excess);
-    TRY(find_largest(full, excess, m, samples->allowed, error, err));
-    *error /= samples->allowed;
+    dense_divide_both_sides(interface_operator_schur_lower(full), m, excess);
+    if (!dense_eigen_above(excess, m, INFINITY, values, work))   // values alone
+        FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues");
+    *error = fmax(fabs(values[0]), fabs(values[m - 1])) / samples->allowed;
 cleanup:
     interface_operator_destroy(full);
     interface_operator_destroy(condensed);
     memory_free(excess);
+    memory_free(values);
+    memory_free(work);
     return error_is_clean(err);
 }

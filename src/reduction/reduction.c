@@ -13,7 +13,6 @@
 #include "reduction/reduction.h"
 
 #include "base/dense.h"
-#include "base/largest_eigen.h"
 #include "base/memory.h"
 #include "reduction/basis.h"
 #include "reduction/factored_points.h"
@@ -78,43 +77,12 @@ static double allowed_error(const Builder *work, ParameterPoint point)
     return parameter_error_allowed(&work->training, point, work->def->tolerance);
 }
 
-// Where few boundary motions are above `allowed`, or none. In place of the next eigenvalue is a
-// bound of it, 1 % above it at most, or a thousandth of what is allowed; in that of the first one
-// `least`.
-static bool compare_largest(Builder *work, const double *schur, double allowed, double least,
-                            bool *found, Error *err)
-{
-    int64_t m = work->basis.interface_count;
-    LargestEigenDef def = {.size = (int32_t)m,
-                           .a = work->excess,
-                           .b = schur,
-                           .lower = work->lower,
-                           .above = fmin(allowed, 1),
-                           .least = least,
-                           .work = work->eigen_work};
-    LargestEigen largest;
-    TRY(largest_eigen_find(&def, &largest, found, err));
-    if (!*found) goto cleanup;
-    int64_t first = m - largest.count;
-    memcpy(work->values + first, largest.values, (size_t)(m - first) * sizeof *largest.values);
-    memcpy(work->excess + first * m, largest.vectors,
-           (size_t)((m - first) * m) * sizeof *largest.vectors);
-    work->values[first - 1] = largest.next;
-    work->values[0] = least;
-cleanup:
-    largest_eigen_destroy(&largest);
-    return error_is_clean(err);
-}
-
-// Solves (S_r - S) y = mu S y, S = L L': mu ascending in `values`, those above `allowed`, the next
-// one and the first; L'y of those above in the last columns of `excess`, which is S_r before.
-static bool compare(Builder *work, const double *schur, double allowed, double least, Error *err)
+// Solves (S_r - S) y = mu S y, S = L L': mu ascending in `values`; L'y of those above `allowed` in
+// the last columns of `excess`, which is S_r before.
+static bool compare(Builder *work, const double *schur, double allowed, Error *err)
 {
     int32_t m = work->basis.interface_count;
-    bool found = false;
     dense_add_scaled(-1, schur, m * m, work->excess);
-    TRY(compare_largest(work, schur, allowed, least, &found, err));
-    if (found) goto cleanup;
     dense_divide_both_sides(work->lower, m, work->excess);
     if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
@@ -181,7 +149,7 @@ static bool compare_at(Builder *work, ParameterPoint point, const double *schur,
     double least = -NEGATIVE_LIMIT * allowed - parameter_error_allowed(&work->training, point, 0);
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
-    if (definite) TRY(compare(work, schur, allowed, least, err));
+    if (definite) TRY(compare(work, schur, allowed, err));
     work->spoiled = !definite || work->values[0] < least;
     if (work->spoiled) FAIL(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
 cleanup:

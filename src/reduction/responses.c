@@ -290,20 +290,14 @@ static void mirror_own(const Responses *responses, double *gram)
             gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
 }
 
-// Of many columns in pieces as large as may be: the work of a piece falls with its number.
-static int32_t pieces_of(int64_t columns)
-{
-    return columns > 1
-               ? (int32_t)(2 * ((columns + 2 * RESPONSES_TOGETHER - 1) / (2 * RESPONSES_TOGETHER)))
-               : 1;
-}
-
 bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Error *err)
 {
     const ResponseBlock *next = &responses->blocks[responses->block_count];
     int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
     int64_t rows = responses->count + next->count;
-    Multiplication by_mesh = {responses, gram, pieces_of(next->count)};
+    // Two at least; the work of a piece falls with its number.
+    int64_t most = 2 * RESPONSES_TOGETHER, pieces = 2 * ((next->count + most - 1) / most);
+    Multiplication by_mesh = {responses, gram, (int32_t)(next->count > 1 ? pieces : 1)};
     double *a = NEW_ARRAY(double, rows * next->count, err);
     double *b = NEW_ARRAY(double, rows * next->count, err);
     for (int32_t k = 0; k < parallel_workers(); k++)

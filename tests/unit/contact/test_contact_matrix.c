@@ -103,7 +103,7 @@ static void test_together(void **state)
     Random random = {.state = 21};
     ContactMatrix matrix, copy;
     for (int k = 0; k < SIZE * SIZE; k++) b[k] = random_between(&random, -1, 1);
-    dense_add_square(dense_view(b, SIZE, SIZE), s);
+    dense_multiply_by_transposed(dense_view(b, SIZE, SIZE), dense_view(b, SIZE, SIZE), s);
     for (int j = 0; j < SIZE; j++) {
         s[j * SIZE + j] += 20;
         for (int i = j; i < SIZE; i++) s[i * SIZE + j] = s[j * SIZE + i];
