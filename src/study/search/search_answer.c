@@ -41,7 +41,7 @@ bool search_leave_best(const Search *search, int32_t design, int32_t condition, 
     TRY(json = json_create(path, err));
     scene_write_json(search->scene, json, NULL, folder);
     TRY(json_finish(json, err));
-    TRY(amontons_info(path, &(InfoOptions){.picture = picture, .overwrite = true}, out, err));
+    TRY(amontons_info(path, &(InfoOptions){.picture = picture}, out, err));
 cleanup:
     if (out) fclose(out);
     free(text);
