@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every search leaves beside its tables: its answer in words, and the scene of the best design.
+// What every search leaves beside its tables: its answer in words, and the best design's scene.
 // Called by optimise_report and fit_report.
 #ifndef AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
 #define AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
