@@ -103,6 +103,8 @@ static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
         sweep->failed += strcmp(word, "failed") == 0;
         sweep->done += done;
         if (!done || sweep->run.json) continue;
+        snprintf(path, sizeof path, "%.200s", csv_cell(&sweep->table, row, run));
+        if (!folder_holds(folder, path, NULL)) continue;   // `keep: table`
         snprintf(path, sizeof path, "%s/%.200s", folder, csv_cell(&sweep->table, row, run));
         TRY(run_source_open(path, &sweep->run, err));
     }
