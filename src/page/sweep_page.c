@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
+#include "io/files/text_file.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
 #include "io/text/json_reader.h"
@@ -20,13 +21,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME_SIZE = 300, ROWS_MAX = 500, RANKED_MAX = 30, VALUES_SHOWN = 14, FIGURES_MAX = 20 };
+enum {
+    NAME_SIZE = 300,
+    ROWS_MAX = 500,
+    RANKED_MAX = 30,
+    VALUES_SHOWN = 14,
+    FIGURES_MAX = 20,
+    ANSWER_BYTES_MAX = 1 << 22
+};
 enum { SENTENCE_SIZE = 8 * RUN_WARNING_SIZE };
 
 static const SheetPart FIGURES = {"figures", "Figures"}, RANKING = {"ranking", "Ranking"},
                        VARIED = {"varied", "What varies"}, POINTS = {"points", "All points"},
                        DOUBTS = {"doubts", "Failures and warnings"}, SCENE = {"scene", "A scene"},
-                       AGAIN = {"again", "To reproduce"}, CITE = {"cite", "How to cite"};
+                       AGAIN = {"again", "To reproduce"}, ANSWER = {"answer", "The answer"},
+                       CITE = {"cite", "How to cite"};
 
 typedef struct SweepSource {
     const char *folder;
@@ -94,6 +103,8 @@ static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
         sweep->failed += strcmp(word, "failed") == 0;
         sweep->done += done;
         if (!done || sweep->run.json) continue;
+        snprintf(path, sizeof path, "%.200s", csv_cell(&sweep->table, row, run));
+        if (!folder_holds(folder, path, NULL)) continue;   // `keep: table`
         snprintf(path, sizeof path, "%s/%.200s", folder, csv_cell(&sweep->table, row, run));
         TRY(run_source_open(path, &sweep->run, err));
     }
@@ -165,6 +176,31 @@ static bool write_figures(HtmlWriter *html, const SweepSource *sweep, Error *err
         free(entries[k]);
     }
     if (count >= 0) free(entries);
+    return error_is_clean(err);
+}
+
+// --- of a search ---------------------------------------------------------------------------------
+
+// Its answer in words, and a picture of the best design's mesh.
+static bool write_answer(HtmlWriter *html, const SweepSource *sweep, Error *err)
+{
+    char path[PATH_MAX], *text = NULL, *picture = NULL;
+    int32_t size = 0;
+    if (!folder_holds(sweep->folder, "answer.txt", path)) return true;
+    TRY(text_file_read(path, ANSWER_BYTES_MAX, &text, &size, err));
+    sheet_part(html, &ANSWER);
+    html_markup(html, "<pre tabindex='0'>");
+    html_text(html, text);
+    html_markup(html, "</pre>\n");
+    if (!folder_holds(sweep->folder, "figures/best.png", path)) goto cleanup;
+    TRY(text_file_read(path, ANSWER_BYTES_MAX, &picture, &size, err));
+    html_markup(html, "<figure><img alt='mesh and rod of the best design' src='");
+    html_data(html, "image/png", picture, size);
+    html_markup(html, "'><figcaption>The best design: its mesh, and the rod.</figcaption>"
+                      "</figure>\n");
+cleanup:
+    memory_free(text);
+    memory_free(picture);
     return error_is_clean(err);
 }
 
@@ -365,11 +401,13 @@ cleanup:
 bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
 {
     SweepSource sweep = {0};
-    SheetPart parts[9] = {VARIED, FIGURES};
-    int32_t count = 2;
+    SheetPart parts[10] = {0};
+    int32_t count = 0;
     char version[40] = "";
     TRY(sweep_open(folder, &sweep, err));
-    if (!folder_holds(folder, "figures", NULL)) --count;
+    if (folder_holds(folder, "answer.txt", NULL)) parts[count++] = ANSWER;
+    parts[count++] = VARIED;
+    if (folder_holds(folder, "figures", NULL)) parts[count++] = FIGURES;
     if (sweep.ranking.columns > 0) parts[count++] = RANKING;
     parts[count++] = POINTS;
     parts[count++] = DOUBTS;
@@ -379,6 +417,7 @@ bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
     parts[count] = (SheetPart){0};
     sheet_begin(html, sweep.title, "Report of a sweep, by amontons", parts);
     write_lead(html, &sweep);
+    TRY(write_answer(html, &sweep, err));
     write_varied(html, &sweep);
     TRY(write_figures(html, &sweep, err));
     write_tables(html, &sweep);

@@ -24,6 +24,9 @@ INPUTS = {
     "scene.yaml": cases.SCENE.replace("figures: []", "figures: [force]\n  fields: {every_U: 4e-4}"),
     "plain.yaml": cases.SCENE.replace("history: true", "history: false").replace("block.geo, set: {nx: 6, nz: 4}", "block.msh"),
     "study.yaml": STUDY + "rank: {by: results.mu_max}\nplot: {x: load.pressure, y: results.mu_max}\n",
+    "fit.yaml": "scene: plain.yaml\nset: {time.until: {U: 0.004}}\nsearch: {material.young: {log: [0.8, 1.2]}}\n"
+                "fit: {measured: measured.csv, designs: 4}\n",
+    "measured.csv": "load.pressure,mu_max,mu_max_error\n0.003,0.35,0.05\n",
     "table.yaml": STUDY + "keep: table\n", "plot.yaml": cases.PLOT,
     "block.geo": cases.ROOT / "meshes/block.geo", "block.msh": cases.square()}
 # What each writes without being told a name; those behind a result need it.
@@ -34,6 +37,7 @@ COMMANDS = {
     "stability": ["stability", "scene.yaml", "-o", "rates", "--quiet", "--from", "end", "--set", "time.until={U: 0.005}",
                   "output.fields=none", "output.figures=[]"],
     "sweep": ["sweep", "study.yaml", "-o", "many", "--quiet"],
+    "fit": ["fit", "fit.yaml", "-o", "fitted", "--quiet"],
     "table": ["sweep", "table.yaml", "-o", "table", "--quiet"],
     "accuracy": ["run", "plain.yaml", "-o", "bar", "--to", "50%", "--quiet", "--set", "mesh={file: block.geo}",
                  "time.until={U: 0.008}", "output.history=true", "output.figures=[force]"],

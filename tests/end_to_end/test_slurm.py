@@ -127,6 +127,17 @@ class Sweep(unittest.TestCase):
         self.assertIn("12 points: 0 computed", self.sweep("--slurm", "--set", "rod.velocity=9e-6", status=1)[0])
         self.assertFalse((self.folder / "out/slurm/running").exists())
 
+    def test_a_search(self):
+        """Elements are told of designs that stand in no file; the course is that of processes here."""
+        self.study(STUDY[:STUDY.index("vary:")] + "search: {load.pressure: {log: [0.003, 0.006]}}\nrank: {by: mu_max}\n"
+                   "best: {designs: 3}\n")
+        for words in (["-o", "pool"], ["-o", "out", "--slurm"]):
+            done = subprocess.run([PROGRAM, "optimise", "study.yaml", "-j", "2", "--set", "time.until.U=0.003", *words], cwd=self.folder,
+                                  env=self.place, capture_output=True, text=True, timeout=200)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.table("pool"), self.table())
+        self.assertGreater(len(list((self.folder / "out/slurm").glob("*.out"))), 4)
+
     def test_cancelled_element(self):
         process = self.held()
         job, index = self.elements("PENDING")[3]

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`amontons optimise` over pads (search.yaml) against a full grid and against random designs of equal cost, three seeds each; the
-best of each once more with an error bar of 1 %, and the search once more on cells half as long.
+best of each once more with an error bar, and the search once more on cells half as long.
 
     validation/pads/search_study.py [-o results/pads-search] [-j N]
 
@@ -22,7 +22,7 @@ KEYS = ("mesh.set.n", "mesh.set.fill", "mesh.set.pad_height", "mesh.set.first_ga
 # At least as many designs as a search computes: 52, and some 20 along the keys, more where these find a better best.
 GRID = ((2, 4, 6), (0.45, 0.6, 0.75), (0.03, 0.09), (0.63, 1.6), (0.15, 0.25, 0.35))
 COUNT = 108
-PLAIN = {"mesh.set.n": 1, "mesh.set.fill": 1, "mesh.set.pad_height": 0.05, "mesh.set.first_gap": 1}
+PLAIN = {"mesh.set.n": 1, "mesh.set.fill": 1, "mesh.set.pad_height": 0.05, "mesh.set.first_gap": 1, "rod.height": 0.25}
 
 
 def parts():
@@ -105,10 +105,8 @@ def main():
     best = {name: best_of(rows) for name, rows in found.items()}
     bars = {}
     if "bars" in wanted:
-        plain = [{**PLAIN, "rod.height": height} for height in sorted({row["rod.height"] for row, _ in best.values()} | {"0.25"}, key=float)]
-        plain = [{key: float(value) for key, value in one.items()} for one in plain]
-        designs = [design_of(row) for row, _ in best.values()] + plain
-        rows = study.cases("bars", designs, "  accuracy: {mu: 1%, within: 90}\n")
+        designs = [design_of(row) for row, _ in best.values()] + [PLAIN]
+        rows = study.cases("bars", designs, "  accuracy: {mu: 2%, within: 60}\n")
         bars = {tuple(design.values()): row for design, row in zip(designs, rows)}
     print("| by | designs | best mu_hold | within 1 % of it after | n, fill, height, first gap, rod | with a bar | over the plain block |")
     print("|---|---|---|---|---|---|---|")
@@ -116,7 +114,7 @@ def main():
         design = design_of(row)
         cells = [name, str(len(found[name])), f"{float(row['mu_hold']):.4f}", str(after),
                  ", ".join(f"{value:g}" for value in design.values())]
-        bar, base = (bars.get(tuple(one.values())) for one in (design, {**PLAIN, "rod.height": design["rod.height"]}))
+        bar, base = (bars.get(tuple(one.values())) for one in (design, PLAIN))
         if bar and base and bar["mu_hold_error"] and base["mu_hold_error"]:
             mu, error, plain, plain_error = (float(one[key]) for one in (bar, base) for key in ("mu_hold", "mu_hold_error"))
             gain = mu / plain - 1

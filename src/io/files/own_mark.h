@@ -29,6 +29,9 @@
     X("interface_*.vtp", "slip_rate")                                                              \
     X("sweep.csv", ",status,message,warnings,run\n")                                               \
     X("ranking.csv", "rank,rank_from,rank_to,point,")                                              \
+    X("fit.csv", "condition,name,along,at,measured,")                                              \
+    X("best.yaml", "{\n  \"title\": \"")                                                           \
+    X("answer.txt", "amontons run ")                                                               \
     X("reports", OWN_SHORT)                                                                        \
     X("accuracy.json", "\"contact nodes\"")                                                        \
     X("array-*.json", "\"directory\": \"")                                                         \

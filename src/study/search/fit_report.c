@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "io/text/csv_writer.h"
 #include "study/search/fit_figures.h"
+#include "study/search/search_answer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -139,11 +140,17 @@ static void print_parameter(const Fit *fit, const FitParameter *parameter, FILE 
                                                         : "");
 }
 
-static void print_answer(const Fit *fit, const FitSummary *summary)
+typedef struct Answer {
+    const Fit *fit;
+    const FitSummary *summary;
+} Answer;
+
+static void print_answer(const void *context, FILE *out)
 {
-    FILE *out = fit->search.options->out;
+    const Fit *fit = ((const Answer *)context)->fit;
+    const FitSummary *summary = ((const Answer *)context)->summary;
     int32_t freedom = fit_freedom(fit), best = designs_best(&fit->search.designs);
-    char run[AMONTONS_PATH_SIZE], words[OPTIMISE_WORDS_SIZE];
+    char words[OPTIMISE_WORDS_SIZE];
     fprintf(out, "%d measurements, %d keys, %d designs: misfit %.4g", summary->measurements,
             summary->parameter_count, summary->designs, summary->misfit);
     if (freedom > 0)
@@ -164,10 +171,8 @@ static void print_answer(const Fit *fit, const FitSummary *summary)
         fprintf(out, "  %d more designs have no scene, the first: %s\n", fit->search.refused,
                 fit->search.refusal.message);
     design_words(fit->search.study, &fit->search.designs.list[best], words);
-    search_run_path(&fit->search, best, 0, run);
-    fprintf(out, "  nearest design: %s", words);
-    if (*run) fprintf(out, "; its first run again: amontons run %s -o fitted", run);
-    fprintf(out, "\n");
+    fprintf(out, "  nearest design: %s; its first run again: amontons run %s/best.yaml -o fitted\n",
+            words, fit->search.options->folder);
 }
 
 // --- fit.csv ------------------------------------------------------------------------------------
@@ -200,9 +205,10 @@ static bool write_table(const Fit *fit, Error *err)
 
 bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
 {
-    if (fit->search.options->out) print_answer(fit, summary);
+    TRY(search_answer(&fit->search, print_answer, &(Answer){fit, summary}, err));
     TRY(write_table(fit, err));
     TRY(fit_figures(fit, err));
+    TRY(search_leave_best(&fit->search, designs_best(&fit->search.designs), 0, err));
 cleanup:
     return error_is_clean(err);
 }

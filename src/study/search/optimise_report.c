@@ -2,6 +2,7 @@
 #include "study/search/optimise_report.h"
 
 #include "base/memory.h"
+#include "study/search/search_answer.h"
 #include "study/search/search_figure.h"
 
 #include <math.h>
@@ -28,17 +29,17 @@ static bool is_on_section(const Search *search, int32_t best, int32_t k, int32_t
 // --- words --------------------------------------------------------------------------------------
 
 // Without an error bar in the digits that are known.
-static void print_estimate(const Search *search, const Design *design)
+static void print_estimate(const Design *design, FILE *out)
 {
     char text[ESTIMATE_SIZE];
     double bar = design->has_bar ? design->bar : (double)NAN;
     amontons_estimate(design->value, bar, design->bar, text);
-    fprintf(search->options->out, "%s", text);
+    fprintf(out, "%s", text);
 }
 
-static void print_gain(const Search *search, const OptimiseSummary *summary, int32_t best)
+static void print_gain(const Search *search, const OptimiseSummary *summary, int32_t best,
+                       FILE *out)
 {
-    FILE *out = search->options->out;
     char words[OPTIMISE_WORDS_SIZE];
     if (isnan(summary->start_value)) return;
     if (best == search->start) {
@@ -50,13 +51,12 @@ static void print_gain(const Search *search, const OptimiseSummary *summary, int
                    hypot(summary->bar / summary->value, summary->start_bar / summary->start_value);
     design_words(search->study, &search->designs.list[search->start], words);
     fprintf(out, "  the scene as it is, %s: ", words);
-    print_estimate(search, &search->designs.list[search->start]);
+    print_estimate(&search->designs.list[search->start], out);
     fprintf(out, "; the best differs by %+.1f %% +- %.1f %%\n", 100 * (ratio - 1), 100 * error);
 }
 
-static void print_open(const Search *search, int32_t best)
+static void print_open(const Search *search, int32_t best, FILE *out)
 {
-    FILE *out = search->options->out;
     int32_t open = 0;
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
@@ -64,7 +64,7 @@ static void print_open(const Search *search, int32_t best)
         design_words(search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
                 words);
-        print_estimate(search, &search->designs.list[d]);
+        print_estimate(&search->designs.list[d], out);
         fprintf(out, "\n");
     }
     if (open > OTHERS_SHOWN) fprintf(out, "    ... and %d more\n", open - OTHERS_SHOWN);
@@ -80,11 +80,10 @@ static void print_open(const Search *search, int32_t best)
                      "until they are told apart\n");
 }
 
-static void print_section(const Search *search, int32_t best, int32_t k)
+static void print_section(const Search *search, int32_t best, int32_t k, FILE *out)
 {
     const SearchKey *key = &search->study->search.keys[k];
     const Designs *designs = &search->designs;
-    FILE *out = search->options->out;
     double last = -INFINITY;
     fprintf(out, "  along %s:", key->key);
     for (;;) {   // by value: the next larger one each time
@@ -95,34 +94,45 @@ static void print_section(const Search *search, int32_t best, int32_t k)
                 next = d;
         if (next < 0) break;
         fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
-        print_estimate(search, &designs->list[next]);
+        print_estimate(&designs->list[next], out);
         last = designs->list[next].x[k];
     }
     bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
     fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
 }
 
-static void print_answer(const Search *search, const OptimiseSummary *summary, int32_t best)
+typedef struct Answer {
+    const Search *search;
+    const OptimiseSummary *summary;
+    int32_t best;
+} Answer;
+
+static void print_answer(const void *context, FILE *out)
 {
+    const Answer *answer = context;
+    const Search *search = answer->search;
+    const OptimiseSummary *summary = answer->summary;
     const Designs *designs = &search->designs;
-    FILE *out = search->options->out;
+    int32_t best = answer->best;
     fprintf(out, "%s, %s of %d designs", quantity(search),
             search->study->rank.lowest ? "the lowest" : "the highest", summary->designs);
     if (designs->conditions > 1)
         fprintf(out, ", %s of %d points each", search->study->search.mean ? "mean" : "worst",
                 designs->conditions);
     fprintf(out, ":\n  %s: ", summary->best);
-    print_estimate(search, &designs->list[best]);
+    print_estimate(&designs->list[best], out);
     fprintf(out, "\n");
-    print_gain(search, summary, best);
-    print_open(search, best);
-    for (int32_t k = 0; k < search->study->search.key_count; k++) print_section(search, best, k);
+    print_gain(search, summary, best, out);
+    print_open(search, best, out);
+    for (int32_t k = 0; k < search->study->search.key_count; k++)
+        print_section(search, best, k, out);
     if (search->refused > 0)
         fprintf(out, "  %d more have no scene, the first: %s\n", search->refused,
                 search->refusal.message);
-    char run[AMONTONS_PATH_SIZE];
-    search_run_path(search, best, designs->list[best].deciding, run);
-    if (*run) fprintf(out, "  its run again, with pictures: amontons run %s -o best\n", run);
+    fprintf(out,
+            "  its run again, with pictures: amontons run %s/best.yaml --set "
+            "output.history=true output.figures=[force,slip-map] -o best\n",
+            search->options->folder);
 }
 
 // --- figures ------------------------------------------------------------------------------------
@@ -185,10 +195,11 @@ cleanup:
 bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err)
 {
     int32_t best = designs_best(&search->designs);
-    if (search->options->out) print_answer(search, summary, best);
+    TRY(search_answer(search, print_answer, &(Answer){search, summary, best}, err));
     TRY(draw_course(search, err));
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         TRY(draw_section(search, best, k, err));
+    TRY(search_leave_best(search, best, search->designs.list[best].deciding, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/search/search_answer.h"
+
+#include "io/files/part_file.h"
+#include "io/text/json_writer.h"
+#include "scene/keys.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool search_answer(const Search *search, void (*print)(const void *context, FILE *out),
+                   const void *context, Error *err)
+{
+    char path[POINT_PATH_SIZE], *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) FAIL(err, ERROR_MEMORY, "no memory for the answer");
+    print(context, out);
+    if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for the answer");
+    if (search->options->out) fputs(text, search->options->out);
+    snprintf(path, sizeof path, "%s/answer.txt", search->options->folder);
+    TRY(part_file_put(path, text, (int64_t)size, err));
+cleanup:
+    free(text);
+    return error_is_clean(err);
+}
+
+// JSON is YAML.
+bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err)
+{
+    const char *folder = search->options->folder;
+    char path[POINT_PATH_SIZE], picture[POINT_PATH_SIZE], *text = NULL;
+    size_t size = 0;
+    int32_t point = search->designs.list[design].point + condition;
+    JsonWriter *json = NULL;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) FAIL(err, ERROR_MEMORY, "no memory for the best design");
+    snprintf(path, sizeof path, "%s/best.yaml", folder);
+    snprintf(picture, sizeof picture, "%s/figures/best.png", folder);
+    TRY(point_scene(search->sweep, point, search->scene, err));
+    TRY(json = json_create(path, err));
+    scene_write_json(search->scene, json, NULL, folder);
+    TRY(json_finish(json, err));
+    TRY(amontons_info(path, &(InfoOptions){.picture = picture}, out, err));
+cleanup:
+    if (out) fclose(out);
+    free(text);
+    return error_is_clean(err);
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What every search leaves beside its tables: its answer in words, and the best design's scene.
+// Called by optimise_report and fit_report.
+#ifndef AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
+#define AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
+
+#include "study/search/search.h"
+
+// What `print` says goes to options->out (NULL: nowhere) and to DIR/answer.txt.
+bool search_answer(const Search *search, void (*print)(const void *context, FILE *out),
+                   const void *context, Error *err);
+// DIR/best.yaml, a scene to be run, of a design at a condition; figures/best.png: its mesh and rod.
+bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err);
+
+#endif
