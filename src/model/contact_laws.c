@@ -2,6 +2,7 @@
 #include "model/contact_laws.h"
 
 #include "base/memory.h"
+#include "model/place_formula.h"
 #include "scene/contact_laws.h"
 
 #include <math.h>
@@ -9,15 +10,10 @@
 
 enum { SAMPLES = 32 };   // of a formula over the part of a node; exact where it is straight
 
-static bool no_name(const void *context, const char *name, double *value)
-{
-    (void)context, (void)name, (void)value;
-    return false;
-}
-
-// A stretch of the contact.
+// A stretch of the contact along x, in space a square in it.
 typedef struct Part {
     double from, to;   // places, length
+    double y[2];   // likewise; not used in the plane
 } Part;
 
 // The part that node i stands for, behind that of the node before it: as long as its weight, so
@@ -25,30 +21,40 @@ typedef struct Part {
 // they meet where weights do: half way between its nodes, or, of order 2 with Simpson's weights, at
 // 1/6 and 5/6 of it. So each holds its node, and is centred at it unless cells differ or end there.
 // The first node of a stretch, which may belong to several pads, begins its part itself: the part
-// before then ended at its own node.
+// before then ended at its own node. In space a square around the node, as large as its weight: at
+// the rim of the contact half of it lies outside.
 static Part next_part(const Interface *interface, int32_t i, Part before)
 {
+    if (interface->y) {
+        double half = 0.5 * sqrt(interface->weight[i]), x = interface->x[i], y = interface->y[i];
+        return (Part){x - half, x + half, {y - half, y + half}};
+    }
     double from = before.to, rounding = 1e-6 * interface->weight[i];
     if (i == 0 || before.to - interface->x[i - 1] < rounding) from = interface->x[i];
-    return (Part){from, from + interface->weight[i]};
+    return (Part){from, from + interface->weight[i], {0}};
 }
 
 // The mean over a part: by the factor of the node's place alone a jump would lie up to half a cell
 // off, and mu of all meshes that share this would agree on what it makes of it. Not weighted by
-// shape functions, as those of order 2 are negative in places. text: a formula of x, empty: 1.
-static bool take_mean(Part part, const char *text, double *factor, Error *err)
+// shape functions, as those of order 2 are negative in places. text: a formula of x, in space also of
+// y; empty: 1.
+static bool take_mean(Part part, bool plane, const char *text, double *factor, Error *err)
 {
-    static const FormulaNames names = {no_name, NULL, "x", "is no number here: x alone"};
     Formula formula;
     double ignored, mean = 0;
+    int32_t rows = plane ? 1 : SAMPLES, taken = 0;
     if (!*text) return true;
-    TRY(formula_read(text, &names, &formula, err));
-    for (int32_t k = 0; k < SAMPLES; k++) {
-        double x = part.from + (k + 0.5) / SAMPLES * (part.to - part.from);
-        double value = formula_at(&formula, x, &ignored);
-        if (!(value >= 0 && isfinite(value)))
-            FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed", x, value);
-        mean += (value - mean) / (k + 1);   // to the bit the value where it is level
+    for (int32_t j = 0; j < rows; j++) {
+        double y = part.y[0] + (j + 0.5) / rows * (part.y[1] - part.y[0]);
+        TRY(place_formula_read(text, plane ? NULL : &y, &formula, err));
+        for (int32_t k = 0; k < SAMPLES; k++) {
+            double x = part.from + (k + 0.5) / SAMPLES * (part.to - part.from);
+            double value = formula_at(&formula, x, &ignored);
+            if (!(value >= 0 && isfinite(value)))
+                FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed", x,
+                     value);
+            mean += (value - mean) / ++taken;   // to the bit the value where it is level
+        }
     }
     *factor *= mean;
 cleanup:
@@ -74,7 +80,7 @@ static bool check_groups(const Model *model, Error *err)
         for (int32_t p = 0; p < interface->pad_count; p++)
             found = found || strcmp(interface->pad_name[p], laws->item[k].group) == 0;
         if (!found)
-            FAIL(err, ERROR_INPUT, "`%s` is no contact curve; the first is `%s`, of %d",
+            FAIL(err, ERROR_INPUT, "`%s` is no contact group; the first is `%s`, of %d",
                  laws->item[k].group, interface->pad_name[0], interface->pad_count);
     }
 cleanup:
@@ -86,6 +92,7 @@ bool model_lay_laws(Model *model, Error *err)
     const Scene *scene = model->scene;
     const Interface *interface = &model->interface;
     int32_t count = interface->contact_count;
+    bool plane = !interface->y;
     Part part = {0};
     if (scene->contact_laws.count == 0 && !*scene->own_friction.along) return true;
     TRY(scene_blame(scene, "friction.contacts", check_groups(model, err), err));
@@ -94,9 +101,9 @@ bool model_lay_laws(Model *model, Error *err)
         const SceneContactLaw *item = item_of(model, i);
         double factor = 1;
         part = next_part(interface, i, part);
-        bool done = take_mean(part, scene->own_friction.along, &factor, err);
+        bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
         TRY(scene_blame(scene, "friction.along", done, err));
-        done = !item || take_mean(part, item->along, &factor, err);
+        done = !item || take_mean(part, plane, item->along, &factor, err);
         TRY(scene_blame(scene, "friction.contacts", done, err));
         FrictionLaw law = scene->friction;
         done = !item || scene_contact_law(scene, item, &law, err);
