@@ -21,17 +21,33 @@ typedef struct Part {
 // they meet where weights do: half way between its nodes, or, of order 2 with Simpson's weights, at
 // 1/6 and 5/6 of it. So each holds its node, and is centred at it unless cells differ or end there.
 // The first node of a stretch, which may belong to several pads, begins its part itself: the part
-// before then ended at its own node. In space a square around the node, as large as its weight: at
-// the rim of the contact half of it lies outside.
+// before then ended at its own node.
 static Part next_part(const Interface *interface, int32_t i, Part before)
 {
-    if (interface->y) {
-        double half = 0.5 * sqrt(interface->weight[i]), x = interface->x[i], y = interface->y[i];
-        return (Part){x - half, x + half, {y - half, y + half}};
-    }
     double from = before.to, rounding = 1e-6 * interface->weight[i];
     if (i == 0 || before.to - interface->x[i - 1] < rounding) from = interface->x[i];
     return (Part){from, from + interface->weight[i], {0}};
+}
+
+// In space a square around the node, as large as its weight, as far as it lies within `all`, the box
+// around the contact.
+static Part square_part(const Interface *interface, int32_t i, Part all)
+{
+    double half = 0.5 * sqrt(interface->weight[i]), x = interface->x[i], y = interface->y[i];
+    return (Part){fmax(x - half, all.from),
+                  fmin(x + half, all.to),
+                  {fmax(y - half, all.y[0]), fmin(y + half, all.y[1])}};
+}
+
+static Part box_of(const Interface *interface)
+{
+    int32_t last = interface->contact_count - 1;
+    Part all = {interface->x[0], interface->x[last], {INFINITY, -INFINITY}};
+    for (int32_t i = 0; interface->y && i <= last; i++) {
+        all.y[0] = fmin(all.y[0], interface->y[i]);
+        all.y[1] = fmax(all.y[1], interface->y[i]);
+    }
+    return all;
 }
 
 // The mean over a part: by the factor of the node's place alone a jump would lie up to half a cell
@@ -93,14 +109,14 @@ bool model_lay_laws(Model *model, Error *err)
     const Interface *interface = &model->interface;
     int32_t count = interface->contact_count;
     bool plane = !interface->y;
-    Part part = {0};
+    Part part = {0}, all = box_of(interface);
     if (scene->contact_laws.count == 0 && !*scene->own_friction.along) return true;
     TRY(scene_blame(scene, "friction.contacts", check_groups(model, err), err));
     TRY((model->node_laws = NEW_ARRAY(FrictionLaw, count, err)));
     for (int32_t i = 0; i < count; i++) {
         const SceneContactLaw *item = item_of(model, i);
         double factor = 1;
-        part = next_part(interface, i, part);
+        part = plane ? next_part(interface, i, part) : square_part(interface, i, all);
         bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
         TRY(scene_blame(scene, "friction.along", done, err));
         done = !item || take_mean(part, plane, item->along, &factor, err);
