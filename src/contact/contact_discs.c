@@ -146,8 +146,7 @@ static double find_residual(const Settling *settling, bool kept)
         if (k >= rods) {
             step[a] = at->reaction[k];
             if (at->rod_touches[k - rods])
-                step[a] +=
-                    rod_stiffness(problem, k - rods) * (at->velocity[k] - problem->bound[k]);
+                step[a] += rod_stiffness(problem, k - rods) * (at->velocity[k] - problem->bound[k]);
             largest = fmax(largest, fabs(step[a]));
             continue;
         }
@@ -216,7 +215,8 @@ static bool may_reuse(const Settling *settling)
 {
     const ContactNewton *newton = settling->newton;
     int64_t factored = settling->problem->matrix->factored;
-    return newton->factors_gain && !settling->factors_anew && factored > 0 && factored == newton->factorisations &&
+    return newton->factors_gain && !settling->factors_anew && factored > 0 &&
+           factored == newton->factorisations &&
            contact_has_statuses(&newton->equations, newton->factors.status);
 }
 
