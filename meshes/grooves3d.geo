@@ -160,6 +160,15 @@ Else
     made[] = Extrude{across ? 0 : way, across ? way : 0, 0}{ Surface{whole}; Layers{cells}; Recombine; };
 EndIf
 
+// Even numbers of cells along the underside, as quadrilaterals want them.
+Transfinite Curve{walk[]} = 3;
+For k In {0 : grooves}
+    Transfinite Curve{walk[touching[k]]} = 2 * Ceil(contact_width / size_contact / 2 - 1e-6) + 1;
+    If (k < grooves && floor > 0)
+        Transfinite Curve{walk[touching[k] + 2]} = 2 * Ceil(floor / size_contact / 2 - 1e-6) + 1;
+    EndIf
+EndFor
+
 sides = #walk[];        // made[2 + k]: the side of curve k of the walk
 For k In {0 : grooves}
     Physical Surface(Sprintf("contact_%g", k + 1)) = {made[2 + touching[k]]};
