@@ -127,7 +127,7 @@ class Result(unittest.TestCase):
             stored = {f"{group}/{name}": item for group in history
                       for name, item in history[group].items()}
             rows = [row for row in rows   # test_machine.py, test_space_results.py
-                    if row[0] not in ("series/rod_way", "nodes/y", "events/slipped")]
+                    if row[0] not in ("series/rod_way", "nodes/y", "nodes/line", "events/slipped")]
             self.assertEqual(set(stored), {name for name, *_ in rows})
             sizes = {"steps": len(history["series/time"]), "nodes": len(history["nodes/x"]),
                      "pads": int(max(history["nodes/pad"][:])) + 1,

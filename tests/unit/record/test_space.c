@@ -11,6 +11,7 @@
 #include "record/contact_arrays.h"
 #include "record/history.h"
 #include "record/pads.h"
+#include "record/turning.h"
 #include "result_place.h"
 
 enum { NODES = 9, UNKNOWNS = 3 * NODES };
@@ -305,6 +306,32 @@ static void test_history(void **state)
     place_remove(place);
 }
 
+// A rotation by 0.01 about (2, 1) and slip of (1, -0.2), with a stretch across that is no rotation.
+static void test_turning(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ContactArrays contact;
+    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    Turning turning = turning_of(&contact);
+    for (int32_t k = 0; k < 3; k++) {
+        double part = k == 1 ? 1 : 0.25 * k;   // it comes back half way
+        for (int32_t i = 0; i < NODES; i++) {
+            hand.displacement[3 * i] = part * (1 - 0.01 * (hand.y[i] - 1));
+            hand.displacement[3 * i + 1] =
+                part * (-0.2 + 0.01 * (hand.x[i] - 2) + 0.1 * (hand.y[i] - 0.5));
+        }
+        assert_true(contact_arrays_record(&contact, show(k, REST), &err));
+        assert_true(turning_record(&turning, &hand.seen, &err));
+    }
+    assert_near("angle", turning.angle, 0.01, 1e-15);
+    assert_near("drift", turning.drift, -0.215, 1e-15);
+    assert_near("way", turning.way, 1.005, 1e-15);
+    assert_near("across", turning.across, -0.27, 1e-15);
+    assert_near("share", turning_share(&turning), 0.215 / 1.005, 1e-14);
+    contact_arrays_destroy(&contact);
+}
+
 // A history of a format that is not known yet is refused in words.
 static void test_later_format(void **state)
 {
@@ -331,6 +358,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_critical_area, setup, teardown),
         cmocka_unit_test_setup_teardown(test_pads, setup, teardown),
         cmocka_unit_test_setup_teardown(test_history, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_turning, setup, teardown),
         cmocka_unit_test_setup_teardown(test_later_format, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
