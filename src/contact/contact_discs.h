@@ -16,19 +16,13 @@
 // that only starts, s = 0, holds its direction, and one that slips fast turns as its force does.
 // Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is condensed
 // out as in the plane (contact/contact_newton).
-// Where steps do not settle, sweeps over the nodes come next (contact/contact_sweeps), then steps
-// again. Called by contact/contact_solver.
+// A step that leaves more than there was is halved. Where steps do not settle, sweeps over the nodes
+// come next (contact/contact_sweeps), then steps again, then more sweeps. Called by contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
 #define AMONTONS_CONTACT_CONTACT_DISCS_H
 
 #include "contact/contact_newton.h"
 #include "contact/slip.h"
-
-typedef struct DiscsDef {
-    int32_t steps;   // of Newton before sweeps, and after each round of them
-    int32_t rounds, sweeps;   // rounds of so many sweeps
-    double tolerance;   // of residual forces, relative to the largest force
-} DiscsDef;
 
 // The two equations of a slipping node.
 typedef struct DiscRow {
@@ -42,6 +36,7 @@ typedef struct ContactDiscs {
     ContactNewton *newton;   // lists, products with S and factors; not owned
     DiscRow *row;   // [contact_count] of slipping nodes, at the velocities as they are; owned
     DiscRow *kept;   // [contact_count] of the derivative that was factored; owned
+    double *taken;   // [interface->count] work: the last step of what is free; owned
     int64_t iterations;   // counted, Newton steps
     int64_t sweeps;   // counted
     int64_t swept;   // counted, solves that needed any
@@ -52,8 +47,9 @@ bool contact_discs_create(const Interface *interface, ContactNewton *newton, Con
 void contact_discs_destroy(ContactDiscs *discs);
 
 // From velocities, reactions and statuses in `solution`, which may be of another g: the first
-// step's derivative is theirs. Allocates nothing. false: unsolved.
-bool contact_discs_solve(ContactDiscs *discs, const DiscsDef *def, const ContactProblem *problem,
+// step's derivative is theirs. tolerance: of residual forces, relative to the largest force.
+// Allocates nothing. false: unsolved.
+bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactProblem *problem,
                          ContactSolution *solution);
 
 void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive);

@@ -42,8 +42,7 @@ void contact_list_free(ContactEquations *equations, bool of_open)
         bool open = of_open && at->status[i] == CONTACT_OPEN;
         int32_t components = open ? interface->dim : interface->dim - 1;
         if (!open && !status_slips(at->status[i])) continue;
-        for (int32_t c = 0; c < components; c++)
-            free[count++] = interface_unknown(interface, i, c);
+        for (int32_t c = 0; c < components; c++) free[count++] = interface_unknown(interface, i, c);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)

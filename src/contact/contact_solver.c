@@ -22,11 +22,7 @@ static const double CLEARLY = 100;
 // The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
-    return (ContactSolverDef){.iterations_all = 30,
-                              .iterations_one = 40,
-                              .tolerance = 1e-12,
-                              .rounds = 4,
-                              .sweeps = 15};
+    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 40, .tolerance = 1e-12};
 }
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
@@ -265,13 +261,9 @@ static bool solve_discs(ContactSolver *solver, const ContactProblem *problem,
                         ContactSolution *solution)
 {
     ContactDiscs *discs = &solver->discs;
-    DiscsDef def = {.steps = solver->def.iterations_all,
-                    .rounds = solver->def.rounds,
-                    .sweeps = solver->def.sweeps,
-                    .tolerance = solver->def.tolerance};
     fix_rod_kind(problem, solution);
     int64_t before = discs->iterations, swept = discs->swept;
-    bool solved = contact_discs_solve(discs, &def, problem, solution);
+    bool solved = contact_discs_solve(discs, solver->def.tolerance, problem, solution);
     solver->iterations += discs->iterations - before;
     solver->fallbacks += discs->swept - swept;
     solver->rescued += solved && discs->swept > swept;

@@ -23,8 +23,6 @@ typedef struct ContactSolverDef {
         iterations_all;   // Newton steps in which every violated status is changed: 30, some ten
     // times what a solvable problem was seen to need
     int32_t iterations_one;   // and then those that change only the worst: 40
-    int32_t rounds, sweeps;   // in space: so many sweeps over the nodes where Newton's steps do not
-        // settle, and so many times: 15, 4
     double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
         // above what rounding leaves in S v - g
 } ContactSolverDef;

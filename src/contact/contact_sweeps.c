@@ -55,8 +55,7 @@ static void find_slip(const NodeAlone *node, double v[2], double *pressing)
 static bool leaves(const NodeAlone *node, double v[3])
 {
     const double(*s)[3] = node->s;
-    double cross[3] = {s[1][1] * s[2][2] - s[1][2] * s[1][2],
-                       s[0][2] * s[1][2] - s[0][1] * s[2][2],
+    double cross[3] = {s[1][1] * s[2][2] - s[1][2] * s[1][2], s[0][2] * s[1][2] - s[0][1] * s[2][2],
                        s[0][1] * s[1][2] - s[0][2] * s[1][1]};
     double determinant = s[0][0] * cross[0] + s[0][1] * cross[1] + s[0][2] * cross[2];
     double second = s[0][0] * s[2][2] - s[0][2] * s[0][2];

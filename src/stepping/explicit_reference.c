@@ -433,7 +433,8 @@ static double centred_residual(ExplicitReference *scheme, const State *state)
     double step = scheme->def.step;
     double *field = scheme->next, *sum = scheme->force, *viscous = scheme->force + dofs;
     for (int32_t k = 0; k < dofs; k++)
-        field[k] = state->velocity[k] - 0.5 * scheme->kick[dof_node(bulk->dim, k)] * state->inertia[k];
+        field[k] = state->velocity[k] -
+                   0.5 * scheme->kick[dof_node(bulk->dim, k)] * state->inertia[k];
     sparse_apply(&bulk->pattern, bulk->damping, field, viscous);
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->displacement[k] - step * state->velocity[k];

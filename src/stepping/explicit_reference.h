@@ -42,7 +42,8 @@ typedef struct ExplicitReference {
     int32_t node_count;
     int32_t *start;   // [node_count + 1] of the node's blocks; owned, like all that follows
     int32_t *column;   // [blocks] node; the first of each row is the diagonal
-    double *blocks;   // [blocks * block_size] upper triangle of K and C by nodes, see explicit_reference.c
+    double *
+        blocks;   // [blocks * block_size] upper triangle of K and C by nodes, see explicit_reference.c
     double *kick;   // [node_count] dt / mass
     double *now;   // [field_size] u of a node at t_n, then its v at t_n - dt/2
     double *next;   // [field_size] the same a step later
