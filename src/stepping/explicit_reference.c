@@ -1,101 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One pass over the matrices a step. Blocks of a node's unknowns by another's, K and C side by side,
-// upper triangle only: block (i, j), j >= i, holds in the plane
-//
-//     K_xx K_zx | K_xz K_zz | C_xx C_zx | C_xz C_zz      (rows i, columns j)
-//
-// and in space likewise three columns of K and three of C, each with a 0 behind it: vectors of a
-// node have room for two or four numbers, which a processor takes at once. A block
-// and serves rows i and, transposed, rows j. Measured per step against full rows: the same at 20x20
-// and 40x40, where both fit the cache, 0.7 of the time at 80x80. Node i's row is complete when the
-// pass reaches it, for it has met all j < i: its velocity and displacement are advanced there.
+// Contact, friction and rod of each node after the step that is free of them (stepping/explicit_sweep).
 #include "stepping/explicit_reference.h"
 
 #include "base/dense.h"
-#include "base/lanes.h"
 #include "base/memory.h"
 #include "contact/slip.h"
+#include "stepping/explicit_sweep.h"
 
 #include <math.h>
 #include <string.h>
 
-// x and z of one node.
-typedef double Pair __attribute__((vector_size(16)));
-
-// Numbers that u or v of a node, or a column of a block, take up.
-static int32_t room_of(const ExplicitReference *scheme)
-{
-    return scheme->def.interface->dim == 2 ? 2 : LANE;
-}
-
-static int64_t block_size(const ExplicitReference *scheme)
-{
-    return 2 * scheme->def.interface->dim * room_of(scheme);
-}
-
-// All of u and v.
-static int64_t field_size(const ExplicitReference *scheme)
-{
-    return 2 * (int64_t)room_of(scheme) * scheme->node_count;
-}
-
-// Where u of a node stands in it, and v.
-static int64_t place_of(const ExplicitReference *scheme, int32_t node)
-{
-    return 2 * (int64_t)room_of(scheme) * node;
-}
-static int64_t velocity_of(const ExplicitReference *scheme, int32_t node)
-{
-    return place_of(scheme, node) + room_of(scheme);
-}
-
-static int32_t count_blocks(const SparsePattern *pattern, int32_t dim)
-{
-    int32_t count = 0;
-    for (int32_t row = 0; row < pattern->size; row += dim)
-        for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k += dim)
-            count += pattern->index[k] >= row;
-    return count;
-}
-
-static void fill_blocks(ExplicitReference *scheme)
-{
-    const Bulk *bulk = scheme->def.bulk;
-    const SparsePattern *pattern = &bulk->pattern;
-    int32_t filled = 0, dim = bulk->dim, room = room_of(scheme);
-    for (int32_t i = 0; i < scheme->node_count; i++) {
-        const int32_t *row = pattern->start + node_dof(dim, i, 0);
-        for (int32_t k = 0; k < row[1] - row[0]; k += dim) {
-            int32_t j = dof_node(dim, pattern->index[row[0] + k]);
-            if (j < i) continue;
-            double *block = scheme->blocks + block_size(scheme) * filled;
-            for (int32_t d = 0; d < dim; d++)
-                for (int32_t e = 0; e < dim; e++) {
-                    block[room * d + e] = bulk->stiffness[row[e] + k + d];
-                    block[room * (dim + d) + e] = bulk->damping[row[e] + k + d];
-                }
-            scheme->column[filled++] = j;
-        }
-        scheme->start[i + 1] = filled;
-        scheme->kick[i] = scheme->def.step / bulk->mass[node_dof(dim, i, 0)];
-    }
-}
-
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err)
 {
     int32_t nodes = dof_node(def->bulk->dim, def->bulk->dof_count);
-    int32_t blocks = count_blocks(&def->bulk->pattern, def->bulk->dim);
     *scheme = (ExplicitReference){.def = *def, .node_count = nodes};
-    scheme->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
-    scheme->column = NEW_ARRAY(int32_t, blocks, err);
-    scheme->blocks = NEW_ARRAY(double, block_size(scheme) * blocks, err);
-    scheme->kick = NEW_ARRAY(double, nodes, err);
-    scheme->now = NEW_ARRAY(double, field_size(scheme), err);
-    scheme->next = NEW_ARRAY(double, field_size(scheme), err);
-    scheme->force = NEW_ARRAY(double, field_size(scheme), err);
+    scheme->now = NEW_ARRAY(double, explicit_field_size(scheme), err);
+    scheme->next = NEW_ARRAY(double, explicit_field_size(scheme), err);
+    scheme->force = NEW_ARRAY(double, explicit_field_size(scheme), err);
     scheme->bound = NEW_ARRAY(double, def->interface->count, err);
-    if (error_is_clean(err)) fill_blocks(scheme);
-    return error_is_clean(err);
+    return error_is_clean(err) && explicit_sweep_create(scheme, err);
 }
 
 void explicit_reference_destroy(ExplicitReference *scheme)
@@ -128,94 +51,11 @@ void explicit_reference_start(ExplicitReference *scheme, const State *state)
         for (int32_t d = 0; d < bulk->dim; d++) {
             int32_t dof = node_dof(bulk->dim, i, d);
             double inertia = bulk->held[dof] ? 0 : bulk->load[dof] - elastic[dof] - viscous[dof];
-            scheme->now[place_of(scheme, i) + d] = state->displacement[dof];
-            scheme->now[velocity_of(scheme, i) + d] = state->velocity[dof] -
-                                                      0.5 * scheme->kick[i] * inertia;
+            scheme->now[explicit_place(scheme, i) + d] = state->displacement[dof];
+            scheme->now[explicit_velocity(scheme, i) + d] = state->velocity[dof] -
+                                                            0.5 * scheme->kick[i] * inertia;
         }
     }
-}
-
-// now -> next as if nothing were touched. Returns v C v, the viscous power.
-static double sweep_plane(ExplicitReference *scheme)
-{
-    const Pair *restrict blocks = (const Pair *)scheme->blocks;
-    const Pair *restrict load = (const Pair *)scheme->def.bulk->load;
-    const Pair *restrict now = (const Pair *)scheme->now;
-    Pair *restrict next = (Pair *)scheme->next;
-    Pair *restrict force = (Pair *)scheme->force;
-    const int32_t *restrict start = scheme->start, *restrict column = scheme->column;
-    double step = scheme->def.step, factor = scheme->factor;
-    Pair power = {0, 0};
-    memset(force, 0, (size_t)field_size(scheme) * sizeof(double));
-    for (int32_t i = 0; i < scheme->node_count; i++) {
-        Pair u = now[2 * i], v = now[2 * i + 1];
-        const Pair *diagonal = blocks + 4 * (int64_t)start[i];
-        Pair elastic = force[2 * i] + diagonal[0] * u[0] + diagonal[1] * u[1];
-        Pair viscous = force[2 * i + 1] + diagonal[2] * v[0] + diagonal[3] * v[1];
-        for (int32_t b = start[i] + 1; b < start[i + 1]; b++) {
-            const Pair *block = blocks + 4 * (int64_t)b;
-            Pair kx = block[0], kz = block[1], cx = block[2], cz = block[3];
-            int32_t j = column[b];
-            Pair uj = now[2 * j], vj = now[2 * j + 1];
-            elastic += kx * uj[0] + kz * uj[1];
-            viscous += cx * vj[0] + cz * vj[1];
-            force[2 * j] += __builtin_shufflevector(kx, kz, 0, 2) * u[0] +
-                            __builtin_shufflevector(kx, kz, 1, 3) * u[1];
-            force[2 * j + 1] += __builtin_shufflevector(cx, cz, 0, 2) * v[0] +
-                                __builtin_shufflevector(cx, cz, 1, 3) * v[1];
-        }
-        power += v * viscous;
-        Pair faster = v + scheme->kick[i] * (factor * load[i] - elastic - viscous);
-        next[2 * i] = u + step * faster;
-        next[2 * i + 1] = faster;
-    }
-    return power[0] + power[1];
-}
-
-// sum += B' x of a block B by its columns.
-WITH_CONSTANTS void add_transposed(const Lane *column, const double *x, Lane *sum)
-{
-    Lane low = __builtin_shufflevector(column[0], column[1], 0, 4, 2, 6);   // 00 01 20 21
-    Lane high = __builtin_shufflevector(column[0], column[1], 1, 5, 3, 7);   // 10 11 30 31
-    Lane row_0 = __builtin_shufflevector(low, column[2], 0, 1, 4, 7);
-    Lane row_1 = __builtin_shufflevector(high, column[2], 0, 1, 5, 7);
-    Lane row_2 = __builtin_shufflevector(low, column[2], 2, 3, 6, 7);
-    *sum += row_0 * x[0] + row_1 * x[1] + row_2 * x[2];
-}
-
-// The same in space.
-FOR_EACH_PROCESSOR static double sweep_space(ExplicitReference *scheme)
-{
-    const Lane *restrict blocks = (const Lane *)scheme->blocks;
-    const double *restrict load = scheme->def.bulk->load;
-    const Lane *restrict now = (const Lane *)scheme->now;
-    Lane *restrict next = (Lane *)scheme->next;
-    Lane *restrict force = (Lane *)scheme->force;
-    const int32_t *restrict start = scheme->start, *restrict column = scheme->column;
-    double step = scheme->def.step, factor = scheme->factor;
-    Lane power = {0};
-    memset(force, 0, (size_t)field_size(scheme) * sizeof(double));
-    for (int32_t i = 0; i < scheme->node_count; i++) {
-        Lane u = now[2 * i], v = now[2 * i + 1];
-        const Lane *own = blocks + 6 * (int64_t)start[i];
-        Lane elastic = force[2 * i] + own[0] * u[0] + own[1] * u[1] + own[2] * u[2];
-        Lane viscous = force[2 * i + 1] + own[3] * v[0] + own[4] * v[1] + own[5] * v[2];
-        for (int32_t b = start[i] + 1; b < start[i + 1]; b++) {
-            const Lane *k = blocks + 6 * (int64_t)b, *c = k + 3;
-            int32_t j = column[b];
-            Lane uj = now[2 * j], vj = now[2 * j + 1];
-            elastic += k[0] * uj[0] + k[1] * uj[1] + k[2] * uj[2];
-            viscous += c[0] * vj[0] + c[1] * vj[1] + c[2] * vj[2];
-            add_transposed(k, (const double *)(now + 2 * i), &force[2 * j]);
-            add_transposed(c, (const double *)(now + 2 * i + 1), &force[2 * j + 1]);
-        }
-        power += v * viscous;
-        Lane given = {load[3 * i], load[3 * i + 1], load[3 * i + 2], 0};
-        Lane faster = v + scheme->kick[i] * (factor * given - elastic - viscous);
-        next[2 * i] = u + step * faster;
-        next[2 * i + 1] = faster;
-    }
-    return power[0] + power[1] + power[2];
 }
 
 // w + strength mu(w) - free_speed, strength = (dt/m) r_n: by how much speed w is more than what
@@ -296,9 +136,9 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     int32_t t = interface_tangent(interface, i), last = interface->dim - 1;
     int32_t node = scheme->def.interface->node[i];
     double step = scheme->def.step, kick = scheme->kick[node], power = 0;
-    double *u = scheme->next + place_of(scheme, node), *v = u + room_of(scheme);
-    const double *start = scheme->now + place_of(scheme, node);
-    const double *before = start + room_of(scheme);
+    double *u = scheme->next + explicit_place(scheme, node), *v = u + explicit_room(scheme);
+    const double *start = scheme->now + explicit_place(scheme, node);
+    const double *before = start + explicit_room(scheme);
     double *reaction = state->reaction + t, *slip_rate = state->slip_rate + t;
     double initial = interface_gap(scheme->def.interface, i);
     double gap = start[last] + initial, bound = -gap / step;
@@ -343,7 +183,7 @@ static void lead_rod(ExplicitReference *scheme, double time)
     const Rod *rod = scheme->def.rod;
     double step = scheme->def.step, own = 0, *bound = scheme->bound;
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        double at = scheme->now[place_of(scheme, interface->rod_node[j])];
+        double at = scheme->now[explicit_place(scheme, interface->rod_node[j])];
         bound[interface_rod(interface, j)] =
             rod->stiffness > 0 ? rod_bound_on_spring(rod, j, at, scheme->rod_way, step)
                                : rod_bound(rod, j, at, time, step);
@@ -357,7 +197,7 @@ static void lead_rod(ExplicitReference *scheme, double time)
         touching = 0;
         for (int32_t j = 0; j < interface->rod_count; j++) {
             int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-            double velocity = scheme->next[velocity_of(scheme, node)];
+            double velocity = scheme->next[explicit_velocity(scheme, node)];
             if (k > 0 && !rod_holds(rod, velocity, bound[x] + own)) continue;
             double share = 1 / (scheme->kick[node] + rod_yields(scheme, j));
             given -= share * (bound[x] - velocity);
@@ -375,8 +215,8 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, do
 {
     const Interface *interface = scheme->def.interface;
     int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-    double step = scheme->def.step, *u = scheme->next + place_of(scheme, node);
-    double *v = u + room_of(scheme);
+    double step = scheme->def.step, *u = scheme->next + explicit_place(scheme, node);
+    double *v = u + explicit_room(scheme);
     double bound = scheme->bound[x], yields = rod_yields(scheme, j);
     bool touches = rod_holds(scheme->def.rod, v[0], bound);
     state->rod_touches[j] = touches;
@@ -384,11 +224,11 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, do
     state->reaction[x] = touches ? (bound - v[0]) / (scheme->kick[node] + yields) : 0;
     if (touches) {
         v[0] = bound - yields * state->reaction[x];
-        u[0] = scheme->now[place_of(scheme, node)] + step * v[0];
+        u[0] = scheme->now[explicit_place(scheme, node)] + step * v[0];
     }
     state->slip_rate[x] = v[0];
     double pushed = state->reaction[x] * v[0];
-    double before = scheme->now[velocity_of(scheme, node)];
+    double before = scheme->now[explicit_velocity(scheme, node)];
     *dissipated += pushed - mean_power(state->reaction[x], before, v[0]);
     return pushed;
 }
@@ -401,7 +241,7 @@ static double load_power(const ExplicitReference *scheme)
     for (int32_t i = 0; i < scheme->node_count; i++)
         for (int32_t d = 0; d < dim; d++)
             power += scheme->def.bulk->load[node_dof(dim, i, d)] *
-                     scheme->next[velocity_of(scheme, i) + d];
+                     scheme->next[explicit_velocity(scheme, i) + d];
     return scheme->factor * power;
 }
 
@@ -411,7 +251,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     const Interface *interface = scheme->def.interface;
     double step = scheme->def.step, frictional = 0, pushed = 0;
     scheme->factor = load_factor(scheme->def.course, scheme->time + step * (double)scheme->steps);
-    double viscous = interface->dim == 2 ? sweep_plane(scheme) : sweep_space(scheme);
+    double viscous = explicit_sweep(scheme);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
     double end = scheme->time + step * (double)(scheme->steps + 1);
@@ -455,8 +295,8 @@ static double fill_state(ExplicitReference *scheme, State *state)
     for (int32_t i = 0; i < scheme->node_count; i++) {
         for (int32_t d = 0; d < bulk->dim; d++) {
             int32_t dof = node_dof(bulk->dim, i, d);
-            int64_t place = velocity_of(scheme, i) + d;
-            double u = scheme->now[place_of(scheme, i) + d], v = scheme->now[place];
+            int64_t place = explicit_velocity(scheme, i) + d;
+            double u = scheme->now[explicit_place(scheme, i) + d], v = scheme->now[place];
             load_work += bulk->load[dof] * (u - state->displacement[dof]);
             state->displacement[dof] = u;
             state->velocity[dof] = v;
@@ -499,6 +339,6 @@ void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
     archive_number(archive, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
-    archive_numbers(archive, scheme->now, scheme->now ? field_size(scheme) : 0);
+    archive_numbers(archive, scheme->now, scheme->now ? explicit_field_size(scheme) : 0);
     archive_numbers(archive, scheme->bound, scheme->bound ? scheme->def.interface->count : 0);
 }

@@ -43,7 +43,7 @@ typedef struct ExplicitReference {
     int32_t *start;   // [node_count + 1] of the node's blocks; owned, like all that follows
     int32_t *column;   // [blocks] node; the first of each row is the diagonal
     double *
-        blocks;   // [blocks * block_size] upper triangle of K and C by nodes, see explicit_reference.c
+        blocks;   // [blocks * block_size] upper triangle of K and C by nodes, see explicit_sweep.c
     double *kick;   // [node_count] dt / mass
     double *now;   // [field_size] u of a node at t_n, then its v at t_n - dt/2
     double *next;   // [field_size] the same a step later
