@@ -21,7 +21,9 @@ class History(Mapping):
     """The arrays of history.h5, each read when it is first asked for; docs/results.md lists them with their units.
 
     history["series/mu"] or history.mu, [steps]; history.U, history.t: displacement of the rod, length, and time,
-    [steps]; history.slip_rate, .slip, .pressure, .shear, .status: [steps, nodes]; history.x: [nodes]. Row 0 is the
+    [steps]; history.slip_rate, .slip, .pressure, .shear, .status: [steps, nodes]; history.x: [nodes]. In space
+    slip_rate, slip, shear are [steps, nodes, 2], along x and y; history.y, and history.line: 1 for the nodes along the
+    middle of the contact, off which fronts are read. Row 0 is the
     start. history.numbers: the attributes of the file (length, normal_force, mu_static, ...).
     """
 
@@ -133,14 +135,18 @@ class Result:
         return axes
 
     def plot_slip_map(self, axes: Any = None, decades: float = 4) -> Any:
-        """Slip rate over position and displacement of the rod, logarithmic, over so many decades. Needs matplotlib;
-        returns the axes."""
+        """Slip rate over position and displacement of the rod, logarithmic, over so many decades; in space along the
+        middle of the contact. Needs matplotlib; returns the axes."""
         axes = axes if axes is not None else _new_axes()
         history = self.history
-        rate = np.abs(history.slip_rate) / history.numbers["rod_velocity"]
+        rate, x = np.abs(history.slip_rate), history.x
+        if "nodes/line" in history:
+            line = history.line > 0
+            rate, x = np.linalg.norm(rate[:, line], axis=2), x[line]
+        rate = rate / history.numbers["rod_velocity"]
         top = max(float(np.log10(np.maximum(rate.max(), 1e-300))), -300.0)
         shown = np.log10(np.maximum(rate, 10.0 ** (top - decades)))
-        mesh = axes.pcolormesh(history.x, history.U, shown, shading="nearest", rasterized=True)
+        mesh = axes.pcolormesh(x, history.U, shown, shading="nearest", rasterized=True)
         axes.figure.colorbar(mesh, ax=axes, label="$\\log_{10}$(slip rate / V)")
         axes.set_xlabel(f"position x{self._unit('m')}")
         axes.set_ylabel(f"rod displacement U{self._unit('m')}")

@@ -31,8 +31,8 @@ class Simulation:
             print(step.t, step.U, step.mu, simulation.slip_rate.max())
 
     `step` is one StepView, written anew in each step: copy what you keep. x, slip_rate, slip, pressure, shear, status
-    are numpy arrays over the simulation's own memory, [nodes] each (slip_rate, slip, shear would be [nodes, 2] in three
-    dimensions): no copies, always those of the last accepted step.
+    are numpy arrays over the simulation's own memory, [nodes] each (in space slip_rate, slip, shear are [nodes, 2],
+    along x and y, and there is y, too; in the plane y is None): no copies, always those of the last accepted step.
 
     folder: for results, written by `finish`; None: nothing is written. whole_block: `displacement` will be asked for.
     """
@@ -56,6 +56,7 @@ class Simulation:
         n, directions = contact.count, contact.tangents
         vector = (n,) if directions == 1 else (n, directions)
         self.x = _view(self, contact.x, ctypes.c_double, n)
+        self.y = _view(self, contact.y, ctypes.c_double, n) if contact.y else None
         self.slip_rate = _view(self, contact.slip_rate, ctypes.c_double, *vector)
         self.slip = _view(self, contact.slip, ctypes.c_double, *vector)
         self.pressure = _view(self, contact.pressure, ctypes.c_double, n)

@@ -6,7 +6,6 @@
 #include "contact/interface.h"
 
 #include "base/memory.h"
-#include "contact/contact_line.h"
 #include "fem/assembly.h"
 
 #include <math.h>
@@ -16,6 +15,7 @@
 
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
+static const double LINE_ROUNDING = 1e-6;   // of places along the contact, over the length of a cell
 
 // Below that a node has no weight: the integral is 0 but for rounding.
 static double least_weight(const Mesh *mesh, const double *weight)
@@ -45,6 +45,47 @@ static void drop_weightless(const Mesh *mesh, const double *weight, MeshContact 
         contact->pad_of[kept++] = contact->pad_of[i];
     }
     contact->node_count = kept;
+}
+
+// y of the node nearest to the middle, of several as near the first.
+static double line_place(const Interface *interface, double rounding)
+{
+    double low = INFINITY, high = -INFINITY, place = INFINITY;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        low = fmin(low, interface->y[i]);
+        high = fmax(high, interface->y[i]);
+    }
+    double middle = 0.5 * (low + high);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double nearer = fabs(place - middle) - fabs(interface->y[i] - middle);
+        if (nearer > rounding) place = interface->y[i];
+    }
+    return place;
+}
+
+// On a grid the row of nodes nearest to the middle; elsewhere those of a strip around it, as wide as
+// a mean cell is long.
+bool interface_find_line(Interface *interface, Error *err)
+{
+    double area = 0;
+    if (!interface->y) return true;
+    interface->line = NEW_ARRAY(int32_t, interface->contact_count, err);
+    if (!interface->line) return false;
+    for (int32_t i = 0; i < interface->contact_count; i++) area += interface->weight[i];
+    double cell = sqrt(area / interface->contact_count), rounding = LINE_ROUNDING * cell;
+    double place = line_place(interface, rounding);
+    interface->line_count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t *last = interface->line + interface->line_count - 1;
+        double off = fabs(interface->y[i] - place);
+        if (off > 0.5 * cell + rounding) continue;
+        bool beside = interface->line_count > 0 && interface->x[i] - interface->x[*last] <= rounding;
+        if (!beside)
+            interface->line[interface->line_count++] = i;
+        else if (off < fabs(interface->y[*last] - place))
+            *last = i;
+    }
+    return true;
 }
 
 // Fills all that belongs to the contact: nodes by ascending x, places, weights, pads and their
@@ -79,7 +120,7 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
         interface->weight[i] = weight[node];
         interface->pad[i] = contact.pad_of[i];
     }
-    TRY(contact_line_find(interface, err));
+    TRY(interface_find_line(interface, err));
     if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
         for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
 cleanup:

@@ -27,7 +27,7 @@ typedef struct Interface {
     char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact boundaries; owned
     int32_t line_count;
     int32_t *line;   // [line_count] contact nodes one behind the other along the drive, in space those
-        // along the middle (contact/contact_line); NULL: all of them; owned
+        // along the middle: fronts, and how far slip reaches, are read off it; NULL: all of them; owned
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
     double *rod_z;   // [rod_count] height, length; owned
@@ -100,6 +100,8 @@ static inline double interface_gap(const Interface *interface, int32_t i)
 // nearest are), or the strip misses the face. A rod node that is a contact node is left out: the
 // plane holds it already.
 bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err);
+// Fills `line`, in space; places and weights of the nodes are there. Called by interface_build.
+bool interface_find_line(Interface *interface, Error *err);
 void interface_destroy(Interface *interface);
 
 #endif

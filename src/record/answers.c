@@ -134,6 +134,12 @@ static void write_branches(const Drops *drops, DropKind kind, int32_t first, dou
     json_end(json);
 }
 
+// A run that failed early has no events.
+static bool is_in_space(const Drops *drops)
+{
+    return drops->events && drops->events->in_space;
+}
+
 // l_sc and l_c as the dynamics saw them, and from the growth rates (l_c_growth_over_L).
 void answers_write_peaks(const Answers *answers, const Drops *drops, double length,
                          JsonWriter *json)
@@ -149,7 +155,7 @@ void answers_write_peaks(const Answers *answers, const Drops *drops, double leng
         json_number(json, "l_sc_over_L", peak.front_uncertified / length);
         json_number(json, "l_c_over_L", peak.critical_length / length);
         json_number(json, "l_c_growth_over_L", peak.front_growth / length);
-        if (drops->events->in_space) json_number(json, "A_c_over_A", peak.critical_part);
+        if (is_in_space(drops)) json_number(json, "A_c_over_A", peak.critical_part);
         json_end(json);
     }
     json_end(json);
@@ -242,7 +248,7 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     json_number(json, "mu_max_known_to", answers->mu_max_known_to);
     json_number(json, "l_sc_over_L", answers->subcritical_length / length);
     json_number(json, "l_c_over_L", answers->critical_length / length);
-    if (drops->events->in_space) json_number(json, "A_c_over_A", answers->critical_part);
+    if (is_in_space(drops)) json_number(json, "A_c_over_A", answers->critical_part);
     answers_write_peaks(answers, drops, length, json);
     write_drops(answers, drops, json);
     write_run_in(&answers->regime, json);

@@ -24,6 +24,7 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
                          .rod_on_spring = head->rod_on_spring};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
+    if (interface->line) history->line = NEW_ARRAY(double, count, err);
     history->pad_sums = NEW_ARRAY(PadSum, interface->pad_count, err);
     history->pad_row = NEW_ARRAY(double, interface->pad_count, err);
     history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
@@ -32,10 +33,13 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
         history->pad[i] = interface->pad[i];
         history->pad_length[interface->pad[i]] += interface->weight[i];
     }
+    for (int32_t k = 0; interface->line && k < interface->line_count; k++)
+        history->line[interface->line[k]] = 1;
     head->contact_count = count;
     head->tangents = contact->tangents;
     head->nodes[NODES_X] = interface->x;
     head->nodes[NODES_Y] = interface->y;
+    head->nodes[NODES_LINE] = history->line;
     head->nodes[NODES_WEIGHT] = interface->weight;
     head->nodes[NODES_PAD] = history->pad;
     history->file = head->goes_on ? result_file_reopen(folder, err)
@@ -49,6 +53,7 @@ void history_destroy(History *history)
 {
     memory_free(history->row);
     memory_free(history->pad);
+    memory_free(history->line);
     memory_free(history->pad_sums);
     memory_free(history->pad_row);
     memory_free(history->pad_length);

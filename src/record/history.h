@@ -23,6 +23,7 @@ typedef struct History {
     double flushed_at;   // wall time of the last flush, s
     double *row;   // [contact_count] work; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned
+    double *line;   // [contact_count] 1: of the contact's line; NULL in the plane; owned
     int32_t pad_count;
     PadSum *pad_sums;   // [pad_count] of the step under way; owned
     double *pad_row;   // [pad_count] work; owned

@@ -51,7 +51,7 @@ typedef struct Recorder {
     bool (*record)(void *self, const Observation *seen, Error *err);
 } Recorder;
 
-enum { RECORDERS_MAX = 9 };
+enum { RECORDERS_MAX = 10 };
 
 typedef struct Recorders {
     int32_t count;

@@ -9,6 +9,7 @@
 #include "record/error_bars.h"
 #include "record/pads.h"
 #include "record/steady.h"
+#include "record/turning.h"
 
 // The largest of each kind of error over a run's accepted steps, relative (record/observation).
 typedef struct RunErrors {
@@ -42,6 +43,7 @@ typedef struct RunReport {
     const Event *least_resolved;   // before which the fewest cells slipped; NULL: none
     const Steady *steady;
     const Pads *pads;
+    const Turning *turning;
     const Levels *levels;   // NULL: one run
     const RunWarnings *warnings;
 } RunReport;

@@ -175,6 +175,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     steady_archive(&simulation->steady, archive);
     pads_archive(&simulation->pads, archive);
     contact_arrays_archive(&simulation->contact, archive);
+    turning_archive(&simulation->turning, archive);
     archive_errors(&simulation->errors, archive);
     archive_warnings(&simulation->warnings, archive);
 cleanup:

@@ -57,6 +57,8 @@ static bool open_recorders(Simulation *simulation, Error *err)
     TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
                               &simulation->contact, err));
     recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
+    simulation->turning = turning_of(&simulation->contact);
+    recorders_add(&simulation->recorders, &simulation->turning, turning_record);
     if (result_folder_is_ours(&simulation->folder)) TRY(output_open(simulation, err));
     bool in_part = simulation->window.def.given;
     recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
@@ -360,6 +362,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
+    warnings_of_turning(&simulation->turning, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside) {
         TRY(output_store_warnings(simulation, err));
@@ -385,6 +388,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
                             .least_resolved = least,
                             .steady = &simulation->steady,
                             .pads = &simulation->pads,
+                            .turning = &simulation->turning,
                             .levels = simulation->levels,
                             .warnings = &simulation->warnings};
         TRY(hand_out_report(simulation, &report, err));

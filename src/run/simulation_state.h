@@ -12,6 +12,7 @@
 #include "record/fields.h"
 #include "record/history.h"
 #include "record/steady.h"
+#include "record/turning.h"
 #include "run/kept_states.h"
 #include "run/report.h"
 #include "run/result_folder.h"
@@ -36,6 +37,7 @@ struct Simulation {
     Steady steady;
     Pads pads;
     ContactArrays contact;
+    Turning turning;
     History history;
     Fields fields;
     Recorders recorders;

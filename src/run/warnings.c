@@ -111,6 +111,20 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
                  100 * material_gradient(material, pressure, 0), 100 * GRADIENT_SMALL);
 }
 
+// Of the way along the drive: so far sides may go ahead or behind, or the block across the drive,
+// before it is said. A symmetric block keeps within rounding.
+static const double TURNING_SEEN = 0.01;
+
+void warnings_of_turning(const Turning *turning, RunWarnings *warnings)
+{
+    double share = turning_share(turning);
+    if (share <= TURNING_SEEN) return;
+    warnings_add(warnings,
+                 "the block does not go straight: it turned about z by %.2g rad and went %.2g "
+                 "across the drive, on a way of %.2g: %.2g %% of it at its sides",
+                 turning->angle, turning->drift, turning->way, 100 * share);
+}
+
 // How to get a mesh with contact cells of half the size, from the parameters that the scene gives.
 static const char *finer_mesh(const Scene *scene)
 {

@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "record/error_bars.h"
 #include "record/events.h"
+#include "record/turning.h"
 #include "scene/scene.h"
 #include "stepping/certificate.h"
 
@@ -33,6 +34,9 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
 // A material that the mean stresses of the largest load and of mu times it deform by more than
 // small strains allow for: the one that they deform most.
 void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings);
+
+// The block turned about z, or went across the drive, by a part of its way that can be seen.
+void warnings_of_turning(const Turning *turning, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

@@ -160,7 +160,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     if (!file) goto cleanup;
     TRY(write_attributes(file, head, err));
     for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
-        if (k == NODES_Y && !head->nodes[k]) continue;
+        if (!head->nodes[k]) continue;
         TRY(add_row(file, &nodes_rows[k], 1, head->tangents, err));
         TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
     }

@@ -54,6 +54,8 @@ typedef enum ResultColumns {
 #define RESULT_NODES(X)                                                                            \
     X(NODES_X, "nodes/x", ARRAY_FLOAT64, "length", "position of the contact nodes")                \
     X(NODES_Y, "nodes/y", ARRAY_FLOAT64, "length", "the same across the drive; in space only")     \
+    X(NODES_LINE, "nodes/line", ARRAY_INT32, "1",                                                  \
+      "1: on the line along the middle of the contact that fronts are read off; in space only")    \
     X(NODES_WEIGHT, "nodes/weight", ARRAY_FLOAT64, "length", "integral of the shape function")     \
     X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which contact curve the node is on, from 0")
 

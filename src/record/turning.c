@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// With weights w, places (x, y) from their mean and slip (s_x, s_y): the rotation that leaves least
+// of slip is sum w (x s_y - y s_x) / sum w (x^2 + y^2).
+#include "record/turning.h"
+
+#include <math.h>
+
+Turning turning_of(const ContactArrays *contact)
+{
+    return (Turning){.contact = contact};
+}
+
+static void keep_largest(double *largest, double value)
+{
+    if (fabs(value) > fabs(*largest)) *largest = value;
+}
+
+// Means over the contact.
+typedef struct Means {
+    double weight, x, y;   // of all; of places, length
+    double slip[2];   // length
+} Means;
+
+static Means means_of(const ContactArrays *contact, const Interface *interface)
+{
+    Means means = {0};
+    for (int32_t i = 0; i < contact->count; i++) means.weight += interface->weight[i];
+    for (int32_t i = 0; i < contact->count; i++) {
+        double part = interface->weight[i] / means.weight;
+        means.x += part * interface->x[i];
+        means.y += part * interface->y[i];
+        for (int32_t c = 0; c < 2; c++) means.slip[c] += part * contact->slip[2 * i + c];
+    }
+    return means;
+}
+
+bool turning_record(void *self, const Observation *seen, Error *err)
+{
+    (void)err;
+    Turning *turning = self;
+    const ContactArrays *contact = turning->contact;
+    const Interface *interface = seen->interface;
+    if (contact->tangents < 2) return true;
+    Means means = means_of(contact, interface);
+    double turned = 0, inertia = 0, low = INFINITY, high = -INFINITY;
+    for (int32_t i = 0; i < contact->count; i++) {
+        double w = interface->weight[i];
+        double x = interface->x[i] - means.x, y = interface->y[i] - means.y;
+        turned += w * (x * contact->slip[2 * i + 1] - y * contact->slip[2 * i]);
+        inertia += w * (x * x + y * y);
+        low = fmin(low, interface->y[i]);
+        high = fmax(high, interface->y[i]);
+        keep_largest(&turning->across, contact->slip[2 * i + 1]);
+    }
+    turning->breadth = high - low;
+    keep_largest(&turning->angle, turned / inertia);
+    keep_largest(&turning->drift, means.slip[1]);
+    keep_largest(&turning->way, means.slip[0]);
+    return true;
+}
+
+double turning_share(const Turning *turning)
+{
+    double sides = 0.5 * turning->breadth * fabs(turning->angle);
+    double way = fabs(turning->way);
+    return way > 0 ? fmax(sides, fabs(turning->drift)) / way : 0;
+}
+
+void turning_write_json(const Turning *turning, JsonWriter *json)
+{
+    json_begin_object(json, "turning");
+    json_number(json, "angle", turning->angle);
+    json_number(json, "drift", turning->drift);
+    json_number(json, "across", turning->across);
+    json_number(json, "way", turning->way);
+    json_end(json);
+}
+
+void turning_archive(Turning *turning, Archive *archive)
+{
+    archive_section(archive, "turning");
+    archive_number(archive, &turning->angle);
+    archive_number(archive, &turning->drift);
+    archive_number(archive, &turning->across);
+    archive_number(archive, &turning->way);
+    archive_number(archive, &turning->breadth);
+}

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A block in space: what run.json and the recorders say, worked out again from the history, node by node."""
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy
+
+SOURCE = Path(os.environ["AMONTONS_SOURCE"])
+PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
+SETTINGS = [f"mesh.file={SOURCE}/meshes/block3d.geo", "rod.height=0.1",
+            "mesh.set={nx: 6, ny: 5, nz: 3, length: 0.5, breadth: 0.4, height: 0.25}", "time.until.U=0.006",
+            "output.figures=[]", "output.fields=none"]
+STICK = 1
+
+
+class Space(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            words = [word for setting in SETTINGS for word in ("--set", setting)]
+            done = subprocess.run([PROGRAM, "run", SOURCE / "validation/paper/fig1.yaml", *words, "-o", f"{folder}/run"],
+                                  capture_output=True, text=True)
+            if done.returncode:
+                raise AssertionError(done.stderr)
+            cls.results = json.loads(Path(folder, "run", "run.json").read_text())["results"]
+            with h5py.File(Path(folder, "run", "history.h5")) as history:
+                cls.attributes = dict(history.attrs)
+                cls.arrays = {f"{group}/{name}": item[()] for group in history for name, item in history[group].items()}
+                cls.units = {f"{group}/{name}": item.attrs["unit"] for group in history
+                             for name, item in history[group].items()}
+        cls.rapid = [event for event in cls.results["events"] if event["kind"] != "quasi-static"]
+
+    def test_layout(self):
+        """Vectors have a last axis; forces and areas are no longer per width."""
+        steps, nodes = len(self.arrays["series/time"]), len(self.arrays["nodes/x"])
+        for name in ("slip_rate", "slip", "shear"):
+            self.assertEqual(self.arrays[f"interface/{name}"].shape, (steps, nodes, 2))
+        self.assertEqual(self.arrays["interface/pressure"].shape, (steps, nodes))
+        self.assertEqual(self.attributes["format"], 2)
+        self.assertEqual([self.units[name] for name in ("series/rod_force", "nodes/weight", "nodes/y", "events/slipped")],
+                         ["force", "length^2", "length", "length^2"])
+        self.assertAlmostEqual(self.arrays["nodes/weight"].sum(), 0.5 * 0.4, 12)
+
+    def test_sums(self):
+        """Pressure and shear are forces over weights; the rod's force is the shear of a block at rest."""
+        weight = self.arrays["nodes/weight"]
+        pressed = self.arrays["interface/pressure"] @ weight
+        numpy.testing.assert_allclose(pressed, self.arrays["series/normal_force"], rtol=1e-6)
+        shear = numpy.einsum("ijk,j->ik", self.arrays["interface/shear"], weight)
+        numpy.testing.assert_allclose(shear[:, 0], self.arrays["pads/shear"], rtol=0, atol=1e-6 * pressed[0])
+        self.assertLess(abs(shear[:, 1]).max(), 1e-6 * pressed[0])   # the block is its own mirror image across
+
+    def test_speeds(self):
+        speed = numpy.linalg.norm(self.arrays["interface/slip_rate"], axis=2).max(axis=1)
+        numpy.testing.assert_allclose(speed, self.arrays["series/max_slip_rate"], rtol=1e-6, atol=1e-12)
+
+    def test_friction_is_against_slip(self):
+        """Where a node slips its shear is mu(|v|) p, along its slip rate."""
+        rate, shear = self.arrays["interface/slip_rate"], self.arrays["interface/shear"]
+        pressure = self.arrays["interface/pressure"]
+        slips = (self.arrays["interface/status"] >= 2) & (numpy.linalg.norm(rate, axis=2) > 1e-9)
+        speed = numpy.linalg.norm(rate, axis=2, keepdims=True)
+        mu = 0.1 + 0.28 * numpy.maximum(1 - speed / self.attributes["critical_velocity"], 0)
+        wanted = mu * pressure[..., None] * rate / numpy.where(speed > 0, speed, 1)
+        self.assertGreater(slips.sum(), 1000)
+        self.assertGreater(abs(rate[slips][:, 1]).max(), 1e-2 * abs(rate[slips][:, 0]).max())
+        numpy.testing.assert_allclose(shear[slips], wanted[slips], rtol=0, atol=2e-5 * pressure.max())
+
+    def test_line_and_front(self):
+        """Six rows of nodes across: the line is the third or fourth; the front is where its first node sticks."""
+        x, y, line = (self.arrays[f"nodes/{name}"] for name in ("x", "y", "line"))
+        self.assertEqual(line.sum(), 7)
+        self.assertEqual(len(set(numpy.round(y[line > 0], 9))), 1)
+        self.assertAlmostEqual(abs(y[line > 0][0] - 0.2), 0.04, 9)
+        for status, front in zip(self.arrays["interface/status"][:, line > 0], self.arrays["series/front"]):
+            stuck = numpy.flatnonzero(status == STICK)
+            last = stuck[0] - 1 if len(stuck) else 6
+            self.assertEqual(front, x[line > 0][max(last, 0)])
+
+    def test_events(self):
+        """What slipped in each, and before it; the whole block slid where every node did."""
+        t, weight = self.arrays["series/time"], self.arrays["nodes/weight"]
+        status, area = self.arrays["interface/status"], weight.sum()
+        self.assertGreater(len(self.rapid), 1)
+        for event in self.rapid:
+            first, last = (int(numpy.argmin(abs(t - event[key]))) for key in ("t_start", "t_stop"))
+            slipped = (status[first:last + 1] != STICK).any(axis=0)
+            before = status[first - 1] >= 2
+            self.assertAlmostEqual(event["slipped_over_A"], weight[slipped].sum() / area, 9)
+            self.assertAlmostEqual(event["slip_before_over_A"], weight[before].sum() / area, 9)
+            self.assertAlmostEqual(event["slip_length"], weight[before].sum() / 0.4, 9)
+            self.assertEqual(event["kind"] == "leading rapid", bool(slipped.all()))
+        counted = [peak["A_c_over_A"] for peak in self.results["peaks"] if peak["counts"]]
+        self.assertAlmostEqual(self.results["A_c_over_A"], numpy.mean(counted), 12)
+
+    def test_turning(self):
+        """A block that is its own mirror image goes straight."""
+        turning = self.results["turning"]
+        slip, weight = self.arrays["interface/slip"], self.arrays["nodes/weight"]
+        mean = numpy.einsum("ijk,j->ik", slip, weight) / weight.sum()
+        self.assertAlmostEqual(turning["way"], mean[:, 0].max(), 8)
+        self.assertAlmostEqual(abs(turning["across"]), abs(slip[..., 1]).max(), 8)
+        self.assertLess(abs(turning["angle"]) + abs(turning["drift"]), 1e-6 * turning["way"])
+
+
+if __name__ == "__main__":
+    unittest.main()
