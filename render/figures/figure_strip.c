@@ -144,7 +144,7 @@ static Axes frame_axes(const Page *page, const FigureInput *input, const Strip *
     block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
     axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
     axes.box.right = axes.box.left + round(strip->width * point);
-    axes.box.top = page->head +
+    axes.box.top = page->room.top +
                    round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
     axes.box.bottom = axes.box.top + round(strip->height * point);
     snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
@@ -158,7 +158,7 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     char words[WORDS_SIZE];
     double point = page->point;
     uint8_t colors[3 * MAP_SIZE];
-    BlockPage map = {.view = input->view, .edges = input->field->edges, .share = SHARE};
+    BlockPage map = {.view = input->view, .edges = input->field->edges, .share = SHARE, .style = input->def.style};
     Box all = {0};
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
     TRY(block_page_fit(&map, strip->blocks, strip->count, quantity, err));

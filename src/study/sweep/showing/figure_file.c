@@ -49,7 +49,9 @@ bool figure_end(Figure *figure, Error *err)
     TRY(json_finish(figure->json, err) & array_file_close(arrays, err));
     TRY(figure_path(figure, "json", path, err));
     TRY(figure_path(figure, ending, picture, err));
-    TRY(amontons_render_plot_file(path, picture, figure->style, err));
+    PictureStyle style = figure->style ? *figure->style : (PictureStyle){0};
+    if (!style.title) style.title = "none";   // what it shows is said where it is printed
+    TRY(amontons_render_plot_file(path, picture, &style, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -141,17 +143,20 @@ bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
     return figure_write_curve(figure, &entry, err);
 }
 
+// One entry: one symbol has one meaning, of which there may be several reasons.
 bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err)
 {
     int32_t all = __builtin_popcount(doubts), shown = 0;
+    char label[LABEL_SIZE] = "open: ";
     for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
-        char label[LABEL_SIZE];
+        size_t used = strlen(label);
         if (!(doubts >> k & 1)) continue;
         bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
-        snprintf(label, sizeof label, "open: %.70s%s", names->words[k], has_more ? ", others" : "");
-        Curve entry = {.label = label, .line = "none", .marker = "circle"};
-        TRY(figure_write_entry(figure, &entry, err));
+        snprintf(label + used, sizeof label - used, "%s%.70s%s", shown > 1 ? ", or " : "",
+                 names->words[k], has_more ? ", others" : "");
     }
+    Curve entry = {.label = label, .line = "none", .marker = "circle"};
+    if (shown > 0) TRY(figure_write_entry(figure, &entry, err));
 cleanup:
     return error_is_clean(err);
 }
