@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "render/canvas/key.h"
+#include "render/figures/measured.h"
 #include "render/figures/window.h"
 #include "render/figures/zoom.h"
 
@@ -27,6 +28,7 @@ static const double PEAK_PITCH = 0.3;   // of the distance of peaks: radius of a
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
 static const Color CURVE_COLOR = {0.05f, 0.27f, 0.55f, 1};
+static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 static const Color LEVEL_COLOR = {0.45f, 0.45f, 0.47f, 1};
 
 // A horizontal line and its name.
@@ -232,9 +234,25 @@ static Axes axes_layout(const Page *page, const ResultView *view, const Window *
     return axes;
 }
 
-static void key_of_peaks(Page *page, const ResultView *view, const Window *window)
+// With bars as long as the errors on both sides.
+static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
 {
-    KeyEntry entries[3];
+    Stroke stroke = {.color = MEASURED_COLOR, .width = 0.5 * page->point};
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        double U = measured->U[k], mu = measured->value[k], error = measured->error[k];
+        if (isfinite(error))
+            draw_segment(page->canvas, &stroke, axes_place(axes, U, mu - error),
+                         axes_place(axes, U, mu + error));
+        draw_disc(page->canvas, MEASURED_COLOR, axes_place(axes, U, mu), KEY_RADIUS * page->point);
+    }
+    canvas_clip(page->canvas, NULL);
+}
+
+static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
+                         const Measured *measured)
+{
+    KeyEntry entries[4];
     int32_t count = 0;
     const Axes axes = {.x = {.low = window->low, .high = window->high}};
     bool seen[2] = {false, false};
@@ -243,6 +261,8 @@ static void key_of_peaks(Page *page, const ResultView *view, const Window *windo
     if (seen[1]) entries[count++] = (KeyEntry){KEY_DISC, INK, "peak, counts for ~{\u03bc}_{M}"};
     if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "peak that does not count"};
     if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    if (measured->count > 0)
+        entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured->words};
     key_draw(page, entries, count);
 }
 
@@ -260,11 +280,13 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
     Window window;
+    Measured measured = {0};
     Axes axes, inset = {0};
     Level level[LEVELS_MAX];
     double range[2] = {0, 0};
     TRY(window_find(view, &page.style, &window, err));
-    key_of_peaks(&page, view, &window);
+    TRY(measured_read(page.style.compare, MEASURED_MU, view, view->mu, &measured, err));
+    key_of_peaks(&page, view, &window, &measured);
     bool enlarged = inset_axes(&page, view, &window, &inset);
     double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;
     axes = axes_layout(&page, view, &window, enlarged ? round(below) : page.room.top);
@@ -274,12 +296,15 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     levels_draw(&page, &axes, level, count);
     TRY(curve_draw(&page, view, &axes, err));
     peaks_draw(&page, view, &axes);
+    measured_draw(&page, &measured, &axes);
     if (enlarged) {
         outline_draw(&page, &axes, &inset);
         TRY(curve_draw(&page, view, &inset, err));
+        measured_draw(&page, &measured, &inset);
         axes_draw(&page, &inset);
     }
     axes_draw(&page, &axes);
 cleanup:
+    measured_destroy(&measured);
     return error_is_clean(err);
 }

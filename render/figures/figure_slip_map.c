@@ -5,6 +5,7 @@
 
 #include "render/canvas/key.h"
 #include "render/figures/map_page.h"
+#include "render/figures/measured.h"
 #include "render/figures/slip_scale.h"
 #include "render/figures/window.h"
 #include "render/figures/zoom.h"
@@ -58,20 +59,35 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
 }
 
 // The line l_c has its name at its end.
-static void key_of_map(Page *page, const ResultView *view, const Window *window)
+static void key_of_map(Page *page, const ResultView *view, const Window *window,
+                       const Measured *measured)
 {
-    KeyEntry entries[2];
+    KeyEntry entries[3];
     int32_t count = 0;
     if (view->pad[view->nodes - 1] > 0)
         entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
     if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    if (measured->count > 0) entries[count++] = (KeyEntry){KEY_RING, INK, measured->words};
     key_draw(page, entries, count);
+}
+
+static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
+{
+    double radius = KEY_RADIUS * page->point;
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        Point at = axes_place(axes, measured->U[k], measured->value[k]);
+        draw_disc(page->canvas, INK, at, radius);
+        draw_disc(page->canvas, PAPER, at, 0.6 * radius);
+    }
+    canvas_clip(page->canvas, NULL);
 }
 
 bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
     Window window;
+    Measured measured = {0};
     double length = view->number[NUMBER_L_C], V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     Zoom zoom = zoom_choose(view);
     MapPage map = {.mean = page.style.pixels && strcmp(page.style.pixels, "mean") == 0};
@@ -84,15 +100,19 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
     map.bar = slip_scale(view, V);
     map.bar.label = map.mean ? "mean slip rate / ~{V}" : "largest slip rate / ~{V}";
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
-    key_of_map(&page, view, &window);
+    if (page.style.compare) TRY(result_view_read_front(view, err));
+    TRY(measured_read(page.style.compare, MEASURED_X, view, view->front, &measured, err));
+    key_of_map(&page, view, &window, &measured);
     map_page_layout(&page, view, window.low, window.high, &map);
     TRY(map_page_fill(view, NULL, &map, err));
     slip_scale_levels(&map.bar, V, &map.grid);
     map_page_draw_field(&page, view, &map);
     if (marked) zoom_draw(&page, &zoom, &map.axes);
     if (isfinite(length)) critical_length_draw(&page, &map, figure_trailing_end(view) + length);
+    measured_draw(&page, &measured, &map.axes);
     map_page_draw_frame(&page, view, &map);
 cleanup:
+    measured_destroy(&measured);
     map_page_destroy(&map);
     return error_is_clean(err);
 }

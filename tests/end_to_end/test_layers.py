@@ -52,7 +52,7 @@ def allowed(folder, include):
     if include in ("amontons_error.h", "amontons_words.h"):
         return folder in ("base", "")   # what base/error.h and base/text.h show to everybody
     if include == "amontons_pictures.h":
-        return layer in ("render", "")   # what render/render.h is asked
+        return layer in ("render", "") or folder == "io/text"   # what render/render.h is asked; its options, read
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
     if include in ("build_record.h", "computing_sources.h", "page_resources.h"):

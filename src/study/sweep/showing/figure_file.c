@@ -30,6 +30,9 @@ bool figure_begin(Figure *figure, Error *err)
     TRY((figure->json = json_create(path, err)));
     json_begin_object(figure->json, NULL);
     json_text(figure->json, "title", figure->title);
+    json_begin_object(figure->json, "page");   // what it shows is said where it is printed
+    json_text(figure->json, "title", "none");
+    json_end(figure->json);
 cleanup:
     return error_is_clean(err);
 }
@@ -49,9 +52,7 @@ bool figure_end(Figure *figure, Error *err)
     TRY(json_finish(figure->json, err) & array_file_close(arrays, err));
     TRY(figure_path(figure, "json", path, err));
     TRY(figure_path(figure, ending, picture, err));
-    PictureStyle style = figure->style ? *figure->style : (PictureStyle){0};
-    if (!style.title) style.title = "none";   // what it shows is said where it is printed
-    TRY(amontons_render_plot_file(path, picture, &style, err));
+    TRY(amontons_render_plot_file(path, picture, figure->style, err));
 cleanup:
     return error_is_clean(err);
 }
