@@ -3,12 +3,12 @@
 // frames of one width, and numbers of U below the last of those that share it.
 #include "render/panels.h"
 
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const double LETTER_LEFT = 1.5, LETTER_DROP = 7.5;   // points: of (a), from its panel's corner
+static const double LETTER_LEFT = 1.5,
+                    LETTER_DROP = 7.5;   // points: of (a), from its panel's corner
 static const double SCRATCH_DPI = 100;   // of the page that is measured
 static const char *const ENLARGES = "contact-density";   // the panel that shows another U
 

@@ -91,10 +91,10 @@ static bool figure_path(const char *folder, const PictureRequest *request, const
                         char path[PATH_MAX], Error *err)
 {
     const char *of = figure && figure->draw_whole ? request->field.of : NULL;
-    int length = snprintf(
-        path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
-        of ? "-" : "", of ? of : "",
-        request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
+    int length =
+        snprintf(path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
+                 of ? "-" : "", of ? of : "",
+                 request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
     if (length < 0 || length >= PATH_MAX)
         FAIL(err, ERROR_INPUT, "the result folder's path is too long");
 cleanup:
@@ -127,9 +127,8 @@ static bool draw(const char *folder, const PictureRequest *request, const Figure
     const PictureStyle *style = &request->style;
     bool warns = !style->warnings || strcmp(style->warnings, "none") != 0;
     Foot foot = foot_wrap(warns ? view->warnings : "", page_width(style));
-    PageDef def = {.style = style,
-                   .title = page_title(style, view->title, false),
-                   .foot = foot_height(&foot)};
+    PageDef def = {
+        .style = style, .title = page_title(style, view->title, false), .foot = foot_height(&foot)};
     FigureInput input = {.view = view, .folder = folder, .field = &request->field};
     PanelFigure panels[PANELS_MAX];
     Figure known;

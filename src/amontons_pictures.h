@@ -18,27 +18,28 @@ extern "C" {
 // X(name, kind, least, most, words that are allowed, argument, meaning)
 #define PICTURE_OPTIONS(X)                                                                         \
     X(style, WORD, 0, 0, "column columns slide poster", "NAME",                                    \
-      "What it is for: column (86 mm, the default) or columns (178 mm) of a journal, with letters " \
+      "What it is for: column (86 mm, the default) or columns (178 mm) of a journal, with "        \
+      "letters "                                                                                   \
       "of 8 pt; slide (254 mm) or poster (400 mm), with letters and lines two and three times as " \
       "large")                                                                                     \
-    X(width, NUMBER, 20, 1000, "", "MM", "Of the page in print, in the place of the style's")       \
-    X(height, NUMBER, 20, 1000, "", "MM", "Of the page in print; by default as the figure asks")    \
-    X(dpi, NUMBER, 50, 2400, "", "N",                                                               \
+    X(width, NUMBER, 20, 1000, "", "MM", "Of the page in print, in the place of the style's")      \
+    X(height, NUMBER, 20, 1000, "", "MM", "Of the page in print; by default as the figure asks")   \
+    X(dpi, NUMBER, 50, 2400, "", "N",                                                              \
       "Dots per inch, of a PNG and of maps; 600 by default, of a slide 200, of a poster 300")      \
     X(title, TEXT, 0, 0, "", "WORDS",                                                              \
       "Words above the figure; `scene`: the title of what is shown; `none`")                       \
     X(inset, WORD, 0, 0, "above none", "WHERE",                                                    \
       "What force enlarges: above (the default) or none")                                          \
-    X(legend, WORD, 0, 0,                                                                          \
-      "auto none upper-right upper-left lower-left lower-right outside below", "WHERE",            \
-      "Where the legend stands: auto, none, upper-right, upper-left, lower-left, lower-right, "     \
+    X(legend, WORD, 0, 0, "auto none upper-right upper-left lower-left lower-right outside below", \
+      "WHERE",                                                                                     \
+      "Where the legend stands: auto, none, upper-right, upper-left, lower-left, lower-right, "    \
       "outside or below")                                                                          \
     X(limits, RANGE, 0, 0, "", "LOW,HIGH",                                                         \
-      "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")      \
+      "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
     X(from, TEXT, 0, 0, "", "U=U", "Of force and slip-map: where they begin; or t=TIME")           \
     X(to, TEXT, 0, 0, "", "U=U", "Where they end; or t=TIME")                                      \
     X(pixels, WORD, 0, 0, "largest mean", "WHAT",                                                  \
-      "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean")    \
+      "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean")   \
     X(compare, TEXT, 0, 0, "", "FILE.csv", "Measurements to draw beside what was computed")        \
     X(warnings, WORD, 0, 0, "below none", "WHERE",                                                 \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
@@ -72,7 +73,8 @@ typedef struct PictureRequest {
     int32_t figure_count;
     PictureStyle style;
     FieldChoice field;
-    const char *panels;   // "force,slip-map,contact-density": these below each other, as panels.png,
+    const char
+        *panels;   // "force,slip-map,contact-density": these below each other, as panels.png,
         // in the place of `figures`; NULL: none
 } PictureRequest;
 

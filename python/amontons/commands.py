@@ -211,11 +211,11 @@ def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *
 def _picture_style(style: dict[str, Any]) -> Any:
     """Numbers and words go through the library's own table, as the command's do."""
     given, plain = c.PictureStyle(format=c_text(style.get("format", "png"))), {"dark", "overwrite", "format"}
-    given.words = [(c_text(name), c_text(str(value))) for name, value in style.items() if name not in plain and value is not None]
+    given.words = [(c_text(name.rstrip("_")), c_text(value)) for name, value in style.items() if name not in plain and value is not None]
     for name in plain & set(style) - {"format"}:
         setattr(given, name, style[name])
     for name, value in given.words:
-        call(lib.amontons_picture_option, ctypes.byref(given), name.rstrip(b"_"), value)
+        call(lib.amontons_picture_option, ctypes.byref(given), name, value)
     return given
 
 

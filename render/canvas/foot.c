@@ -48,7 +48,8 @@ static void add_warning(Foot *foot, const char *warning, size_t length, size_t r
 Foot foot_wrap(const char *warnings, double width)
 {
     Foot foot = {0};
-    double room = fmin(fmax((width - 2 * MARGIN) / (LETTER * SIZE), CHARACTERS_LEAST), CHARACTERS_MOST);
+    double room =
+        fmin(fmax((width - 2 * MARGIN) / (LETTER * SIZE), CHARACTERS_LEAST), CHARACTERS_MOST);
     while (*warnings) {
         size_t length = strcspn(warnings, "\n");
         add_warning(&foot, warnings, length, (size_t)room);

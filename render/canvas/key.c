@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double MARGIN = 4, SPACE = 9, GAP = 3;   // points: page to entry; between; to its words
+static const double MARGIN = 4, SPACE = 9,
+                    GAP = 3;   // points: page to entry; between; to its words
 static const double SAMPLE = 12;   // points: width of a line or a patch
 static const double PITCH = 1.35;   // line to line, over the size of the words
 static const double DROP = 2;   // points above the first line
@@ -32,7 +33,8 @@ static void mark_draw(const Page *page, const KeyEntry *entry, Point at)
     case KEY_DISC:
     case KEY_RING:
         draw_disc(page->canvas, entry->color, middle, KEY_RADIUS * point);
-        if (entry->mark == KEY_RING) draw_disc(page->canvas, PAPER, middle, 0.6 * KEY_RADIUS * point);
+        if (entry->mark == KEY_RING)
+            draw_disc(page->canvas, PAPER, middle, 0.6 * KEY_RADIUS * point);
         break;
     case KEY_HATCH:
         stroke.width = 0.4 * point;

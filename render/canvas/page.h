@@ -14,7 +14,8 @@ typedef struct Page {
     Text *text;   // owned
     double point;   // pixels in a printed point, times what the style enlarges all by
     Box room;   // what the figure may fill, pixels: not title and foot, and of panels one
-    double beside[2];   // pixels left and right of the frame at least: panels with frames below each other
+    double beside
+        [2];   // pixels left and right of the frame at least: panels with frames below each other
     Box *frame;   // where the frame came to lie; not owned; NULL: nobody asks
     bool bare_x;   // numbers of U stand below the next panel
     const char *zoom_name;   // of what contact-density enlarges, on this page; NULL: it is not here

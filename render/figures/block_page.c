@@ -231,7 +231,8 @@ static RodMark rod_find(const Block *block, double low, double high, double shar
             face = fmin(face, frame->position[3 * i]);
     for (int32_t i = 0; i < frame->node_count; ++i) {
         const double *was = frame->position + 3 * i;
-        if (was[0] > face + FACE_SLACK * (high - low) || !(was[1] >= low && was[1] <= high)) continue;
+        if (was[0] > face + FACE_SLACK * (high - low) || !(was[1] >= low && was[1] <= high))
+            continue;
         rod.low = fmin(rod.low, block->place[i][1]);
         rod.high = fmax(rod.high, block->place[i][1]);
     }

@@ -269,7 +269,8 @@ static void key_of_peaks(Page *page, const ResultView *view, const Window *windo
 // Both frames are equally wide: the wider numbers say where they begin.
 static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarged)
 {
-    double left = enlarged ? round(page->room.left + axes_left_margin(page, inset) * page->point) : 0;
+    double left = enlarged ? round(page->room.left + axes_left_margin(page, inset) * page->point)
+                           : 0;
     axes->box.left = fmax(axes->box.left, left);
     page_place_frame(page, &axes->box);
     inset->box.left = axes->box.left;

@@ -158,7 +158,10 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     char words[WORDS_SIZE];
     double point = page->point;
     uint8_t colors[3 * MAP_SIZE];
-    BlockPage map = {.view = input->view, .edges = input->field->edges, .share = SHARE, .style = input->def.style};
+    BlockPage map = {.view = input->view,
+                     .edges = input->field->edges,
+                     .share = SHARE,
+                     .style = input->def.style};
     Box all = {0};
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
     TRY(block_page_fit(&map, strip->blocks, strip->count, quantity, err));

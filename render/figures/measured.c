@@ -39,8 +39,8 @@ static bool length_factor(const char *unit, size_t length, const ResultView *vie
     static const struct {
         const char *name;
         double metres;
-    } units[] = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"\u00b5m", 1e-6},
-                 {"nm", 1e-9}};
+    } units[] = {{"m", 1},     {"cm", 1e-2},      {"mm", 1e-3},
+                 {"um", 1e-6}, {"\u00b5m", 1e-6}, {"nm", 1e-9}};
     *factor = 1;
     if (length == 0 || (length == 3 && strncmp(unit, "L_0", length) == 0)) {
         if (!view->si) return true;
@@ -113,7 +113,8 @@ static bool take_rows(const CsvTable *table, MeasuredKind kind, const ResultView
         measured->U[all] = U;
         measured->value[all] = value;
         measured->error[all++] = error < 0 ? (double)NAN
-                                 : csv_value(table, row, error) * (kind == MEASURED_X ? factor : 1);
+                                           : csv_value(table, row, error) *
+                                                 (kind == MEASURED_X ? factor : 1);
     }
     measured->count = all;
 cleanup:

@@ -115,8 +115,7 @@ static void place_frame(MeshPage *map)
     Axes *axes = &map->axes;
     choose_ranges(map->mesh, axes);
     double width = canvas_width(page->canvas) - (LEFT + RIGHT) * point;
-    double height = page->room.bottom -
-                    (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
+    double height = page->room.bottom - (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
     double shape = frame_shape(axes), narrow = fmin(width, height / shape);
     axes->box.left = round(LEFT * point + (width - narrow) / 2);
     axes->box.right = axes->box.left + round(narrow);

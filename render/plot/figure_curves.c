@@ -106,8 +106,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title,
-                 Error *err)
+bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
 {
     PictureStyle used = *style;
     double width = 0;

@@ -10,7 +10,13 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000, PARTS_MOST = 16, RING_SIDES = 24, VECTOR_MOST = 10000 };
+enum {
+    LEVELS_WANTED = 6,
+    MARKS_MINDED = 2000,
+    PARTS_MOST = 16,
+    RING_SIDES = 24,
+    VECTOR_MOST = 10000
+};
 
 static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
 static const double DOT_SHARE = 0.13;   // of the distance of points
@@ -178,24 +184,9 @@ static double point_distance(const MapDrawing *drawing)
 typedef struct LineField {
     const double *value;
     const Point *place;
-    const int32_t *triangles;   // [3 * count]; NULL: two in each cell of a grid
+    const int32_t *triangles;   // [3 * count]
     int64_t count;
-    int32_t columns;   // of the grid
 } LineField;
-
-// Corners of triangle k.
-static void field_triangle(const LineField *field, int64_t k, int32_t corner[3])
-{
-    if (field->triangles) {
-        for (int32_t i = 0; i < 3; i++) corner[i] = field->triangles[3 * k + i];
-        return;
-    }
-    int64_t cell = k / 2, row = cell / (field->columns - 1), column = cell % (field->columns - 1);
-    int32_t first = (int32_t)(row * field->columns + column), above = first + field->columns;
-    corner[0] = first;
-    corner[1] = k % 2 ? above + 1 : first + 1;
-    corner[2] = k % 2 ? above : above + 1;
-}
 
 // Where the level crosses a triangle: 2 points, or none (false).
 static bool cross_triangle(const LineField *field, const int32_t corner[3], double level,
@@ -279,7 +270,7 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
     const Axis *range = &drawing->scale->contours;
     Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
     Point labels[LEVELS_WANTED + 1];
-    int32_t labelled = 0, corner[3];
+    int32_t labelled = 0;
     Point *pieces = NEW_ARRAY(Point, 3 * field->count + 3, err);
     if (!pieces) return false;
     for (int32_t t = 0; t < ticks.count; t++) {
@@ -287,8 +278,7 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
         int64_t count = 0;
         if (level < range->low + slack || level > range->high - slack) continue;
         for (int64_t k = 0; k < field->count; k++) {
-            field_triangle(field, k, corner);
-            if (!cross_triangle(field, corner, level, pieces + count)) continue;
+            if (!cross_triangle(field, field->triangles + 3 * k, level, pieces + count)) continue;
             pieces[count + 2] = (Point){NAN, NAN};
             count += 3;
         }
@@ -314,8 +304,8 @@ static bool contours_draw(const MapDrawing *drawing, Error *err)
         TRY(map_smooth(grid, drawing->map->contour, drawing->place, parts, &smooth, err));
         field = (LineField){.value = smooth.value,
                             .place = smooth.place,
-                            .count = 2 * (int64_t)(smooth.columns - 1) * (smooth.rows - 1),
-                            .columns = smooth.columns};
+                            .triangles = smooth.triangles,
+                            .count = smooth.triangle_count};
     }
     TRY(levels_draw(drawing, &field, err));
 cleanup:

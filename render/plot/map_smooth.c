@@ -29,7 +29,8 @@ static double slope_at(const double *x, const double *y, int32_t k, int32_t coun
 }
 
 // fine: [(count - 1) * parts + 1] values of the cubics through (x, y), [count].
-static void line_smooth(const double *x, const double *y, int32_t count, int32_t parts, double *fine)
+static void line_smooth(const double *x, const double *y, int32_t count, int32_t parts,
+                        double *fine)
 {
     for (int32_t k = 0; k + 1 < count; ++k) {
         double h = x[k + 1] - x[k], slopes[2];
@@ -105,6 +106,22 @@ static void smooth_both(const MapGrid *grid, const double *values, int32_t parts
     }
 }
 
+static bool find_triangles(SmoothGrid *smooth, Error *err)
+{
+    int64_t cells = (int64_t)(smooth->columns - 1) * (smooth->rows - 1);
+    TRY(smooth->triangles = NEW_ARRAY(int32_t, 6 * cells, err));
+    int32_t *corner = smooth->triangles;
+    for (int32_t row = 0; row + 1 < smooth->rows; ++row)
+        for (int32_t column = 0; column + 1 < smooth->columns; ++column) {
+            int32_t first = row * smooth->columns + column, above = first + smooth->columns;
+            const int32_t both[6] = {first, first + 1, above + 1, first, above + 1, above};
+            for (int32_t i = 0; i < 6; ++i) *corner++ = both[i];
+        }
+    smooth->triangle_count = 2 * cells;
+cleanup:
+    return error_is_clean(err);
+}
+
 bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,
                 SmoothGrid *smooth, Error *err)
 {
@@ -128,6 +145,7 @@ bool map_smooth(const MapGrid *grid, const double *values, const Point *place, i
     for (int64_t k = 0; k < count; ++k)
         smooth->place[k] =
             (Point){work.fine_x[k % smooth->columns], -work.fine_y[k / smooth->columns]};
+    TRY(find_triangles(smooth, err));
     smooth_both(grid, values, parts, &work, smooth);
 cleanup:
     work_destroy(&work);
@@ -139,5 +157,6 @@ void smooth_destroy(SmoothGrid *smooth)
 {
     memory_free(smooth->place);
     memory_free(smooth->value);
+    memory_free(smooth->triangles);
     *smooth = (SmoothGrid){0};
 }

@@ -249,7 +249,8 @@ PlotCorner plot_corner_find(const char *name)
 
 static bool read_plot(const PlotReader *reader, Plot *plot)
 {
-    static const char known[] = "title height x y color contours legend series map panels inset page ";
+    static const char known[] =
+        "title height x y color contours legend series map panels inset page ";
     if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
         !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
         !read_height(reader, plot) || !read_scales(reader, plot) || !read_page(reader, plot))

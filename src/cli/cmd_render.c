@@ -112,11 +112,11 @@ int command_render(int argc, char **argv)
          "Draw these of force, slip-map and contact-density below each other, as panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
-#define X(name, kind, low, high, allowed, argument, meaning)                                        \
+#define X(name, kind, low, high, allowed, argument, meaning)                                       \
     {#name, 0, argument, meaning, .word = &words[PICTURE_##name]},
         PICTURE_OPTIONS(X)
 #undef X
-        {"no-title", 0, NULL, "As --title none", .flag = &no_title},
+            {"no-title", 0, NULL, "As --title none", .flag = &no_title},
         {"plot", 0, "PLOT", "Of a sweep: draw this, as in '{x: load.pressure, y: mu_M}'",
          .word = &plot},
         {"of", 0, "FIELD",
@@ -134,9 +134,9 @@ int command_render(int argc, char **argv)
     if (status == 0) status = set_style(words, no_title, &request.style);
     if (status != 0) return status;
     if ((figures.count || request.panels) && (is_plot(from) || is_sweep(from)))
-        return report_misuse("--figure and --panels have no meaning for a plot or a sweep");
-    if (figures.count && request.panels)
-        return report_misuse("--figure and --panels: one of them");
+        return report_misuse("%s has no meaning for a plot or a sweep",
+                             figures.count ? "--figure" : "--panels");
+    if (figures.count && request.panels) return report_misuse("--figure and --panels: one of them");
     if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
     if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");
     if (is_plot(from)) {

@@ -90,8 +90,7 @@ bool picture_option_set(PictureStyle *style, const char *name, const char *value
     void *place = (char *)style + option->offset;
     if (option->kind == OPTION_NUMBER) return set_number(option, value, place, err);
     if (option->kind == OPTION_WORD && !is_among(option->words, value))
-        FAIL(err, ERROR_INPUT, "%s %.40s: one of these is allowed: %s", name, value,
-             option->words);
+        FAIL(err, ERROR_INPUT, "%s %.40s: one of these is allowed: %s", name, value, option->words);
     if (option->kind == OPTION_RANGE) TRY(check_range(option, value, err));
     *(const char **)place = value;
 cleanup:

@@ -88,8 +88,12 @@ static bool write_baseline(RankingFigure *self, Error *err)
 {
     double base = self->ranking->base, x[] = {base, base}, y[] = {0.5, self->shown + 0.5};
     if (isnan(base)) return true;
-    Curve line = {
-        .label = "what gains are measured from", .line = "dashed", .color = BASELINE_COLOR, .count = 2, .x = x, .y = y};
+    Curve line = {.label = "what gains are measured from",
+                  .line = "dashed",
+                  .color = BASELINE_COLOR,
+                  .count = 2,
+                  .x = x,
+                  .y = y};
     return figure_write_curve(&self->figure, &line, err);
 }
 
