@@ -10,6 +10,7 @@
 static const double LETTER_LEFT = 1.5,
                     LETTER_DROP = 7.5;   // points: of (a), from its panel's corner
 static const double SCRATCH_DPI = 100;   // of the page that is measured
+static const double SLACK = 0.4;   // points: what the measured page is coarser
 static const char *const ENLARGES = "contact-density";   // the panel that shows another U
 
 // The frames of the panels on a page of which nothing else is wanted.
@@ -92,7 +93,8 @@ bool panels_draw(Page *page, PageDef *def, const PanelFigure *figures, int32_t c
     def->height = page_shape(def->style, panels.shapes);
     TRY(measure(def, &panels, view, beside, err));
     TRY(page_begin(page, def, err));
-    for (int32_t side = 0; side < 2; ++side) page->beside[side] = ceil(beside[side] * page->point);
+    for (int32_t side = 0; side < 2; ++side)
+        page->beside[side] = ceil((beside[side] + SLACK) * page->point);
     TRY(draw_all(page, &panels, view, frame, err));
 cleanup:
     return error_is_clean(err);

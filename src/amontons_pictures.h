@@ -13,8 +13,8 @@
 extern "C" {
 #endif
 
-// How a picture is drawn, in ONE table: the options of `amontons render`, the keys of `page` in a plot
-// file, what Python's functions take, and the members of PictureStyle.
+// How a picture is drawn, in ONE table: the options of `amontons render`, the keys of `page` in a
+// plot file, what Python's functions take, and the members of PictureStyle.
 // X(name, kind, least, most, words that are allowed, argument, meaning)
 #define PICTURE_OPTIONS(X)                                                                         \
     X(style, WORD, 0, 0, "column columns slide poster", "NAME",                                    \
@@ -75,7 +75,7 @@ typedef struct PictureRequest {
     FieldChoice field;
     const char
         *panels;   // "force,slip-map,contact-density": these below each other, as panels.png,
-        // in the place of `figures`; NULL: none
+    // in the place of `figures`; NULL: none
 } PictureRequest;
 
 // Draws figures of the result in `folder` into folder/figures/NAME.png (.pdf, .svg). NULL: all.

@@ -13,7 +13,8 @@ typedef struct Foot {
     char line[FOOT_LINES_MAX][FOOT_LINE_SIZE];   // [count]
 } Foot;
 
-// warnings: one a line; "": none. width: of the page, points. What does not fit is left to run.json, and the last line says so.
+// warnings: one a line; "": none. width: of the page, points.
+// What does not fit is left to run.json, and the last line says so.
 Foot foot_wrap(const char *warnings, double width);
 double foot_height(const Foot *foot);   // points; 0 without lines
 void foot_draw(const Page *page, const Foot *foot);

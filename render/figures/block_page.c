@@ -99,10 +99,14 @@ static double value_at(const Weighed *sorted, int64_t count, double area, double
     return sorted[k].value;
 }
 
-// range: what the style asks for, or where all but LEFT_OUT of the area lies at each end; whole:
-// where all of it does. factor: from values to the numbers shown.
+typedef struct ColorEnds {
+    double range[2];   // what the style asks for, or where all but LEFT_OUT of the area lies
+    double whole[2];   // where all of it does
+} ColorEnds;
+
+// factor: from values to the numbers shown.
 static bool find_range(const Block *blocks, int32_t count, const PictureStyle *style, double factor,
-                       double range[2], double whole[2], Error *err)
+                       ColorEnds *ends, Error *err)
 {
     int64_t total = 0, kept = 0;
     double area = 0;
@@ -119,14 +123,14 @@ static bool find_range(const Block *blocks, int32_t count, const PictureStyle *s
         }
     if (kept == 0) FAIL(err, ERROR_FILE, "the field holds no number");
     qsort(sorted, (size_t)kept, sizeof *sorted, compare_weighed);
-    whole[0] = sorted[0].value;
-    whole[1] = sorted[kept - 1].value;
+    ends->whole[0] = sorted[0].value;
+    ends->whole[1] = sorted[kept - 1].value;
     for (int32_t end = 0; end < 2; ++end) {
         bool is_part = false;
         double limit = picture_limit(style, end, &is_part);
         double part = is_part ? limit : end ? 1 - LEFT_OUT : LEFT_OUT;
-        range[end] = isfinite(limit) && !is_part ? limit / factor
-                                                 : value_at(sorted, kept, area, part);
+        ends->range[end] = isfinite(limit) && !is_part ? limit / factor
+                                                       : value_at(sorted, kept, area, part);
     }
 cleanup:
     memory_free(sorted);
@@ -136,10 +140,11 @@ cleanup:
 bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err)
 {
-    double range[2] = {0, 0}, whole[2] = {0, 0};
+    ColorEnds ends = {{0, 0}, {0, 0}};
+    const double *range = ends.range, *whole = ends.whole;
     BlockWords words = block_words(quantity);
     const PictureStyle none = {0}, *style = map->style ? map->style : &none;
-    TRY(find_range(blocks, count, &none, 1, range, whole, err));
+    TRY(find_range(blocks, count, &none, 1, &ends, err));
     Axis axis = {.low = range[0], .high = range[1], .factor = 1};
     if (map->view->si)
         axis_set_unit(&axis, words.words, words.si);
@@ -147,7 +152,7 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
         snprintf(axis.label, sizeof axis.label, "%s / %s", words.words, words.normalised);
     map->factor = axis.factor;
     map->bar = (Colorbar){.label = map->label};
-    if (style->limits) TRY(find_range(blocks, count, style, axis.factor, range, whole, err));
+    if (style->limits) TRY(find_range(blocks, count, style, axis.factor, &ends, err));
     colorbar_fit(&map->bar, (double[]){range[0] * axis.factor, range[1] * axis.factor});
     map->bar.clipped = whole[0] * axis.factor < map->bar.low;
     map->bar.clipped_above = whole[1] * axis.factor > map->bar.high;

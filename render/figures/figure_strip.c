@@ -14,8 +14,8 @@ enum { FRAMES_MAX = 6, FRAMES_MIN = 2, COLUMNS = 2, WORDS_SIZE = 160 };
 static const double SHARE = 0.55;   // of marks, letters aside
 static const double RIGHT = 58;   // points: the colour bar
 static const double LEFT = 4, GAP = 5;   // points: beside and between frames
-static const double WORDS_HEIGHT = 9;   // points above each frame
-static const double LEGEND_HEIGHT = 12;   // points below all
+static const double WORDS_HEIGHT = 12;   // points above each frame
+static const double LEGEND_HEIGHT = 12, NOTE_HEIGHT = 9;   // points below all: two lines
 static const double BOTTOM = 4;   // points
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
 
@@ -179,8 +179,7 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
     block_page_legend(page, place);
     snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
-    style.across = 1;
-    place.x = canvas_width(page->canvas) - 2 * LEFT * point;
+    place.y += NOTE_HEIGHT * point;
     text_draw(page->text, &style, place, words);
 cleanup:
     return error_is_clean(err);
@@ -196,7 +195,7 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err)
     TRY(read_strip(input, strip, quantity, err));
     lay_out(input, strip);
     int32_t rows = (strip->count + COLUMNS - 1) / COLUMNS;
-    def.height = (rows * (strip->height + WORDS_HEIGHT) + LEGEND_HEIGHT + BOTTOM) /
+    def.height = (rows * (strip->height + WORDS_HEIGHT) + LEGEND_HEIGHT + NOTE_HEIGHT + BOTTOM) /
                  page_width(def.style);
     TRY(page_begin(page, &def, err));
     TRY(draw_strip(page, input, strip, quantity, err));

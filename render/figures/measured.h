@@ -6,7 +6,7 @@
 // (a `source`, a remark):
 //
 //     U (mm), F_T/F_N, error            # the load ratio against the rod's way, for `force`;
-//     U/L, mu                           # mu is F_T/F_N; so are the columns F_T and F_N, of one unit
+//     U/L, mu                          # mu is F_T/F_N; so are the columns F_T and F_N, of one unit
 //     U (mm), x (cm), error             # how far slip has come, for `slip-map`
 //
 // `error` is what one reads or measures F_T/F_N, or x, to, in that unit.
@@ -27,9 +27,9 @@ typedef struct Measured {
     char words[MEASURED_WORDS_SIZE];   // for a legend: the file's name and the misfit
 } Measured;
 
-// What the file says of `kind`; count 0: nothing, or no file is given (path NULL). The misfit is the
-// root of the mean square of what is measured less what was computed at the same U, over the points
-// that the history covers; in parts of the errors too where all have one. series: [view->rows].
+// What the file says of `kind`; count 0: nothing, or no file is given (path NULL). The misfit is
+// the root of the mean square of what is measured less what was computed at the same U, over the
+// points that the history covers; in parts of the errors too where all have one. series: [view->rows].
 bool measured_read(const char *path, MeasuredKind kind, const ResultView *view,
                    const double *series, Measured *measured, Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine

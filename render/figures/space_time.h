@@ -5,9 +5,10 @@
 // Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
 // for many pixels while nothing happens. A column of pixels takes the fastest of the steps
 // inside it, so no event is lost; one without a step takes the step that ends behind it, as an
-// implicit step holds its end's value. A rapid event shorter than `event_columns` is so many columns
-// wide, around its middle. With `slip` a pixel shows the mean rate over its U instead: how far slip
-// went over how far the rod went, times V. A node stands for the part of its pad that is nearest.
+// implicit step holds its end's value. A rapid event shorter than `event_columns` is so many
+// columns wide, around its middle. With `slip` a pixel shows the mean rate over its U instead: how
+// far slip went over how far the rod went, times V. A node stands for the part of its pad that is
+// nearest.
 #ifndef AMONTONS_RENDER_FIGURES_SPACE_TIME_H
 #define AMONTONS_RENDER_FIGURES_SPACE_TIME_H
 

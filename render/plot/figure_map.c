@@ -327,7 +327,7 @@ static void cross_draw(const Page *page, Point at, double arm)
 // The colour inside shows; ink inside of paper is seen on any.
 static void ring_draw(const Page *page, Point at, double radius)
 {
-    Stroke stroke = {.color = PAPER, .width = fmin(3 * RING_WIDTH * page->point, radius)};
+    Stroke stroke = {.color = PAPER, .width = fmin(3 * RING_WIDTH * page->point, 0.6 * radius)};
     Point line[RING_SIDES + 1];
     for (int32_t k = 0; k <= RING_SIDES; k++) {
         double angle = 8 * atan(1) * k / RING_SIDES;

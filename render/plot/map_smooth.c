@@ -35,7 +35,8 @@ static void line_smooth(const double *x, const double *y, int32_t count, int32_t
     for (int32_t k = 0; k + 1 < count; ++k) {
         double h = x[k + 1] - x[k], slopes[2];
         for (int32_t end = 0; end < 2; ++end) slopes[end] = h * slope_at(x, y, k + end, count);
-        for (int32_t part = 0; part < parts; ++part) {
+        fine[k * parts] = y[k];   // also before a hole
+        for (int32_t part = 1; part < parts; ++part) {
             double s = (double)part / parts, rise = y[k + 1] - y[k];
             fine[k * parts + part] = y[k] + s * s * (3 - 2 * s) * rise +
                                      s * (1 - s) * ((1 - s) * slopes[0] - s * slopes[1]);

@@ -23,7 +23,7 @@
 //         line: thin                          # or solid, dashed, none
 //     inset: {place: [0.5, 0.05, 0.97, 0.5], x: ..., y: ..., series: [...]}   # of the frame
 //
-//     page: {style: columns, height: 60, legend: none}   # any option of `amontons render`; what the
+//     page: {style: columns, height: 60, legend: none}   # an option of `amontons render`; what the
 //                                             # command is given goes before it
 //
 // A map shows in colours what was found at points; those of a grid as cells, half way to their

@@ -490,7 +490,7 @@ class Sweep(unittest.TestCase):
             others = ", others" if name == "plot" else ""
             self.assertEqual([c["label"] for c in series if c["label"].startswith("open")],
                              [f"open: slip is not resolved, or strains are not small{others}"], "one symbol, one entry")
-            drawn = [v for c in series if c["marker"] == "circle" and not c["filled"] and not c["label"] for v in c[value]]
+            drawn = [v for c in series if c["line"] == "none" and not c["filled"] and not c["label"] for v in c[value]]
             self.assertEqual(sorted(v for v in drawn if v is not None),
                              sorted(float(row["mu_max"]) for row, words in zip(rows, said) if words))
 

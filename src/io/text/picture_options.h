@@ -13,7 +13,8 @@ bool picture_option_set(PictureStyle *style, const char *name, const char *value
 // What `style` leaves open is as `base` has it.
 void picture_style_complete(PictureStyle *style, const PictureStyle *base);
 
-// One end of `limits`, 0 the lower: a number, or a part (of 1) of what is shown. NAN: none is asked.
+// One end of `limits`, 0 the lower: a number, or a part (of 1) of what is shown. NAN: none is
+// asked.
 double picture_limit(const PictureStyle *style, int32_t end, bool *is_part);
 
 #endif

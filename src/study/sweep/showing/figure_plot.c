@@ -193,8 +193,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Colours and marks tell curves apart, for print in grey too. Where there are several sweeps colours
-// tell values of `series` apart, marks sweeps; without `series` colours do that, too.
+// Colours and marks tell curves apart, for print in grey too. Where there are several sweeps
+// colours tell values of `series` apart, marks sweeps; without `series` colours do that, too.
 static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const char *label)
 {
     static const char *const marker[MARKERS] = {"circle", "square", "triangle", "down"};

@@ -32,7 +32,8 @@ QuantityLabel label_of_record(const char *name)
     return label;
 }
 
-// What a key is called on an axis, with its symbol. Of a mesh's own parameters only names are known.
+// What a key is called on an axis, with its symbol. Of a mesh's own parameters only names are
+// known.
 static void key_words(const char *name, char words[QUANTITY_LABEL_SIZE], bool *is_length)
 {
     static const struct {
