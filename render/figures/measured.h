@@ -29,7 +29,8 @@ typedef struct Measured {
 
 // What the file says of `kind`; count 0: nothing, or no file is given (path NULL). The misfit is
 // the root of the mean square of what is measured less what was computed at the same U, over the
-// points that the history covers; in parts of the errors too where all have one. series: [view->rows].
+// points that the history covers; in parts of the errors too where all have one. series:
+// [view->rows].
 bool measured_read(const char *path, MeasuredKind kind, const ResultView *view,
                    const double *series, Measured *measured, Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine

@@ -47,7 +47,7 @@ static void a_plane_stays(void **state)
     smooth_destroy(&smooth);
 }
 
-// A step: through every value, and between points never beyond them; a hole spreads to its neighbours.
+// A step: through every value, and between points never beyond them; a hole spreads to the next ones.
 static void it_does_not_overshoot(void **state)
 {
     (void)state;
