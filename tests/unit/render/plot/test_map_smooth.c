@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 enum { COLUMNS = 4, ROWS = 3, PARTS = 5, FINE = (COLUMNS - 1) * PARTS + 1 };
-enum { CORNER = (ROWS - 1) * PARTS * FINE + FINE - 1 };   // the last place
+static const int64_t corner = (ROWS - 1) * PARTS * FINE + FINE - 1;   // the last place
 
 static const double column_x[COLUMNS] = {0, 1, 4, 6}, row_y[ROWS] = {0, 2, 3};
 
@@ -47,7 +47,7 @@ static void a_plane_stays(void **state)
     smooth_destroy(&smooth);
 }
 
-// A step: through every value, and between points never beyond them; a hole spreads to the next ones.
+// A step: through every value, and between points never beyond; a hole spreads to the next.
 static void it_does_not_overshoot(void **state)
 {
     (void)state;
@@ -62,7 +62,7 @@ static void it_does_not_overshoot(void **state)
         }
     for (int32_t k = 0; k < smooth.columns * smooth.rows; ++k)
         assert_true(isnan(smooth.value[k]) || (smooth.value[k] >= 0 && smooth.value[k] <= 1));
-    assert_true(isnan(smooth.value[CORNER - 1]));
+    assert_true(isnan(smooth.value[corner - 1]));
     assert_false(isnan(smooth.value[FINE - 2]));
     smooth_destroy(&smooth);
 }

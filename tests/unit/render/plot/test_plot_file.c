@@ -131,7 +131,7 @@ static void says_what_is_wrong(void **state)
         {"map: {x: [1], y: [1], value: [1, 2]}\n",
          "value: found a list of 2; allowed: a list of 1"},
         {"map: {x: none.h5:x, y: [1], value: [1]}\n", "none.h5"},
-        {"series: []\npage: {height: 1}\n", ":2:8: page: height 1: a number from 20 to 1000"},
+        {"series: []\npage: {height: 1}\n", ":2:16: page: height 1: a number from 20 to 1000"},
         {"series: []\npage: {hight: 1}\n", "a picture has no option \"hight\""},
         {"series: []\npage: wide\n", "page: found `wide`"},
         {"panels: []\n", "panels: found"},
