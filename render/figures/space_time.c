@@ -134,8 +134,17 @@ static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
     return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
 }
 
+// by_node: [nodes * columns], so that what follows goes along memory.
+static void turn_round(const SpaceTime *data, const PixelGrid *grid, const float *by_column,
+                       float *by_node)
+{
+    for (int64_t column = 0; column < grid->columns; ++column)
+        for (int64_t i = 0; i < data->nodes; ++i)
+            by_node[i * grid->columns + column] = by_column[column * data->nodes + i];
+}
+
 // Row 0 is at the top, x_high. Several nodes in a pixel: the largest of them; none: NaN.
-static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_column)
+static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_node)
 {
     double pixel = (grid->x_high - grid->x_low) / grid->rows;
     for (int32_t row = 0; row < grid->rows; ++row) {
@@ -145,7 +154,7 @@ static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_co
         for (int32_t i = 0; i < data->nodes; ++i) {
             if (!node_is_at(data, i, x, pixel)) continue;
             for (int32_t column = 0; column < grid->columns; ++column)
-                line[column] = larger(line[column], by_column[(int64_t)column * data->nodes + i]);
+                line[column] = larger(line[column], by_node[(int64_t)i * grid->columns + column]);
         }
     }
 }
@@ -153,9 +162,10 @@ static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_co
 // grid->values: [rows * columns], made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
-    float *by_column = NULL;
+    float *by_column = NULL, *by_node = NULL;
     int64_t *next = NULL;
     TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
+    TRY(by_node = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
     TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->rows * grid->columns, err));
     if (data->slip) {
@@ -164,9 +174,11 @@ bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
         columns_gather(data, grid, by_column, next);
         columns_hold(data, grid, next, by_column);
     }
-    rows_fill(data, grid, by_column);
+    turn_round(data, grid, by_column, by_node);
+    rows_fill(data, grid, by_node);
 cleanup:
     memory_free(by_column);
+    memory_free(by_node);
     memory_free(next);
     return error_is_clean(err);
 }

@@ -213,7 +213,7 @@ static void memory_can_be_short(void **state)
     (void)state;
     SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     int64_t live = memory_counters().live;
-    for (int64_t k = 0; k < 3; ++k) {
+    for (int64_t k = 0; k < 4; ++k) {
         Error err = {0};
         PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, 1, NULL};
         memory_fail_after(k);
