@@ -5,6 +5,7 @@
 #include "io/files/folder.h"
 #include "render/canvas/foot.h"
 #include "render/figures/figures.h"
+#include "render/panels.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -14,6 +15,8 @@
 #include <unistd.h>
 
 enum { NAMES_SIZE = 200 };
+
+static const double FORCE_PLAIN = 0.62;   // of force without an inset: height over width
 
 typedef enum FigureId {
 #define X(symbol, name, title) symbol,
@@ -39,7 +42,7 @@ static Figure figure_get(FigureId id)
     Figure figure = {.name = name_title[id][0], .title = name_title[id][1]};
     switch (id) {
     case FIGURE_FORCE:
-        figure.height_over_width = 0.80;
+        figure.height_over_width = 0.85;
         figure.draw = figure_force;
         break;
     case FIGURE_SLIP_MAP:
@@ -61,6 +64,13 @@ static Figure figure_get(FigureId id)
     return figure;
 }
 
+// Height over width on a column.
+static double figure_shape(const Figure *figure, const ResultView *view, const PictureStyle *style)
+{
+    bool plain = figure->draw == figure_force && !figure_force_enlarges(view, style);
+    return plain ? FORCE_PLAIN : figure->height_over_width;
+}
+
 // The figure called `name`, or ERROR_INPUT with the names there are.
 static bool figure_find(const char *name, Figure *figure, Error *err)
 {
@@ -76,16 +86,36 @@ cleanup:
     return false;
 }
 
-// "field", or "field-stress_xx" where that was asked for.
+// "field", or "field-stress_xx" where that was asked for; of panels `figure` is NULL.
 static bool figure_path(const char *folder, const PictureRequest *request, const Figure *figure,
                         char path[PATH_MAX], Error *err)
 {
-    const char *of = figure->draw_whole ? request->field.of : NULL;
-    int length = snprintf(
-        path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure->name, of ? "-" : "", of ? of : "",
-        request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
+    const char *of = figure && figure->draw_whole ? request->field.of : NULL;
+    int length =
+        snprintf(path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
+                 of ? "-" : "", of ? of : "",
+                 request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
     if (length < 0 || length >= PATH_MAX)
         FAIL(err, ERROR_INPUT, "the result folder's path is too long");
+cleanup:
+    return error_is_clean(err);
+}
+
+// The figures that `panels` names, separated by commas.
+static bool panels_find(const char *names, PanelFigure list[PANELS_MAX], int32_t *count, Error *err)
+{
+    char name[32];
+    Figure figure;
+    *count = 0;
+    for (const char *at = names; *at; at += strcspn(at, ","), at += *at == ',') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
+        TRY(figure_find(name, &figure, err));
+        if (!figure.draw)
+            FAIL(err, ERROR_INPUT, "panels are figures of the history: %s cannot be one", name);
+        if (*count == PANELS_MAX) FAIL(err, ERROR_INPUT, "a page takes %d panels", PANELS_MAX);
+        list[(*count)++] = (PanelFigure){figure.name, figure.height_over_width, figure.draw};
+    }
+    if (*count == 0) FAIL(err, ERROR_INPUT, "no panel is named");
 cleanup:
     return error_is_clean(err);
 }
@@ -94,21 +124,33 @@ cleanup:
 static bool draw(const char *folder, const PictureRequest *request, const Figure *figure,
                  ResultView *view, Page *page, Error *err)
 {
-    Foot foot = foot_wrap(view->warnings);
-    PageDef def = {.style = &request->style,
-                   .height = figure->height_over_width,
-                   .title = view->title,
-                   .foot = foot_height(&foot)};
-    FigureInput input = {.view = view, .folder = folder, .field = &request->field, .def = def};
-    if (figure->draw_whole) {
+    const PictureStyle *style = &request->style;
+    bool warns = !style->warnings || strcmp(style->warnings, "none") != 0;
+    Foot foot = foot_wrap(warns ? view->warnings : "", page_width(style));
+    PageDef def = {
+        .style = style, .title = page_title(style, view->title, false), .foot = foot_height(&foot)};
+    FigureInput input = {.view = view, .folder = folder, .field = &request->field};
+    PanelFigure panels[PANELS_MAX];
+    Figure known;
+    int32_t count = 0;
+    if (!figure) {
+        TRY(panels_find(request->panels, panels, &count, err));
+        for (int32_t k = 0; k < count; ++k) {
+            TRY(figure_find(panels[k].name, &known, err));
+            panels[k].shape = figure_shape(&known, view, style);
+        }
+        TRY(panels_draw(page, &def, panels, count, view, err));
+    } else if (figure->draw_whole) {
+        input.def = def;
         TRY(figure->draw_whole(page, &input, err));
     } else {
+        def.height = page_shape(style, figure_shape(figure, view, style));
         TRY(page_begin(page, &def, err));
         TRY(figure->draw(page, view, err));
     }
     foot_draw(page, &foot);
 cleanup:
-    error_context(err, "figure %s", figure->name);
+    error_context(err, "figure %s", figure ? figure->name : "panels");
     return error_is_clean(err);
 }
 
@@ -120,7 +162,7 @@ static bool figure_make(const char *folder, const PictureRequest *request, const
     char path[PATH_MAX];
     TRY(figure_path(folder, request, figure, path, err));
     TRY(draw(folder, request, figure, view, &page, err));
-    TRY(page_finish(&page, path, figure->title, err));
+    TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
 cleanup:
     page_destroy(&page);
     return error_is_clean(err);
@@ -152,6 +194,9 @@ static bool request_check(const char *folder, const PictureRequest *request, Err
     Figure figure;
     for (int32_t k = 0; k < request->figure_count; ++k)
         TRY(figure_find(request->figures[k], &figure, err));
+    PanelFigure panels[PANELS_MAX];
+    int32_t count = 0;
+    if (request->panels) TRY(panels_find(request->panels, panels, &count, err));
     if (stat(folder, &about) != 0)
         FAIL(err, ERROR_INPUT, "cannot find the result folder %s: %s", folder, strerror(errno));
     if (!S_ISDIR(about.st_mode)) FAIL(err, ERROR_INPUT, "%s is not a folder", folder);
@@ -176,6 +221,10 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     TRY(request_check(folder, request, err));
     TRY(result_view_open(folder, &view, err));
     TRY(make_figures_folder(folder, err));
+    if (request->panels) {
+        TRY(figure_make(folder, request, NULL, &view, err));
+        count = 0;
+    }
     for (int32_t k = 0; k < count; ++k) {
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));

@@ -228,18 +228,28 @@ def fit(study: Any, settings: Settings | None = None, folder: Any = None, *, job
 
 
 def _picture_style(style: dict[str, Any]) -> Any:
-    given = {**style, "format": c_text(style.get("format", "png"))}
-    return c.PictureStyle(**given)
+    """Numbers and words go through the library's own table, as the command's do."""
+    given, plain = c.PictureStyle(format=c_text(style.get("format", "png"))), {"dark", "overwrite", "format"}
+    given.words = [(c_text(name.rstrip("_")), c_text(value)) for name, value in style.items() if name not in plain and value is not None]
+    for name in plain & set(style) - {"format"}:
+        setattr(given, name, style[name])
+    for name, value in given.words:
+        call(lib.amontons_picture_option, ctypes.byref(given), name, value)
+    return given
 
 
 def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: str | None = None, edges: bool = False,
-           **style: Any) -> list[Path]:
-    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. of, at, edges: what "field"
-    shows ("stress_xz"), when ("U=0.0117"), and whether with the elements' edges. style: format ("png", "pdf", "svg"), width
-    (mm), dpi, dark, overwrite (also files that amontons did not write). The files, in the folder figures/ of the result."""
+           panels: Sequence[str] = (), **style: Any) -> list[Path]:
+    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. panels: those
+    to stand below each other in one, panels.png, in the place of figures. of, at, edges: what "field"
+    shows ("stress_xz"), when ("U=0.0117"), and whether with the elements' edges. style: format ("png", "pdf", "svg"), dark,
+    overwrite (also files that amontons did not write), and each option of `amontons render --help` by its name: style="columns",
+    width (mm), height, dpi, title, legend, limits="1%,99%", from_="U=0.01", ... The files, in the folder figures/ of the result."""
     folder = result.folder if isinstance(result, Result) else Path(result)
-    request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=_picture_style(style),
-                               field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges))
+    given = _picture_style(style)
+    request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=given,
+                               field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges),
+                               panels=c_text(",".join(panels)) if panels else None)
     call(lib.amontons_render_result, c_text(folder), ctypes.byref(request))
     return sorted((folder / "figures").glob(f"*.{style.get('format', 'png')}"))
 

@@ -129,6 +129,7 @@ double axes_left_margin(const Page *page, const Axes *axes)
 double axes_bottom_margin(const Axes *axes)
 {
     double name = axes->x.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP : 0;
+    if (axes->bare_x) return TICK_LENGTH;
     return TICK_LENGTH + NUMBER_GAP + axes->number_size * text_digit_height() + name;
 }
 

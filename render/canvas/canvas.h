@@ -67,6 +67,10 @@ void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t co
 // corner; between the corners values are linear. Below 0 is drawn as 0.
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count);
 
+// Fills `box` with the colour of one value; in a PDF or SVG a shape, not an image.
+void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
+bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
+
 // Fills `box` with an image, pixel by pixel.
 void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image);
 

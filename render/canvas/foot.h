@@ -6,15 +6,16 @@
 
 #include "render/canvas/page.h"
 
-enum { FOOT_LINES_MAX = 6, FOOT_LINE_SIZE = 96 };
+enum { FOOT_LINES_MAX = 6, FOOT_LINE_SIZE = 160 };
 
 typedef struct Foot {
     int32_t count;
     char line[FOOT_LINES_MAX][FOOT_LINE_SIZE];   // [count]
 } Foot;
 
-// warnings: one a line; "": none. What does not fit is left to run.json, and the last line says so.
-Foot foot_wrap(const char *warnings);
+// warnings: one a line; "": none. width: of the page, points.
+// What does not fit is left to run.json, and the last line says so.
+Foot foot_wrap(const char *warnings, double width);
 double foot_height(const Foot *foot);   // points; 0 without lines
 void foot_draw(const Page *page, const Foot *foot);
 

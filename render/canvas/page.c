@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double WIDTH_DEFAULT = 86;   // mm: a journal's column
-static const double DPI_DEFAULT = 508;   // 20 pixels a millimetre
+static const double FULL_WIDTH = 100;   // mm: of a figure that has its full shape
 static const double INCH = 25.4;   // mm
 static const double POINTS_AN_INCH = 72;
 static const double TITLE_HEIGHT = 14;   // points kept above the figure
@@ -36,14 +35,55 @@ cleanup:
     return error_is_clean(err);
 }
 
-static double width_in_mm(const PictureStyle *style)
+// What a picture is for: its width, how much larger letters and lines are, dots.
+typedef struct Purpose {
+    const char *name;
+    double width, scale, dpi;   // mm, 1, dots per inch
+} Purpose;
+
+static Purpose find_purpose(const PictureStyle *style)
 {
-    return style->width > 0 ? style->width : WIDTH_DEFAULT;
+    static const Purpose purposes[] = {{"column", 86, 1, 600},   // the first: by default
+                                       {"columns", 178, 1, 600},
+                                       {"slide", 254, 2, 200},
+                                       {"poster", 400, 3, 300}};
+    Purpose found = purposes[0];
+    for (size_t k = 0; style->style && k < sizeof purposes / sizeof *purposes; ++k)
+        if (strcmp(purposes[k].name, style->style) == 0) found = purposes[k];
+    if (style->width > 0) found.width = style->width;
+    if (style->dpi > 0) found.dpi = style->dpi;
+    return found;
 }
 
 double page_width(const PictureStyle *style)
 {
-    return width_in_mm(style) / INCH * POINTS_AN_INCH;
+    Purpose purpose = find_purpose(style);
+    return purpose.width / purpose.scale / INCH * POINTS_AN_INCH;
+}
+
+double page_height(const PictureStyle *style)
+{
+    return style->height / find_purpose(style).scale / INCH * POINTS_AN_INCH;
+}
+
+double page_shape(const PictureStyle *style, double shape)
+{
+    Purpose purpose = find_purpose(style);
+    return shape * fmin(1, sqrt(FULL_WIDTH / (purpose.width / purpose.scale)));
+}
+
+const char *page_title(const PictureStyle *style, const char *own, bool by_default)
+{
+    if (!style->title) return by_default && own ? own : "";
+    if (strcmp(style->title, "none") == 0) return "";
+    return strcmp(style->title, "scene") == 0 && own ? own : style->title;
+}
+
+void page_place_frame(const Page *page, Box *frame)
+{
+    frame->left = fmax(frame->left, page->room.left + page->beside[0]);
+    frame->right = fmin(frame->right, page->room.right - page->beside[1]);
+    if (page->frame) *page->frame = *frame;
 }
 
 // A long one gets smaller, and ends in dots where that is not enough.
@@ -59,33 +99,37 @@ static void title_draw(const Page *page, const char *title)
     while (length > 1 && text_width(page->text, style.size, words) > room)
         snprintf(words + --length, 4, "\u2026");   // bytes of a letter cut in two become a mark
     text_draw(page->text, &style,
-              (Point){TITLE_LEFT * page->point, page->head - TITLE_DROP * page->point}, words);
+              (Point){TITLE_LEFT * page->point, page->room.top - TITLE_DROP * page->point}, words);
 }
 
+// The height that is asked is that of all: the figure has what title and foot leave.
 bool page_begin(Page *page, const PageDef *page_def, Error *err)
 {
     const PictureStyle *style = page_def->style;
     const char *title = page_def->title;
-    CanvasDef def = {.dpi = style->dpi > 0 ? style->dpi : DPI_DEFAULT, .dark = style->dark};
-    double width = width_in_mm(style) / INCH * def.dpi;
-    *page = (Page){.point = def.dpi / POINTS_AN_INCH, .overwrite = style->overwrite};
-    page->foot = round(page_def->foot * page->point);
-    page->head = title && title[0] ? round(TITLE_HEIGHT * page->point) : 0;
+    Purpose purpose = find_purpose(style);
+    CanvasDef def = {.dpi = purpose.dpi, .dark = style->dark};
+    double width = purpose.width / INCH * def.dpi;
+    *page = (Page){.point = purpose.scale * def.dpi / POINTS_AN_INCH, .style = *style};
+    double foot = round(page_def->foot * page->point);
+    double head = title && title[0] ? round(TITLE_HEIGHT * page->point) : 0;
+    double height = round(fmin(width * page_def->height, INT32_MAX / 2)) + head + foot;
+    if (style->height > 0) height = round(style->height / INCH * def.dpi);
     if (style->format && !find_format(style->format, &def.format))
         FAIL(err, ERROR_INPUT, "there is no format \"%s\"; known are png, pdf, svg", style->format);
     def.width = (int32_t)lround(fmin(width, INT32_MAX));
-    def.height = (int32_t)(lround(fmin(width * page_def->height, INT32_MAX / 2)) +
-                           lround(page->head + page->foot));
+    def.height = (int32_t)fmin(height, INT32_MAX);
+    page->room = (Box){0, head, def.width, def.height - foot};
     TRY(page->canvas = canvas_create(&def, err));
     TRY(page->text = text_create(page->canvas, err));
-    if (title && title[0]) title_draw(page, title);
+    if (head > 0) title_draw(page, title);
 cleanup:
     return error_is_clean(err);
 }
 
 bool page_finish(Page *page, const char *path, const char *title, Error *err)
 {
-    return canvas_write(page->canvas, path, title, page->overwrite, err);
+    return canvas_write(page->canvas, path, title, page->style.overwrite, err);
 }
 
 void page_destroy(Page *page)

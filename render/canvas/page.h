@@ -12,9 +12,14 @@
 typedef struct Page {
     Canvas *canvas;   // owned
     Text *text;   // owned
-    double point;   // pixels in a printed point
-    double head, foot;   // pixels kept free above and below the figure, whole numbers
-    bool overwrite;   // as its style has it
+    double point;   // pixels in a printed point, times what the style enlarges all by
+    Box room;   // what the figure may fill, pixels: not title and foot, and of panels one
+    double beside
+        [2];   // pixels left and right of the frame at least: panels with frames below each other
+    Box *frame;   // where the frame came to lie; not owned; NULL: nobody asks
+    bool bare_x;   // numbers of U stand below the next panel
+    const char *zoom_name;   // of what contact-density enlarges, on this page; NULL: it is not here
+    PictureStyle style;   // as asked; its texts borrowed
 } Page;
 
 typedef struct PageDef {
@@ -24,8 +29,19 @@ typedef struct PageDef {
     double foot;   // points below the figure
 } PageDef;
 
-// Points in the width of a page of this style.
+// Points in the width of a page of this style; also its height, where that is asked, else 0.
 double page_width(const PictureStyle *style);
+double page_height(const PictureStyle *style);
+
+// Of a figure that may have any shape: `shape`, its height over its width, on a column; of a wider
+// page less, as nobody has a curve twice as high because it is twice as wide.
+double page_shape(const PictureStyle *style, double shape);
+
+// The words above a figure whose own title this is: what the style asks for; "": none.
+const char *page_title(const PictureStyle *style, const char *own, bool by_default);
+
+// Tells whoever asks where the frame lies, with the margins that it must have at least.
+void page_place_frame(const Page *page, Box *frame);
 
 // A page that is empty but for its title. ERROR_INPUT: a format there is none of, or a size beyond
 // what canvas allows.
@@ -38,9 +54,9 @@ void page_destroy(Page *page);   // zeroed is fine
 // The style with the format that the file's name ends in; ERROR_INPUT: in none.
 bool page_style_of_name(const char *path, PictureStyle *style, Error *err);
 
-static const double LABEL_SIZE = 7.5;   // points: names of axes
-static const double NUMBER_SIZE = 6.8;   // points: numbers at ticks
-static const double SMALL_SIZE = 6.0;   // points: inside an inset
+static const double LABEL_SIZE = 8;   // points: names of axes
+static const double NUMBER_SIZE = 7.2;   // points: numbers at ticks
+static const double SMALL_SIZE = 7;   // points: inside an inset, notes
 static const double FRAME_WIDTH = 0.5;   // points: frames and ticks
 static const double CURVE_WIDTH = 0.8;   // points: data
 

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double FOLDED = 0.2;   // of an element's area at a corner that must be left when drawn
 static const double SHOWN = 0.05;   // largest drawn deformation over the block's larger extent
 
 BlockWords block_words(BlockQuantity quantity)
@@ -210,10 +211,11 @@ static double mean_along_x(const FieldFrame *frame)
     return sum / frame->node_count;
 }
 
-double block_magnification(const Block *block)
+// By how far the block moves: SHOWN of its extent.
+static double wanted_magnification(const Block *block)
 {
-    static const double handy[] = {5, 2, 1};
     const FieldFrame *frame = &block->frame;
+    static const double handy[] = {5, 2, 1};
     double mean = mean_along_x(frame), moved = 0, low[2] = {INFINITY, INFINITY};
     double high[2] = {-INFINITY, -INFINITY};
     for (int64_t i = 0; i < frame->node_count; ++i) {
@@ -230,6 +232,50 @@ double block_magnification(const Block *block)
     for (int32_t k = 0; k < 3; ++k)
         if (handy[k] * power <= most) return handy[k] * power;
     return power;
+}
+
+// Twice the signed area of the triangle at corner k of an element with `corners`, deformed.
+static double corner_area(const FieldFrame *frame, const int32_t *nodes, int32_t corners, int32_t k,
+                          double magnification)
+{
+    double place[3][2];
+    for (int32_t a = 0; a < 3; ++a) {
+        int64_t node = nodes[(k + a) % corners];
+        for (int32_t d = 0; d < 2; ++d)
+            place[a][d] = frame->position[3 * node + d] +
+                          magnification * frame->displacement[3 * node + d];
+    }
+    return (place[1][0] - place[0][0]) * (place[2][1] - place[0][1]) -
+           (place[1][1] - place[0][1]) * (place[2][0] - place[0][0]);
+}
+
+// Whether an element drawn so would be thinner than FOLDED of what it is at a corner, or folded.
+static bool deformation_folds(const FieldFrame *frame, double magnification)
+{
+    for (int32_t e = 0; e < frame->element_count; ++e) {
+        const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+        int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
+        for (int32_t k = 0; k < corners; ++k) {
+            double before = corner_area(frame, nodes, corners, k, 0);
+            double after = corner_area(frame, nodes, corners, k, magnification);
+            if (!(after * before > FOLDED * before * before)) return true;
+        }
+    }
+    return false;
+}
+
+// The next smaller one of 1, 2, 5, 10, ...
+static double next_smaller(double magnification)
+{
+    double power = pow(10, floor(log10(magnification) + 0.1));
+    return round(magnification / power) >= 5 ? 2 * power : magnification / 2;
+}
+
+double block_magnification(const Block *block)
+{
+    double wanted = wanted_magnification(block);
+    while (wanted > 1 && deformation_folds(&block->frame, wanted)) wanted = next_smaller(wanted);
+    return wanted;
 }
 
 void block_deform(Block *block, double magnification)

@@ -2,6 +2,7 @@
 #include "render/figures/block_page.h"
 
 #include "base/memory.h"
+#include "io/text/picture_options.h"
 #include "render/figures/rod_mark.h"
 
 #include <math.h>
@@ -11,12 +12,13 @@
 enum { ARROWS = 9, STATUSES = 4 };
 
 static const double ROOM_LEFT = 15, ROOM_RIGHT = 5;   // points: rod and its arrow; paper
-static const double ROOM_ABOVE = 13, ROOM_BELOW = 10;   // points: load; contact
-static const double CONTACT_GAP = 2.5,
-                    CONTACT_HEIGHT = 4;   // points: block to the band, its height
+static const double ROOM_ABOVE = 13, ROOM_BELOW = 7;   // points: load; contact
+static const double CONTACT_GAP = 0.6,
+                    CONTACT_HEIGHT = 4;   // points: the floor's line to the band, its height
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
 static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
-static const double LEFT_OUT = 0.005;   // of the nodes at each end of the range
+static const double LEFT_OUT = 0.01;   // of the area at each end of the range: a corner of the rod
+static const double FACE_SLACK = 1e-3;   // of the rod's width: nodes of the face it pushes
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
 static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
@@ -61,30 +63,75 @@ void block_page_ranges(const double extent[4], double scale, double share, Axes 
 
 // --- range of the colours ------------------------------------------------------------------------
 
-static int compare_numbers(const void *left, const void *right)
+typedef struct Weighed {
+    double value, area;
+} Weighed;
+
+static int compare_weighed(const void *left, const void *right)
 {
-    double a = *(const double *)left, b = *(const double *)right;
+    double a = ((const Weighed *)left)->value, b = ((const Weighed *)right)->value;
     return a < b ? -1 : a > b;
 }
 
-// range: where all but LEFT_OUT of the values lie at each end; whole: where all of them do.
-static bool find_range(const Block *blocks, int32_t count, double range[2], double whole[2],
-                       Error *err)
+// Adds to each node's area its share of the elements around it, by their corners.
+static void add_areas(const FieldFrame *frame, Weighed *nodes)
+{
+    for (int32_t e = 0; e < frame->element_count; ++e) {
+        const int32_t *own = frame->element_nodes + frame->first_node[e];
+        int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
+        int32_t count = frame->first_node[e + 1] - frame->first_node[e];
+        double area = 0;
+        for (int32_t k = 0; k < corners; ++k) {
+            const double *a = frame->position + 3 * own[k];
+            const double *b = frame->position + 3 * own[(k + 1) % corners];
+            area += (a[0] * b[1] - b[0] * a[1]) / 2;
+        }
+        for (int32_t k = 0; k < count; ++k) nodes[own[k]].area += fabs(area) / count;
+    }
+}
+
+// The value below which `part` of the area lies. sorted: [count], area of them all.
+static double value_at(const Weighed *sorted, int64_t count, double area, double part)
+{
+    double below = 0;
+    int64_t k = 0;
+    while (k + 1 < count && (below += sorted[k].area) < part * area) ++k;
+    return sorted[k].value;
+}
+
+typedef struct ColorEnds {
+    double range[2];   // what the style asks for, or where all but LEFT_OUT of the area lies
+    double whole[2];   // where all of it does
+} ColorEnds;
+
+// factor: from values to the numbers shown.
+static bool find_range(const Block *blocks, int32_t count, const PictureStyle *style, double factor,
+                       ColorEnds *ends, Error *err)
 {
     int64_t total = 0, kept = 0;
-    double *sorted = NULL;
+    double area = 0;
+    Weighed *sorted = NULL;
     for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
-    TRY(sorted = NEW_ARRAY(double, total, err));
-    for (int32_t k = 0; k < count; ++k)
-        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
-            if (isfinite(blocks[k].value[i])) sorted[kept++] = blocks[k].value[i];
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
-    int64_t out = (int64_t)(LEFT_OUT * (double)kept);
+    TRY(sorted = NEW_ARRAY(Weighed, total, err));
+    for (int64_t k = 0, start = 0; k < count; start += blocks[k++].frame.node_count)
+        add_areas(&blocks[k].frame, sorted + start);
+    for (int64_t k = 0, from = 0; k < count; ++k)
+        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i, ++from) {
+            if (!isfinite(blocks[k].value[i])) continue;
+            sorted[kept++] = (Weighed){blocks[k].value[i], sorted[from].area};
+            area += sorted[kept - 1].area;
+        }
     if (kept == 0) FAIL(err, ERROR_FILE, "the field holds no number");
-    whole[0] = sorted[0];
-    whole[1] = sorted[kept - 1];
-    range[0] = sorted[out];
-    range[1] = sorted[kept - 1 - out];
+    qsort(sorted, (size_t)kept, sizeof *sorted, compare_weighed);
+    ends->whole[0] = sorted[0].value;
+    ends->whole[1] = sorted[kept - 1].value;
+    for (int32_t end = 0; end < 2; ++end) {
+        bool is_part = false;
+        double limit = picture_limit(style, end, &is_part);
+        double part = is_part ? limit : end ? 1 - LEFT_OUT : LEFT_OUT;
+        ends->range[end] = isfinite(limit) && !is_part ? limit / factor
+                                                       : value_at(sorted, kept, area, part);
+    }
 cleanup:
     memory_free(sorted);
     return error_is_clean(err);
@@ -93,9 +140,11 @@ cleanup:
 bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err)
 {
-    double range[2] = {0, 0}, whole[2] = {0, 0};
+    ColorEnds ends = {{0, 0}, {0, 0}};
+    const double *range = ends.range, *whole = ends.whole;
     BlockWords words = block_words(quantity);
-    TRY(find_range(blocks, count, range, whole, err));
+    const PictureStyle none = {0}, *style = map->style ? map->style : &none;
+    TRY(find_range(blocks, count, &none, 1, &ends, err));
     Axis axis = {.low = range[0], .high = range[1], .factor = 1};
     if (map->view->si)
         axis_set_unit(&axis, words.words, words.si);
@@ -103,6 +152,7 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
         snprintf(axis.label, sizeof axis.label, "%s / %s", words.words, words.normalised);
     map->factor = axis.factor;
     map->bar = (Colorbar){.label = map->label};
+    if (style->limits) TRY(find_range(blocks, count, style, axis.factor, &ends, err));
     colorbar_fit(&map->bar, (double[]){range[0] * axis.factor, range[1] * axis.factor});
     map->bar.clipped = whole[0] * axis.factor < map->bar.low;
     map->bar.clipped_above = whole[1] * axis.factor > map->bar.high;
@@ -174,15 +224,27 @@ static void draw_load(const Page *page, const BlockPage *map, const Block *block
     }
 }
 
-// The face that the rod pushes is where x was least, at the strip's height.
-static double rod_face(const Block *block, double low, double high)
+// Where the rod's strip of the face is drawn: its nodes were those of least x at their height. The
+// mark stands before all that is drawn at these heights, also of a soft layer that bulges.
+static RodMark rod_find(const Block *block, double low, double high, double share)
 {
     const FieldFrame *frame = &block->frame;
+    RodMark rod = {INFINITY, INFINITY, -INFINITY, share};
     double face = INFINITY;
     for (int32_t i = 0; i < frame->node_count; ++i)
         if (frame->position[3 * i + 1] >= low && frame->position[3 * i + 1] <= high)
-            face = fmin(face, block->place[i][0]);
-    return face;
+            face = fmin(face, frame->position[3 * i]);
+    for (int32_t i = 0; i < frame->node_count; ++i) {
+        const double *was = frame->position + 3 * i;
+        if (was[0] > face + FACE_SLACK * (high - low) || !(was[1] >= low && was[1] <= high))
+            continue;
+        rod.low = fmin(rod.low, block->place[i][1]);
+        rod.high = fmax(rod.high, block->place[i][1]);
+    }
+    for (int32_t i = 0; i < frame->node_count; ++i)
+        if (block->place[i][1] >= rod.low && block->place[i][1] <= rod.high)
+            rod.face = fmin(rod.face, block->place[i][0]);
+    return rod;
 }
 
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
@@ -200,10 +262,9 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     TRY(block_outline_draw(page, block, axes, &outline, err));
     block_page_contact(page, map, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
-    left.y = right.y += CONTACT_GAP * unit;
     draw_segment(page->canvas, &ground, left, right);
     draw_load(page, map, block, axes);
-    RodMark rod = {rod_face(block, low, high), low, high, map->share};
+    RodMark rod = rod_find(block, low, high, map->share);
     rod_mark_draw(page, axes, &rod);
 cleanup:
     return error_is_clean(err);

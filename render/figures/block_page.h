@@ -11,6 +11,7 @@ typedef struct BlockPage {
     const ResultView *view;   // its statuses have been read
     bool edges;   // of elements are drawn
     double share;   // of the sizes of marks: 1, or less on a small picture
+    const PictureStyle *style;   // whose limits the colours have; NULL: those that fit
     Colorbar bar;   // block_page_fit sets it, and what follows
     char label[AXIS_LABEL_SIZE];   // of the bar
     double factor;   // the bar's numbers are the block's values times this

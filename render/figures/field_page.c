@@ -53,7 +53,7 @@ bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *
     snprintf(axes.y.label, sizeof axes.y.label, "~{z}%.80s", axes.x.label + 4);   // behind "~{x}"
     block_page_ranges(field->extent, field->scale, 1, &axes);
     axes.box.left = round(LEFT * point);
-    axes.box.top = page->head + round(WORDS_HEIGHT * point);
+    axes.box.top = page->room.top + round(WORDS_HEIGHT * point);
     axes.box.right = axes.box.left + round(field->width * point);
     axes.box.bottom = axes.box.top + round(field->height * point);
     color_map_fill(colors);

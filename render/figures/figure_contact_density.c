@@ -4,6 +4,7 @@
 // is 0 for another reason, which has its own colour.
 #include "render/figures/figures.h"
 
+#include "render/canvas/key.h"
 #include "render/figures/map_page.h"
 #include "render/figures/zoom.h"
 
@@ -12,8 +13,6 @@
 enum { RANGES = 5 };
 
 static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
-static const double NAME_GAP = 2.5;   // points: frame to the line above it
-static const double NAME_ABOVE = 9.5;   // points above the frame that it takes
 static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
 
 typedef struct Precursors {
@@ -60,16 +59,16 @@ static void grid_to_levels(PixelGrid *grid, double critical, double low)
     }
 }
 
-// In the blue of the slip map's bar.
-static void name_draw(const Page *page, const Axes *axes)
+static void key_of_map(Page *page, const ResultView *view)
 {
-    TextStyle style = {.size = SMALL_SIZE * page->point, .color = ZOOM_DENSITY, .across = 1};
-    Point place = {axes->box.right, axes->box.top - NAME_GAP * page->point};
-    text_draw(page->text, &style, place, "what is marked blue in slip-map");
+    const KeyEntry entries[2] = {{KEY_LINE, INK, "front of slip"},
+                                 {KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"}};
+    key_draw(page, entries, view->pad[view->nodes - 1] > 0 ? 2 : 1);
 }
 
-bool figure_contact_density(const Page *page, ResultView *view, Error *err)
+bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
 {
+    Page page = *whole;
     double critical = view->number[NUMBER_CRITICAL_VELOCITY];
     Zoom zoom = zoom_choose(view);
     MapPage map = {.bar = {.high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
@@ -88,17 +87,14 @@ bool figure_contact_density(const Page *page, ResultView *view, Error *err)
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = OPEN;
-    if (zoom.found) map.above = NAME_ABOVE;
-    map_page_layout(page, view, zoom.U_low, zoom.U_high, &map);
+    key_of_map(&page, view);
+    map_page_layout(&page, view, zoom.U_low, zoom.U_high, &map);
     TRY(map_page_fill(view, view->status, &map, err));
     grid_to_levels(&map.grid, critical, map.bar.low);
-    map_page_draw_field(page, view, &map);
-    TRY(map_page_draw_front(page, view, &map, err));
-    if (zoom.found) {
-        map.axes.color = ZOOM_DENSITY;
-        name_draw(page, &map.axes);
-    }
-    map_page_draw_frame(page, view, &map);
+    map_page_draw_field(&page, view, &map);
+    TRY(map_page_draw_front(&page, view, &map, err));
+    if (zoom.found && page.zoom_name) map.axes.color = ZOOM_DENSITY;
+    map_page_draw_frame(&page, view, &map);
 cleanup:
     map_page_destroy(&map);
     return error_is_clean(err);

@@ -1,29 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Figure 1(b): F_T/F_N against U with mu_S, mu_M and mu_K, its peaks, and above the curve an inset
-// that enlarges the last precursors before a sliding.
+// Figure 1(b): F_T/F_N against U with mu_S, mu_M and mu_K, its peaks, and above it a frame of its
+// own that enlarges the last precursors before a sliding.
 #include "render/figures/figures.h"
 
 #include "base/memory.h"
+#include "render/canvas/key.h"
+#include "render/figures/measured.h"
+#include "render/figures/window.h"
 #include "render/figures/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+#define NAME "~{F}_{T} / ~{F}_{N}"
 
 enum { LEVELS_MAX = 3, LEVEL_NAME_SIZE = 40 };
 
-static const double DATA_SHARE = 0.54;   // of the frame's height, where an inset is above it
 static const double HEADROOM = 1.06;   // frame's top over the largest value
-static const double INSET_TOP = 0.035;   // of the frame's height: its distance from the top
-static const double INSET_HEIGHT = 0.285;   // of the frame's height
-static const double INSET_WIDTH = 0.72;   // of the frame's width
-static const double INSET_RIGHT = 0.03;   // of the frame's width: its distance from the right
-static const double LEVEL_MARGIN = 15;   // points: names of the levels, right of the frame
-static const double AWAY_MARGIN = 26;   // points: the same, where one is beyond the frame
+static const double INSET_SHARE = 0.3;   // of the figure's height
+static const double INSET_GAP = 5;   // points between its numbers and the frame below
+static const double LEADER = 5;   // points: from a line's end to a name that had to move
+static const double LEVEL_MARGIN = 19;   // points: names of the levels, right of the frame
+static const double AWAY_MARGIN = 36;   // points: the same, where one is beyond the frame
 static const double AWAY = 1.5;   // a level above so many times the curve would press it flat
-static const double PEAK_RADIUS = 1.4;   // points
+static const double PEAK_PITCH = 0.3;   // of the distance of peaks: radius of a crowd's marks
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
 static const Color CURVE_COLOR = {0.05f, 0.27f, 0.55f, 1};
+static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 static const Color LEVEL_COLOR = {0.45f, 0.45f, 0.47f, 1};
 
 // A horizontal line and its name.
@@ -122,25 +127,39 @@ static void levels_draw(const Page *page, const Axes *axes, Level *level, int32_
         if (level[k].away) style.size = SMALL_SIZE * point;
         snprintf(words, sizeof words, level[k].away ? "\u2191%s %.3g" : "%s", level[k].name,
                  level[k].mu);
-        text_draw(page->text, &style, (Point){to.x + 2 * point, level[k].y}, words);
+        Point name = {to.x + 2 * point, level[k].y};
+        if (!level[k].away && fabs(name.y - to.y) > point) {
+            Stroke leader = {.color = LEVEL_COLOR, .width = 0.4 * point};
+            name.x += LEADER * point;
+            draw_segment(page->canvas, &leader, to, (Point){name.x - point, name.y});
+        }
+        text_draw(page->text, &style, name, words);
         style.size = NUMBER_SIZE * point;
     }
 }
 
-// Peaks that count for mu_M are filled, the others hollow.
+static bool is_shown(const ViewPeak *peak, const Axes *axes)
+{
+    return isfinite(peak->mu) && peak->U >= axes->x.low && peak->U <= axes->x.high;
+}
+
+// Peaks that count for mu_M are filled, the others hollow; smaller where they are many.
 static void peaks_draw(const Page *page, const ResultView *view, const Axes *axes)
 {
-    double radius = PEAK_RADIUS * page->point;
+    double width = axes->box.right - axes->box.left;
+    int32_t shown = 0;
+    for (int32_t k = 0; k < view->peak_count; ++k) shown += is_shown(&view->peaks[k], axes);
+    double radius = fmin(KEY_RADIUS * page->point, fmax(PEAK_PITCH * width / (shown + 1), 1));
     for (int32_t k = 0; k < view->peak_count; ++k) {
         const ViewPeak *peak = &view->peaks[k];
-        if (!isfinite(peak->U) || !isfinite(peak->mu)) continue;
+        if (!is_shown(peak, axes)) continue;
         Point place = axes_place(axes, peak->U, peak->mu);
         draw_disc(page->canvas, INK, place, radius);
         if (!peak->counts) draw_disc(page->canvas, PAPER, place, 0.6 * radius);
     }
 }
 
-// The inset's frame has the same colour.
+// What the inset shows, and lines to the corners of it: all in one colour.
 static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 {
     Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page->point};
@@ -148,37 +167,55 @@ static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
     Point to = axes_place(axes, inset->x.high, inset->y.low);
     Box box = {from.x, from.y, to.x, to.y};
     draw_outline(page->canvas, &stroke, &box);
+    stroke.width *= 0.6;
+    draw_segment(page->canvas, &stroke, from, (Point){inset->box.left, inset->box.bottom});
+    draw_segment(page->canvas, &stroke, (Point){to.x, from.y},
+                 (Point){inset->box.right, inset->box.bottom});
 }
 
-// The inset's axes: the zoom's U, mu from the first precursor shown to a little above the peak.
-static bool inset_axes(const ResultView *view, const Axes *axes, Axes *inset)
+// Where the zoom lies in what is shown, and the style does not forbid it.
+static bool has_inset(const ResultView *view, const PictureStyle *style, const Window *window)
 {
     Zoom zoom = zoom_choose(view);
-    double range[2], width = axes->box.right - axes->box.left;
-    double height = axes->box.bottom - axes->box.top;
+    bool none = style->inset && strcmp(style->inset, "none") == 0;
+    double range[2];
+    return !none && zoom.found && zoom.U_low >= window->low && zoom.U_high <= window->high &&
+           mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range) && range[1] > range[0];
+}
+
+bool figure_force_enlarges(const ResultView *view, const PictureStyle *style)
+{
+    Error ignored = {0};   // who draws the figure says it
+    Window window;
+    return window_find(view, style, &window, &ignored) && has_inset(view, style, &window);
+}
+
+// The zoom's U, mu from the first precursor shown to a little above the peak; in a frame above.
+static bool inset_axes(const Page *page, const ResultView *view, const Window *window, Axes *inset)
+{
+    Zoom zoom = zoom_choose(view);
+    double range[2];
     const double U[2] = {zoom.U_low, zoom.U_slide};
-    if (!zoom.found || !mu_range(view, U, range) || !(range[1] > range[0])) return false;
+    if (!has_inset(view, &page->style, window)) return false;
+    mu_range(view, U, range);
     double pad = 0.12 * (range[1] - range[0]);
-    *inset = (Axes){.x = axes->x, .y = axes->y, .number_size = SMALL_SIZE, .color = ZOOM_FORCE};
-    inset->x.low = zoom.U_low;
-    inset->x.high = zoom.U_high;
-    inset->y.low = range[0] - pad;
-    inset->y.high = range[1] + pad;
-    inset->x.label[0] = inset->y.label[0] = '\0';
-    inset->box.right = round(axes->box.right - INSET_RIGHT * width);
-    inset->box.left = round(inset->box.right - INSET_WIDTH * width);
-    inset->box.top = round(axes->box.top + INSET_TOP * height);
-    inset->box.bottom = round(inset->box.top + INSET_HEIGHT * height);
+    *inset = (Axes){.number_size = NUMBER_SIZE, .color = ZOOM_FORCE};
+    inset->x = figure_length_axis(view, "U", zoom.U_low, zoom.U_high);
+    inset->x.factor = figure_length_axis(view, "U", window->low, window->high).factor;
+    inset->x.label[0] = '\0';
+    inset->y = (Axis){.low = range[0] - pad, .high = range[1] + pad, .factor = 1, .label = NAME};
+    inset->box.top = page->room.top + round(axes_top_margin(inset) * page->point);
+    inset->box.bottom = inset->box.top + round(INSET_SHARE * (page->room.bottom - page->room.top));
     return true;
 }
 
-// The frame for all U and, below `share` of its height, all of mu and the levels.
-static Axes axes_layout(const Page *page, const ResultView *view, double share)
+// The frame for the window's U, all of mu there and the levels; below `top`.
+static Axes axes_layout(const Page *page, const ResultView *view, const Window *window, double top)
 {
-    double U[2], range[2] = {0, 1}, point = page->point;
-    Axes axes = {.number_size = NUMBER_SIZE, .color = INK};
+    double range[2] = {0, 1}, point = page->point;
+    const double U[2] = {window->low, window->high};
+    Axes axes = {.number_size = NUMBER_SIZE, .color = INK, .bare_x = page->bare_x};
     Level level[LEVELS_MAX];
-    result_view_range(view, &U[0], &U[1]);
     if (!mu_range(view, U, range)) range[0] = range[1] = 0;
     int32_t count = levels_list(view, range[1], level);
     bool away = false;
@@ -186,38 +223,89 @@ static Axes axes_layout(const Page *page, const ResultView *view, double share)
         if (!level[k].away) range[1] = fmax(range[1], level[k].mu);
         away = away || level[k].away;
     }
-    axes.x = figure_length_axis(view, "U", U[0], U[1]);
-    axes.y = (Axis){.low = fmin(0, range[0] * HEADROOM), .factor = 1};
-    axes.y.high = axes.y.low + (range[1] * HEADROOM - axes.y.low) / share;
+    axes.x = figure_length_axis(view, "U", window->low, window->high);
+    axes.y = (Axis){.low = fmin(0, range[0] * HEADROOM), .factor = 1, .label = NAME};
+    axes.y.high = range[1] * HEADROOM;
     if (!(axes.y.high > axes.y.low)) axes.y.high = axes.y.low + 1;
-    snprintf(axes.y.label, sizeof axes.y.label, "~{F}_{T} / ~{F}_{N}");
-    axes.box.top = page->head + round(axes_top_margin(&axes) * point);
-    axes.box.bottom =
-        round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(&axes) * point);
-    axes.box.left = round(axes_left_margin(page, &axes) * point);
-    axes.box.right =
-        round(canvas_width(page->canvas) - (away ? AWAY_MARGIN : LEVEL_MARGIN) * point);
+    axes.box.top = top + round(axes_top_margin(&axes) * point);
+    axes.box.bottom = round(page->room.bottom - axes_bottom_margin(&axes) * point);
+    axes.box.left = round(page->room.left + axes_left_margin(page, &axes) * point);
+    axes.box.right = round(page->room.right - (away ? AWAY_MARGIN : LEVEL_MARGIN) * point);
     return axes;
 }
 
-bool figure_force(const Page *page, ResultView *view, Error *err)
+// With bars as long as the errors on both sides.
+static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
 {
-    bool enlarged = zoom_choose(view).found;
-    Axes axes = axes_layout(page, view, enlarged ? DATA_SHARE : 1), inset;
-    Level level[LEVELS_MAX];
-    double U[2], range[2] = {0, 0};
-    result_view_range(view, &U[0], &U[1]);
-    mu_range(view, U, range);
-    int32_t count = levels_list(view, range[1], level);
-    levels_draw(page, &axes, level, count);
-    TRY(curve_draw(page, view, &axes, err));
-    peaks_draw(page, view, &axes);
-    if (enlarged && inset_axes(view, &axes, &inset)) {
-        outline_draw(page, &axes, &inset);
-        TRY(curve_draw(page, view, &inset, err));
-        axes_draw(page, &inset);
+    Stroke stroke = {.color = MEASURED_COLOR, .width = 0.5 * page->point};
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        double U = measured->U[k], mu = measured->value[k], error = measured->error[k];
+        if (isfinite(error))
+            draw_segment(page->canvas, &stroke, axes_place(axes, U, mu - error),
+                         axes_place(axes, U, mu + error));
+        draw_disc(page->canvas, MEASURED_COLOR, axes_place(axes, U, mu), KEY_RADIUS * page->point);
     }
-    axes_draw(page, &axes);
+    canvas_clip(page->canvas, NULL);
+}
+
+static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
+                         const Measured *measured)
+{
+    KeyEntry entries[4];
+    int32_t count = 0;
+    const Axes axes = {.x = {.low = window->low, .high = window->high}};
+    bool seen[2] = {false, false};
+    for (int32_t k = 0; k < view->peak_count; ++k)
+        if (is_shown(&view->peaks[k], &axes)) seen[view->peaks[k].counts] = true;
+    if (seen[1]) entries[count++] = (KeyEntry){KEY_DISC, INK, "peak, counts for ~{\u03bc}_{M}"};
+    if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "peak that does not count"};
+    if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    if (measured->count > 0)
+        entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured->words};
+    key_draw(page, entries, count);
+}
+
+// Both frames are equally wide: the wider numbers say where they begin.
+static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarged)
+{
+    double left = enlarged ? round(page->room.left + axes_left_margin(page, inset) * page->point)
+                           : 0;
+    axes->box.left = fmax(axes->box.left, left);
+    page_place_frame(page, &axes->box);
+    inset->box.left = axes->box.left;
+    inset->box.right = axes->box.right;
+}
+
+bool figure_force(const Page *whole, ResultView *view, Error *err)
+{
+    Page page = *whole;
+    Window window;
+    Measured measured = {0};
+    Axes axes, inset = {0};
+    Level level[LEVELS_MAX];
+    double range[2] = {0, 0};
+    TRY(window_find(view, &page.style, &window, err));
+    TRY(measured_read(page.style.compare, MEASURED_MU, view, view->mu, &measured, err));
+    key_of_peaks(&page, view, &window, &measured);
+    bool enlarged = inset_axes(&page, view, &window, &inset);
+    double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;
+    axes = axes_layout(&page, view, &window, enlarged ? round(below) : page.room.top);
+    frames_align(&page, &axes, &inset, enlarged);
+    mu_range(view, (double[]){window.low, window.high}, range);
+    int32_t count = levels_list(view, range[1], level);
+    levels_draw(&page, &axes, level, count);
+    TRY(curve_draw(&page, view, &axes, err));
+    peaks_draw(&page, view, &axes);
+    measured_draw(&page, &measured, &axes);
+    if (enlarged) {
+        outline_draw(&page, &axes, &inset);
+        TRY(curve_draw(&page, view, &inset, err));
+        measured_draw(&page, &measured, &inset);
+        axes_draw(&page, &inset);
+    }
+    axes_draw(&page, &axes);
 cleanup:
+    measured_destroy(&measured);
     return error_is_clean(err);
 }

@@ -3,11 +3,15 @@
 // range shows is neutral: stick.
 #include "render/figures/figures.h"
 
+#include "render/canvas/key.h"
 #include "render/figures/map_page.h"
+#include "render/figures/measured.h"
 #include "render/figures/slip_scale.h"
+#include "render/figures/window.h"
 #include "render/figures/zoom.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double MARK_WIDTH = 9;   // points: room for the name l_c
 static const double ZOOM_GAP = 0.8;   // points: frame to the bar that marks the zoom
@@ -17,7 +21,6 @@ static const double ZOOM_LEADER_LENGTH = 6, NAME_SPACE = 1.6;   // points: along
 static const double ZOOM_ABOVE = 11;   // points above the frame that bar and name take
 static const double EXPONENT_WIDTH = 4;   // of the numbers' size: a power of ten at the left
 static const double ZOOM_LEADER = 0.5;   // points: width of the line from its name to the bar
-static const char ZOOM_NAME[] = "enlarged in contact-density";
 
 // The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
 static void critical_length_draw(const Page *page, const MapPage *map, double x)
@@ -39,7 +42,7 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = ZOOM_DENSITY};
     Point from = axes_place(axes, zoom->U_low, 0), to = axes_place(axes, zoom->U_high, 0);
     Box bar = {from.x, foot - ZOOM_BAR * page->point, fmax(to.x, from.x + page->point), foot};
-    double width = text_width(page->text, style.size, ZOOM_NAME);
+    double width = text_width(page->text, style.size, page->zoom_name);
     double first = axes->box.left + EXPONENT_WIDTH * axes->number_size * page->point;
     double middle = (bar.left + bar.right) / 2, gap = ZOOM_LEADER_LENGTH * page->point;
     bool before = middle - gap - width > first;   // the name stands left of the bar
@@ -52,28 +55,64 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
     double space = (before ? -1 : 1) * NAME_SPACE * page->point;
     draw_fill(page->canvas, ZOOM_DENSITY, &bar);
     draw_line(page->canvas, &leader, line, 3);
-    text_draw(page->text, &style, (Point){line[2].x + space, height}, ZOOM_NAME);
+    text_draw(page->text, &style, (Point){line[2].x + space, height}, page->zoom_name);
 }
 
-bool figure_slip_map(const Page *page, ResultView *view, Error *err)
+// The line l_c has its name at its end.
+static void key_of_map(Page *page, const ResultView *view, const Window *window,
+                       const Measured *measured)
 {
-    double low = 0, high = 0, length = view->number[NUMBER_L_C];
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    KeyEntry entries[3];
+    int32_t count = 0;
+    if (view->pad[view->nodes - 1] > 0)
+        entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
+    if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    if (measured->count > 0) entries[count++] = (KeyEntry){KEY_RING, INK, measured->words};
+    key_draw(page, entries, count);
+}
+
+static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
+{
+    double radius = KEY_RADIUS * page->point;
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        Point at = axes_place(axes, measured->U[k], measured->value[k]);
+        draw_disc(page->canvas, INK, at, radius);
+        draw_disc(page->canvas, PAPER, at, 0.6 * radius);
+    }
+    canvas_clip(page->canvas, NULL);
+}
+
+bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
+{
+    Page page = *whole;
+    Window window;
+    Measured measured = {0};
+    double length = view->number[NUMBER_L_C], V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     Zoom zoom = zoom_choose(view);
-    MapPage map = {.above = zoom.found ? ZOOM_ABOVE : 0};
+    MapPage map = {.mean = page.style.pixels && strcmp(page.style.pixels, "mean") == 0};
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
+    TRY(window_find(view, &page.style, &window, err));
+    bool marked = page.zoom_name && zoom.found && zoom.U_low >= window.low;
+    if (marked) map.above = ZOOM_ABOVE;
     TRY(result_view_read_slip_rate(view, err));
+    if (map.mean) TRY(result_view_read_slip(view, err));
     map.bar = slip_scale(view, V);
+    map.bar.label = map.mean ? "mean slip rate / ~{V}" : "largest slip rate / ~{V}";
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
-    result_view_range(view, &low, &high);
-    map_page_layout(page, view, low, high, &map);
+    if (page.style.compare) TRY(result_view_read_front(view, err));
+    TRY(measured_read(page.style.compare, MEASURED_X, view, view->front, &measured, err));
+    key_of_map(&page, view, &window, &measured);
+    map_page_layout(&page, view, window.low, window.high, &map);
     TRY(map_page_fill(view, NULL, &map, err));
     slip_scale_levels(&map.bar, V, &map.grid);
-    map_page_draw_field(page, view, &map);
-    if (zoom.found) zoom_draw(page, &zoom, &map.axes);
-    if (isfinite(length)) critical_length_draw(page, &map, figure_trailing_end(view) + length);
-    map_page_draw_frame(page, view, &map);
+    map_page_draw_field(&page, view, &map);
+    if (marked) zoom_draw(&page, &zoom, &map.axes);
+    if (isfinite(length)) critical_length_draw(&page, &map, figure_trailing_end(view) + length);
+    measured_draw(&page, &measured, &map.axes);
+    map_page_draw_frame(&page, view, &map);
 cleanup:
+    measured_destroy(&measured);
     map_page_destroy(&map);
     return error_is_clean(err);
 }

@@ -14,8 +14,8 @@ enum { FRAMES_MAX = 6, FRAMES_MIN = 2, COLUMNS = 2, WORDS_SIZE = 160 };
 static const double SHARE = 0.55;   // of marks, letters aside
 static const double RIGHT = 58;   // points: the colour bar
 static const double LEFT = 4, GAP = 5;   // points: beside and between frames
-static const double WORDS_HEIGHT = 9;   // points above each frame
-static const double LEGEND_HEIGHT = 12;   // points below all
+static const double WORDS_HEIGHT = 12;   // points above each frame
+static const double LEGEND_HEIGHT = 12, NOTE_HEIGHT = 9;   // points below all: two lines
 static const double BOTTOM = 4;   // points
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
 
@@ -144,7 +144,7 @@ static Axes frame_axes(const Page *page, const FigureInput *input, const Strip *
     block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
     axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
     axes.box.right = axes.box.left + round(strip->width * point);
-    axes.box.top = page->head +
+    axes.box.top = page->room.top +
                    round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
     axes.box.bottom = axes.box.top + round(strip->height * point);
     snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
@@ -158,7 +158,10 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     char words[WORDS_SIZE];
     double point = page->point;
     uint8_t colors[3 * MAP_SIZE];
-    BlockPage map = {.view = input->view, .edges = input->field->edges, .share = SHARE};
+    BlockPage map = {.view = input->view,
+                     .edges = input->field->edges,
+                     .share = SHARE,
+                     .style = input->def.style};
     Box all = {0};
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
     TRY(block_page_fit(&map, strip->blocks, strip->count, quantity, err));
@@ -176,8 +179,7 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
     block_page_legend(page, place);
     snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
-    style.across = 1;
-    place.x = canvas_width(page->canvas) - 2 * LEFT * point;
+    place.y += NOTE_HEIGHT * point;
     text_draw(page->text, &style, place, words);
 cleanup:
     return error_is_clean(err);
@@ -193,7 +195,7 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err)
     TRY(read_strip(input, strip, quantity, err));
     lay_out(input, strip);
     int32_t rows = (strip->count + COLUMNS - 1) / COLUMNS;
-    def.height = (rows * (strip->height + WORDS_HEIGHT) + LEGEND_HEIGHT + BOTTOM) /
+    def.height = (rows * (strip->height + WORDS_HEIGHT) + LEGEND_HEIGHT + NOTE_HEIGHT + BOTTOM) /
                  page_width(def.style);
     TRY(page_begin(page, &def, err));
     TRY(draw_strip(page, input, strip, quantity, err));

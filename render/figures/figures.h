@@ -24,8 +24,10 @@ bool figure_field(Page *page, const FigureInput *input, Error *err);
 // The same, the velocity where none is named, in up to six frames of one sliding.
 bool figure_strip(Page *page, const FigureInput *input, Error *err);
 
-// F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and an inset of the precursors.
+// F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and above it an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);
+// Whether it has that inset, for which it is higher.
+bool figure_force_enlarges(const ResultView *view, const PictureStyle *style);
 // Slip rate over V, logarithmic, against U and x.
 bool figure_slip_map(const Page *page, ResultView *view, Error *err);
 // Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.

@@ -11,7 +11,8 @@
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double HATCH_SPACING = 4;   // points
 static const double FRONT_WIDTH = 0.6;   // points
-static const double COLUMN_WIDTH = 0.4;   // points: what is thinner would not be seen in print
+static const double EVENT_WIDTH = 0.4;   // points: what is thinner would not be seen in print
+static const double EVENTS_SHARE = 0.2;   // of the frame's width that so wide events may take
 
 static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 
@@ -43,6 +44,17 @@ void figure_x_extent(const ResultView *view, double *low, double *high)
     if (!(*high > *low)) *high = *low + 1;   // one node at 0
 }
 
+// A rapid event is thinner than a pixel: it is drawn as wide as print shows, or, where there are
+// so many that they would hide what lies between, one pixel wide.
+static int32_t event_columns(const Page *page, const ResultView *view, double U_low, double U_high,
+                             int32_t columns)
+{
+    int32_t shown = 0, wide = (int32_t)fmax(1, round(EVENT_WIDTH * page->point));
+    for (int32_t k = 0; k < view->rapid_count; ++k)
+        shown += view->rapid[k][1] >= U_low && view->rapid[k][0] <= U_high;
+    return (double)shown * wide < EVENTS_SHARE * columns ? wide : 1;
+}
+
 void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
                      MapPage *map)
 {
@@ -54,16 +66,15 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     axes->y = figure_length_axis(view, "x", x_low, x_high);
     axes->number_size = NUMBER_SIZE;
     axes->color = INK;
-    axes->box.top = page->head + round(fmax(axes_top_margin(axes), map->above) * point);
-    axes->box.bottom =
-        round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(axes) * point);
-    axes->box.left = round(axes_left_margin(page, axes) * point);
+    axes->bare_x = page->bare_x;
+    axes->box.top = page->room.top + round(fmax(axes_top_margin(axes), map->above) * point);
+    axes->box.bottom = round(page->room.bottom - axes_bottom_margin(axes) * point);
+    axes->box.left = round(page->room.left + axes_left_margin(page, axes) * point);
     map->pads_width = pad_marks_width(page, view);
     double beside = BAR_GAP + map->pads_width + map->mark_width + colorbar_width(page, &map->bar);
-    axes->box.right = round(canvas_width(page->canvas) - beside * point);
-    int32_t column = (int32_t)fmax(1, round(COLUMN_WIDTH * point));   // pixels
-    int32_t columns = (int32_t)(axes->box.right - axes->box.left) / column;
-    axes->box.right = axes->box.left + columns * column;
+    axes->box.right = round(page->room.right - beside * point);
+    page_place_frame(page, &axes->box);
+    int32_t columns = (int32_t)(axes->box.right - axes->box.left);
     color_map_fill(colors);
     canvas_set_map(page->canvas, colors, map->bar.neutral_color);
     map->grid = (PixelGrid){.U_low = U_low,
@@ -71,6 +82,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
                             .x_low = x_low,
                             .x_high = x_high,
                             .columns = columns,
+                            .event_columns = event_columns(page, view, U_low, U_high, columns),
                             .rows = (int32_t)(axes->box.bottom - axes->box.top)};
 }
 
@@ -83,6 +95,7 @@ static SpaceTime view_space_time(const ResultView *view)
                        .x = view->x,
                        .pad = view->pad,
                        .slip_rate = view->slip_rate,
+                       .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
                        .event_count = view->rapid_count,
                        .events = (const double(*)[2])view->rapid};
 }
@@ -91,6 +104,7 @@ bool map_page_fill(const ResultView *view, const double *status, MapPage *map, E
 {
     SpaceTime data = view_space_time(view);
     data.status = status;
+    if (map->mean) data.slip = view->slip;
     if (map->grid.columns < 2 || map->grid.rows < 2)
         FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
     TRY(space_time_to_pixels(&data, &map->grid, err));

@@ -10,8 +10,9 @@
 
 typedef struct MapPage {
     Axes axes;
-    PixelGrid grid;   // fills the frame; its columns are some pixels wide; owned
+    PixelGrid grid;   // fills the frame; a column a pixel; owned
     Colorbar bar;
+    bool mean;   // a pixel shows the mean over its U, not the fastest; the slip has been read
     double above;   // points above the frame kept for marks; more are kept where the axes need them
     double mark_width;   // points right of the frame kept for a mark's name
     double pads_width;   // points between that and the bar: the pads' names

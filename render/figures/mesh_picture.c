@@ -3,11 +3,14 @@
 // names, the strip the rod pushes. Drawn to scale from the arrays handed in.
 #include "render/render.h"
 
+#include "render/canvas/key.h"
 #include "render/figures/rod_mark.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { REGIONS = 6 };
 
 static const double MARGIN = 0.09;   // of the mesh's larger extent, kept around it for names
 static const double EDGE_WIDTH = 0.22;   // points: edges of elements
@@ -17,14 +20,18 @@ static const double HEAD_HEIGHT = 11;   // points: the lines above the frame, ea
 static const double LEFT = 32, RIGHT = 4;   // points: beside the frame
 static const double SIDE_MAX = 1.4;   // the picture's height over its width, at most
 
-static const Color FILL = {0.93f, 0.94f, 0.96f, 1}, EDGE = {0.55f, 0.58f, 0.63f, 1};
+static const Color EDGE = {0.55f, 0.58f, 0.63f, 1};
+// Surfaces that are named differ in lightness too, for print in grey.
+static const Color REGION[REGIONS] = {{0.93f, 0.94f, 0.96f, 1}, {0.95f, 0.80f, 0.55f, 1},
+                                      {0.60f, 0.80f, 0.86f, 1}, {0.80f, 0.66f, 0.80f, 1},
+                                      {0.98f, 0.93f, 0.68f, 1}, {0.62f, 0.62f, 0.60f, 1}};
 static const Color TOP = {0.10f, 0.32f, 0.66f, 1};
 static const Color CONTACT[2] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f, 0.10f, 1}};
 static const Color OTHER = {0.45f, 0.25f, 0.55f, 1};
 
 typedef struct MeshPage {
     const RenderMesh *mesh;
-    const Page *page;
+    Page *page;
     Axes axes;
 } MeshPage;
 
@@ -81,14 +88,23 @@ static double head_points(const RenderMesh *mesh)
     return 4 + HEAD_HEIGHT * ((mesh->title && mesh->title[0]) + (mesh->note && mesh->note[0]));
 }
 
+// Surfaces with a name.
+static int32_t region_count(const RenderMesh *mesh)
+{
+    int32_t count = 0;
+    for (int32_t g = 0; g < mesh->group_count; ++g)
+        count += mesh->groups[g].dimension == 2 && mesh->groups[g].element_count > 0;
+    return count;
+}
+
 // The picture's height over its width: to scale, but no more than SIDE_MAX.
 static double picture_shape(const RenderMesh *mesh)
 {
     Axes axes = {0};
     choose_ranges(mesh, &axes);
-    double width = page_width(&mesh->style);
+    double width = page_width(&mesh->style), key = region_count(mesh) > 1 ? key_line_height() : 0;
     double frame = (width - LEFT - RIGHT) * frame_shape(&axes);
-    return fmin((frame + head_points(mesh) + axes_bottom_margin(&axes)) / width, SIDE_MAX);
+    return fmin((frame + key + head_points(mesh) + axes_bottom_margin(&axes)) / width, SIDE_MAX);
 }
 
 // The largest frame of the block's shape that fits, in the middle.
@@ -99,8 +115,7 @@ static void place_frame(MeshPage *map)
     Axes *axes = &map->axes;
     choose_ranges(map->mesh, axes);
     double width = canvas_width(page->canvas) - (LEFT + RIGHT) * point;
-    double height = canvas_height(page->canvas) -
-                    (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
+    double height = page->room.bottom - (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
     double shape = frame_shape(axes), narrow = fmin(width, height / shape);
     axes->box.left = round(LEFT * point + (width - narrow) / 2);
     axes->box.right = axes->box.left + round(narrow);
@@ -138,7 +153,15 @@ static void draw_elements(const MeshPage *map)
     Canvas *canvas = map->page->canvas;
     Stroke stroke = {.color = EDGE, .width = edge_width(map)};
     for (int32_t e = 0; e < map->mesh->element_count; ++e)
-        draw_polygon(canvas, FILL, outline, element_outline(map, e, outline));
+        draw_polygon(canvas, REGION[0], outline, element_outline(map, e, outline));
+    for (int32_t g = 0, region = 0; g < map->mesh->group_count; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        if (group->dimension != 2 || group->element_count == 0) continue;
+        for (int32_t k = 0; k < group->element_count; ++k)
+            draw_polygon(canvas, REGION[region % REGIONS], outline,
+                         element_outline(map, group->elements[k], outline));
+        ++region;
+    }
     for (int32_t e = 0; e < map->mesh->element_count; ++e) {
         int32_t count = element_outline(map, e, outline);
         for (int32_t k = 0; k < count; ++k)
@@ -277,9 +300,24 @@ static void draw_head(const MeshPage *map)
 
 // --- the module's third entry -------------------------------------------------------------------
 
-static void draw_page(const RenderMesh *mesh, const Page *page)
+// A single surface needs no name.
+static void draw_key(const MeshPage *map)
+{
+    KeyEntry entries[REGIONS];
+    int32_t count = 0;
+    for (int32_t g = 0; g < map->mesh->group_count && count < REGIONS; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        if (group->dimension != 2 || group->element_count == 0) continue;
+        entries[count] = (KeyEntry){KEY_PATCH, REGION[count], group->name};
+        ++count;
+    }
+    if (count > 1) key_draw(map->page, entries, count);
+}
+
+static void draw_page(const RenderMesh *mesh, Page *page)
 {
     MeshPage map = {.mesh = mesh, .page = page};
+    draw_key(&map);
     place_frame(&map);
     canvas_clip(page->canvas, &map.axes.box);
     draw_elements(&map);

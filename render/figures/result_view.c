@@ -176,6 +176,11 @@ bool result_view_read_slip(ResultView *view, Error *err)
     return view->slip || interface_read(view, SERIES_SLIP, &view->slip, err);
 }
 
+bool result_view_read_front(ResultView *view, Error *err)
+{
+    return view->front || scalar_read(view, SERIES_FRONT, &view->front, err);
+}
+
 void result_view_close(ResultView *view)
 {
     Error ignored = {0};   // nothing was written: closing has nothing to lose
@@ -190,6 +195,7 @@ void result_view_close(ResultView *view)
     memory_free(view->warnings);
     memory_free(view->slip_rate);
     memory_free(view->slip);
+    memory_free(view->front);
     memory_free(view->status);
     memory_free(view->events);
     memory_free(view->rapid);

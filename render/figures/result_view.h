@@ -33,6 +33,7 @@ typedef struct ResultView {
     char *warnings;   // of the run, one a line; empty: none; owned
     double *slip_rate;   // [rows * nodes] velocity, or NULL: not read yet; owned
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
+    double *front;   // [rows] x, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
     double number[RESULT_NUMBERS_COUNT];   // NaN: not known
     int32_t event_count, peak_count;   // 0 in a run that did not end
@@ -50,6 +51,7 @@ void result_view_close(ResultView *view);   // zeroed is fine
 bool result_view_read_slip_rate(ResultView *view, Error *err);
 bool result_view_read_status(ResultView *view, Error *err);
 bool result_view_read_slip(ResultView *view, Error *err);
+bool result_view_read_front(ResultView *view, Error *err);
 
 // The first and the last finite U.
 void result_view_range(const ResultView *view, double *low, double *high);

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double ONE_COLUMN = 1.5;   // columns: what is shorter rounds to one
+static const double ROUND_DOWN = 0.5;   // columns: an event not longer than its mark by more is one
 
 // Half way to the neighbours on the same pad; the last node of a pad has nothing beyond it, so that
 // gaps stay gaps.
@@ -37,14 +37,20 @@ static int32_t column_of(const PixelGrid *grid, double U)
     return place >= grid->columns ? grid->columns : (int32_t)place;
 }
 
-// The same for a step of a rapid event: all of a short one are in one column.
-static int32_t column_of_step(const SpaceTime *data, const PixelGrid *grid, double U)
+// The first column of a step, and in *count how many: of a short rapid event always the same.
+static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, double U,
+                               int32_t *count)
 {
     double width = (grid->U_high - grid->U_low) / grid->columns;
+    *count = 1;
     for (int32_t k = 0; k < data->event_count; ++k) {
         const double *event = data->events[k];
-        if (U >= event[0] && U <= event[1] && event[1] - event[0] < ONE_COLUMN * width)
-            return column_of(grid, (event[0] + event[1]) / 2);
+        double room = (grid->event_columns + ROUND_DOWN) * width;
+        if (!(U >= event[0] && U <= event[1]) || event[1] - event[0] >= room) continue;
+        int32_t middle = column_of(grid, (event[0] + event[1]) / 2);
+        if (middle < 0 || middle == grid->columns) return middle;
+        *count = grid->event_columns;
+        return middle - *count / 2 < 0 ? 0 : middle - *count / 2;
     }
     return column_of(grid, U);
 }
@@ -71,13 +77,15 @@ static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *
     for (int64_t k = 0; k < (int64_t)data->nodes * grid->columns; ++k) by_column[k] = NAN;
     for (int64_t row = 0; row < data->rows; ++row) {
         if (!isfinite(data->U[row])) continue;
-        int32_t column = column_of_step(data, grid, data->U[row]);
+        int32_t wide = 1, column = columns_of_step(data, grid, data->U[row], &wide);
         if (column < 0) continue;
         for (; reached < column; ++reached)
             if (next[reached] == data->rows) next[reached] = row;
         if (column == grid->columns) break;
-        next[column] = -1;
-        step_add(data, row, column, by_column);
+        for (int32_t k = column; k < column + wide && k < grid->columns; ++k) {
+            next[k] = -1;
+            step_add(data, row, k, by_column);
+        }
     }
 }
 
@@ -92,6 +100,32 @@ static void columns_hold(const SpaceTime *data, const PixelGrid *grid, const int
             step_add(data, next[column], column, by_column);
 }
 
+// Slip of node i when the rod was at U, from row *at on, which is led along.
+static double slip_at(const SpaceTime *data, int32_t i, double U, int64_t *at)
+{
+    while (*at + 2 < data->rows && data->U[*at + 1] < U) ++*at;
+    double low = data->U[*at], high = data->U[*at + 1];
+    double part = high > low ? fmin(fmax((U - low) / (high - low), 0), 1) : 0;
+    const double *slip = data->slip + *at * data->nodes + i;
+    return slip[0] + part * (slip[data->nodes] - slip[0]);
+}
+
+// What is not finite stays not known.
+static void columns_mean(const SpaceTime *data, const PixelGrid *grid, float *by_column)
+{
+    double width = (grid->U_high - grid->U_low) / grid->columns;
+    for (int32_t i = 0; i < data->nodes; ++i) {
+        int64_t at = 0;
+        double before = slip_at(data, i, grid->U_low, &at);
+        for (int32_t column = 0; column < grid->columns; ++column) {
+            double slip = slip_at(data, i, grid->U_low + (column + 1) * width, &at);
+            by_column[(int64_t)column * data->nodes + i] =
+                (float)(fabs(slip - before) / width * data->V);
+            before = slip;
+        }
+    }
+}
+
 // Whether node i is seen in the pixels of height `pixel` around x.
 static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
 {
@@ -100,8 +134,17 @@ static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
     return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
 }
 
+// by_node: [nodes * columns], so that what follows goes along memory.
+static void turn_round(const SpaceTime *data, const PixelGrid *grid, const float *by_column,
+                       float *by_node)
+{
+    for (int64_t column = 0; column < grid->columns; ++column)
+        for (int64_t i = 0; i < data->nodes; ++i)
+            by_node[i * grid->columns + column] = by_column[column * data->nodes + i];
+}
+
 // Row 0 is at the top, x_high. Several nodes in a pixel: the largest of them; none: NaN.
-static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_column)
+static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_node)
 {
     double pixel = (grid->x_high - grid->x_low) / grid->rows;
     for (int32_t row = 0; row < grid->rows; ++row) {
@@ -111,7 +154,7 @@ static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_co
         for (int32_t i = 0; i < data->nodes; ++i) {
             if (!node_is_at(data, i, x, pixel)) continue;
             for (int32_t column = 0; column < grid->columns; ++column)
-                line[column] = larger(line[column], by_column[(int64_t)column * data->nodes + i]);
+                line[column] = larger(line[column], by_node[(int64_t)i * grid->columns + column]);
         }
     }
 }
@@ -119,16 +162,23 @@ static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_co
 // grid->values: [rows * columns], made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
-    float *by_column = NULL;
+    float *by_column = NULL, *by_node = NULL;
     int64_t *next = NULL;
     TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
+    TRY(by_node = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
     TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->rows * grid->columns, err));
-    columns_gather(data, grid, by_column, next);
-    columns_hold(data, grid, next, by_column);
-    rows_fill(data, grid, by_column);
+    if (data->slip) {
+        columns_mean(data, grid, by_column);
+    } else {
+        columns_gather(data, grid, by_column, next);
+        columns_hold(data, grid, next, by_column);
+    }
+    turn_round(data, grid, by_column, by_node);
+    rows_fill(data, grid, by_node);
 cleanup:
     memory_free(by_column);
+    memory_free(by_node);
     memory_free(next);
     return error_is_clean(err);
 }

@@ -5,9 +5,10 @@
 // Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
 // for many pixels while nothing happens. A column of pixels takes the fastest of the steps
 // inside it, so no event is lost; one without a step takes the step that ends behind it, as an
-// implicit step holds its end's value. A rapid event whose length rounds to one column is in one,
-// that of its middle, also where it lies across a border: it would look twice as long. A node
-// stands for the part of its pad that is nearest to it.
+// implicit step holds its end's value. A rapid event shorter than `event_columns` is so many
+// columns wide, around its middle. With `slip` a pixel shows the mean rate over its U instead: how
+// far slip went over how far the rod went, times V. A node stands for the part of its pad that is
+// nearest.
 #ifndef AMONTONS_RENDER_FIGURES_SPACE_TIME_H
 #define AMONTONS_RENDER_FIGURES_SPACE_TIME_H
 
@@ -22,6 +23,8 @@ typedef struct SpaceTime {
     const double *pad;   // [nodes] between nodes of different pads is a gap
     const double *slip_rate;   // [rows * nodes] velocity; NaN: none
     const double *status;   // [rows * nodes] 0: open, counts as infinitely fast; NULL: not asked
+    const double *slip;   // [rows * nodes] length; NULL: the fastest is wanted, not the mean
+    double V;   // velocity of the rod; for the mean
     int32_t event_count;
     const double (*events)[2];   // [event_count] U from and to, of rapid events
 } SpaceTime;
@@ -30,6 +33,7 @@ typedef struct PixelGrid {
     double U_low, U_high;   // what the columns span
     double x_low, x_high;   // what the rows span, x_high at the top
     int32_t columns, rows;
+    int32_t event_columns;   // of a short rapid event, at least 1
     float *values;   // [rows * columns] |slip rate|, first row at the top; NaN: none; owned
 } PixelGrid;
 

@@ -3,9 +3,11 @@
 // legend_place puts it.
 #include "render/plot/figure_curves.h"
 
+#include "io/text/picture_options.h"
 #include "render/plot/legend.h"
 #include "render/plot/panel.h"
 #include "render/plot/plot_grid.h"
+#include "render/plot/plot_style.h"
 
 #include <math.h>
 
@@ -60,7 +62,7 @@ static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale
     double point = page->point, right = plot->main.x.is_log ? POWER_MARGIN : RIGHT_MARGIN;
     Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE, .color = INK};
     if (plot->main.has_map) right = BAR_GAP + colorbar_width(page, &scale->bar);
-    axes.box.top = page->head + round(axes_top_margin(&axes) * point);
+    axes.box.top = page->room.top + round(axes_top_margin(&axes) * point);
     axes.box.bottom = round(bottom - axes_bottom_margin(&axes) * point);
     axes.box.left = round(axes_left_margin(page, &axes) * point);
     axes.box.right = round(canvas_width(page->canvas) - right * point);
@@ -86,7 +88,7 @@ cleanup:
 
 bool figure_curves(const Page *page, const Plot *plot, Error *err)
 {
-    double margin = BELOW_MARGIN * page->point, bottom = canvas_height(page->canvas);
+    double margin = BELOW_MARGIN * page->point, bottom = page->room.bottom;
     MapScale scale = map_scale_fit(plot);
     Axes axes = frame_axes(page, plot, &scale, bottom);
     Box below = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
@@ -104,14 +106,16 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool figure_plot(Page *page, const Plot *plot, const PictureStyle *style, const char *title,
-                 Error *err)
+bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
 {
     PictureStyle used = *style;
-    PageDef def = {.style = &used, .height = plot->height_over_width, .title = title};
     double width = 0;
+    picture_style_complete(&used, &plot->style);
+    PageDef def = {.style = &used, .title = page_title(&used, title, true)};
+    def.height = page_shape(&used, plot->height_over_width);
     if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
-    if (!(used.width > 0)) used.width = width;
+    if (!(used.width > 0) && !used.style) used.width = width;
+    TRY(plot_take_style(plot, &used, err));
     TRY(page_begin(page, &def, err));
     TRY(figure_curves(page, plot, err));
 cleanup:

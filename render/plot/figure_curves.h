@@ -8,8 +8,7 @@
 
 // Begins the page, as high as the plot asks for, and draws. A style without a width gets one that
 // suits. title: NULL is fine.
-bool figure_plot(Page *page, const Plot *plot, const PictureStyle *style, const char *title,
-                 Error *err);
+bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err);
 
 bool figure_curves(const Page *page, const Plot *plot, Error *err);
 

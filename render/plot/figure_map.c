@@ -5,18 +5,26 @@
 
 #include "base/memory.h"
 #include "render/plot/map_cells.h"
+#include "render/plot/map_smooth.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000 };
+enum {
+    LEVELS_WANTED = 6,
+    MARKS_MINDED = 2000,
+    PARTS_MOST = 16,
+    RING_SIDES = 24,
+    VECTOR_MOST = 10000
+};
 
 static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
 static const double DOT_SHARE = 0.13;   // of the distance of points
 static const double DOT_MAX = 0.9, RING_MAX = 1.7;   // points: radii
-static const double DOT_RIM = 0.35, RING_INSIDE = 0.6;   // points; of the ring's radius
+static const double DOT_RIM = 0.35, RING_WIDTH = 0.45;   // points
 static const double DISTANCE_MIN = 3;   // points: marks of points nearer than this are left out
 static const double MARKS_APART = 5;   // points: those that stand for others
+static const double FINE_CELL = 1.5;   // points: of a grid in which lines of equal value are sought
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double CROSS_ARM = 1.5, CROSS_WIDTH = 0.6;   // points
 static const double LABEL_CLEARANCE = 6, HIDING_WORTH = 0.4;   // points: number to mark
@@ -98,6 +106,20 @@ static int64_t grid_corners(const MapDrawing *drawing, const float *x, const flo
     return count;
 }
 
+// Each cell a shape of its own, in a file of shapes.
+static void cells_draw(const MapDrawing *drawing, const float *x, const float *y)
+{
+    const MapGrid *grid = &drawing->grid;
+    const Box *box = &drawing->axes->box;
+    for (int32_t k = 0; k < grid->rows * grid->columns; k++) {
+        int32_t point = grid->point[k], row = k / grid->columns, column = k % grid->columns;
+        if (point < 0 || !isfinite(drawing->map->value[point])) continue;
+        Box cell = {box->left + (double)x[column], box->top + (double)y[row + 1],
+                    box->left + (double)x[column + 1], box->top + (double)y[row]};
+        canvas_heat_cell(drawing->page->canvas, &cell, color_value(drawing, point));
+    }
+}
+
 static bool grid_draw(const MapDrawing *drawing, Error *err)
 {
     const MapGrid *grid = &drawing->grid;
@@ -111,8 +133,12 @@ static bool grid_draw(const MapDrawing *drawing, Error *err)
     edges_place(&drawing->axes->x, grid->x, grid->columns + 1, box->right - box->left, edges);
     edges_place(&drawing->axes->y, grid->y, grid->rows + 1, height, y);
     for (int32_t k = 0; k <= grid->rows; k++) y[k] = (float)height - y[k];
-    int64_t count = grid_corners(drawing, edges, y, corners);
-    canvas_heat_triangles(drawing->page->canvas, box, corners, count);
+    if (canvas_is_vector(drawing->page->canvas) && grid->rows * grid->columns <= VECTOR_MOST) {
+        cells_draw(drawing, edges, y);
+    } else {
+        int64_t count = grid_corners(drawing, edges, y, corners);
+        canvas_heat_triangles(drawing->page->canvas, box, corners, count);
+    }
 cleanup:
     memory_free(edges);
     memory_free(corners);
@@ -142,17 +168,35 @@ static bool triangles_draw(const MapDrawing *drawing, Error *err)
     return true;
 }
 
+// Between points, pixels.
+static double point_distance(const MapDrawing *drawing)
+{
+    const Box *box = &drawing->axes->box;
+    double width = box->right - box->left, height = box->bottom - box->top;
+    if (drawing->grid.columns > 0)
+        return fmin(width / drawing->grid.columns, height / drawing->grid.rows);
+    return sqrt(width * height / fmax(drawing->map->count, 1));
+}
+
 // --- lines --------------------------------------------------------------------------------------
 
+// Where lines are sought: the points and triangles of the map, or of its grid made finer.
+typedef struct LineField {
+    const double *value;
+    const Point *place;
+    const int32_t *triangles;   // [3 * count]
+    int64_t count;
+} LineField;
+
 // Where the level crosses a triangle: 2 points, or none (false).
-static bool cross_triangle(const MapDrawing *drawing, const int32_t corner[3], double level,
+static bool cross_triangle(const LineField *field, const int32_t corner[3], double level,
                            Point crossing[3])
 {
-    const double *value = drawing->map->contour;
+    const double *value = field->value;
     int32_t found = 0;
     for (int32_t k = 0; k < 3; k++) {
         double a = value[corner[k]], b = value[corner[(k + 1) % 3]];
-        Point from = drawing->place[corner[k]], to = drawing->place[corner[(k + 1) % 3]];
+        Point from = field->place[corner[k]], to = field->place[corner[(k + 1) % 3]];
         if (!isfinite(a + b)) return false;
         if ((a < level) == (b < level)) continue;
         double part = (level - a) / (b - a);
@@ -221,22 +265,20 @@ static void level_draw(const MapDrawing *drawing, const Point *pieces, int64_t c
     draw_line(page->canvas, &line, pieces, count);
 }
 
-static bool contours_draw(const MapDrawing *drawing, Error *err)
+static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error *err)
 {
     const Axis *range = &drawing->scale->contours;
-    const MapTriangles *triangles = &drawing->triangles;
     Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
     Point labels[LEVELS_WANTED + 1];
     int32_t labelled = 0;
-    Point *pieces = NEW_ARRAY(Point, 3 * (int64_t)triangles->count + 1, err);
+    Point *pieces = NEW_ARRAY(Point, 3 * field->count + 3, err);
     if (!pieces) return false;
     for (int32_t t = 0; t < ticks.count; t++) {
         double level = tick_value(&ticks, t), slack = LEVEL_INSIDE * (range->high - range->low);
         int64_t count = 0;
         if (level < range->low + slack || level > range->high - slack) continue;
-        for (int32_t k = 0; k < triangles->count; k++) {
-            if (!cross_triangle(drawing, triangles->points + 3 * k, level, pieces + count))
-                continue;
+        for (int64_t k = 0; k < field->count; k++) {
+            if (!cross_triangle(field, field->triangles + 3 * k, level, pieces + count)) continue;
             pieces[count + 2] = (Point){NAN, NAN};
             count += 3;
         }
@@ -247,17 +289,31 @@ static bool contours_draw(const MapDrawing *drawing, Error *err)
     return true;
 }
 
-// --- points -------------------------------------------------------------------------------------
-
-// Between points, pixels.
-static double point_distance(const MapDrawing *drawing)
+// Cells that are wide in print are made finer first.
+static bool contours_draw(const MapDrawing *drawing, Error *err)
 {
-    const Box *box = &drawing->axes->box;
-    double width = box->right - box->left, height = box->bottom - box->top;
-    if (drawing->grid.columns > 0)
-        return fmin(width / drawing->grid.columns, height / drawing->grid.rows);
-    return sqrt(width * height / fmax(drawing->map->count, 1));
+    const MapGrid *grid = &drawing->grid;
+    SmoothGrid smooth = {0};
+    LineField field = {.value = drawing->map->contour,
+                       .place = drawing->place,
+                       .triangles = drawing->triangles.points,
+                       .count = drawing->triangles.count};
+    double cell = grid->columns > 0 ? point_distance(drawing) : 0;
+    int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * drawing->page->point)), PARTS_MOST);
+    if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
+        TRY(map_smooth(grid, drawing->map->contour, drawing->place, parts, &smooth, err));
+        field = (LineField){.value = smooth.value,
+                            .place = smooth.place,
+                            .triangles = smooth.triangles,
+                            .count = smooth.triangle_count};
+    }
+    TRY(levels_draw(drawing, &field, err));
+cleanup:
+    smooth_destroy(&smooth);
+    return error_is_clean(err);
 }
+
+// --- points -------------------------------------------------------------------------------------
 
 static void cross_draw(const Page *page, Point at, double arm)
 {
@@ -266,6 +322,21 @@ static void cross_draw(const Page *page, Point at, double arm)
                  (Point){at.x + arm, at.y + arm});
     draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y + arm},
                  (Point){at.x + arm, at.y - arm});
+}
+
+// The colour inside shows; ink inside of paper is seen on any.
+static void ring_draw(const Page *page, Point at, double radius)
+{
+    Stroke stroke = {.color = PAPER, .width = fmin(3 * RING_WIDTH * page->point, 0.6 * radius)};
+    Point line[RING_SIDES + 1];
+    for (int32_t k = 0; k <= RING_SIDES; k++) {
+        double angle = 8 * atan(1) * k / RING_SIDES;
+        line[k] = (Point){at.x + radius * cos(angle), at.y + radius * sin(angle)};
+    }
+    draw_line(page->canvas, &stroke, line, RING_SIDES + 1);
+    stroke.color = INK;
+    stroke.width /= 3;
+    draw_line(page->canvas, &stroke, line, RING_SIDES + 1);
 }
 
 // distance: to the next mark. Marks get smaller as they come nearer to each other; of very many
@@ -280,8 +351,7 @@ static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bo
     if (!isfinite(drawing->map->value[k])) {
         cross_draw(page, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
     } else if (drawing->map->open && drawing->map->open[k] > 0) {
-        draw_disc(page->canvas, INK, at, ring);
-        draw_disc(page->canvas, PAPER, at, RING_INSIDE * ring);
+        ring_draw(page, at, ring);
     } else if (shows_all) {
         draw_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
         draw_disc(page->canvas, INK, at, dot);

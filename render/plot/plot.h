@@ -12,6 +12,7 @@ enum {
     PLOT_NAMES_MAX = 100,
     PLOT_COLORS = 8,
     PLOT_LABEL_SIZE = 96,
+    PLOT_WORDS = 16,
 };
 
 typedef enum PlotMarker {
@@ -69,6 +70,9 @@ typedef struct PlotPanel {
 typedef struct Plot {
     char title[256];
     double height_over_width;
+    PictureStyle style;   // what its `page` says; texts in `words`
+    char words[PLOT_WORDS][PLOT_LABEL_SIZE];   // [word_count]
+    int32_t word_count;
     PlotPanel main;
     int32_t panel_count;   // 0: `main` is the plot; else it is drawn in each of these
     PlotPanel *panels;   // [panel_count] their axes are main's; owned

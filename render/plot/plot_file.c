@@ -4,6 +4,7 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "io/text/picture_options.h"
 #include "render/plot/plot_fit.h"
 #include "render/plot/plot_reader.h"
 
@@ -219,12 +220,40 @@ static bool read_scales(const PlotReader *reader, Plot *plot)
            read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours);
 }
 
+// Options as the command has them; those that it is given go before these.
+static bool read_page(const PlotReader *reader, Plot *plot)
+{
+    YamlNode map = plot_child(reader, YAML_ROOT, "page");
+    if (map == YAML_NO_NODE) return true;
+    if (yaml_kind(reader->file, map) != YAML_MAP || yaml_count(reader->file, map) > PLOT_WORDS)
+        return plot_refuse(reader, map, "page", "a map of options, as {style: columns}");
+    for (YamlNode item = yaml_first(reader->file, map); item != YAML_NO_NODE;
+         item = yaml_next(reader->file, item)) {
+        Error why = {0};
+        char *word = plot->words[plot->word_count++];
+        snprintf(word, PLOT_LABEL_SIZE, "%s", yaml_text(reader->file, item));
+        if (picture_option_set(&plot->style, yaml_key(reader->file, item), word, &why)) continue;
+        yaml_error(reader->file, item, reader->err, "page: %s", why.message);
+        return false;
+    }
+    return true;
+}
+
+PlotCorner plot_corner_find(const char *name)
+{
+    int32_t found = 0;
+    for (int32_t k = 0; CORNERS[k]; ++k)
+        if (strcmp(CORNERS[k], name) == 0) found = k;
+    return (PlotCorner)found;
+}
+
 static bool read_plot(const PlotReader *reader, Plot *plot)
 {
-    static const char known[] = "title height x y color contours legend series map panels inset ";
+    static const char known[] =
+        "title height x y color contours legend series map panels inset page ";
     if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
         !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
-        !read_height(reader, plot) || !read_scales(reader, plot))
+        !read_height(reader, plot) || !read_scales(reader, plot) || !read_page(reader, plot))
         return false;
     YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
     YamlNode panels = plot_child(reader, YAML_ROOT, "panels");

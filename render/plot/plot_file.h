@@ -23,6 +23,9 @@
 //         line: thin                          # or solid, dashed, none
 //     inset: {place: [0.5, 0.05, 0.97, 0.5], x: ..., y: ..., series: [...]}   # of the frame
 //
+//     page: {style: columns, height: 60, legend: none}   # an option of `amontons render`; what the
+//                                             # command is given goes before it
+//
 // A map shows in colours what was found at points; those of a grid as cells, half way to their
 // neighbours, others linearly between any three next to each other:
 //
@@ -43,5 +46,8 @@
 
 // ERROR_INPUT gives file:line:column, the key and what is allowed.
 bool plot_file_read(const char *path, Plot *plot, Error *err);
+
+// The corner of that name, one of those that `legend` may have.
+PlotCorner plot_corner_find(const char *name);
 
 #endif

@@ -50,9 +50,9 @@ static GridPage lay_out(const Page *page, const Plot *plot, const Box *below, co
     grid.rows = (plot->panel_count + grid.columns - 1) / grid.columns;
     if (grid.has_bar) right = BAR_GAP + colorbar_width(page, &grid.scale.bar);
     grid.left = round(axes_left_margin(page, axes) * point);
-    grid.top = page->head + TITLE_HEIGHT * point;
+    grid.top = page->room.top + TITLE_HEIGHT * point;
     double wide = canvas_width(page->canvas) - right * point - grid.left;
-    double high = below->top - axes_bottom_margin(axes) * point - page->head;
+    double high = below->top - axes_bottom_margin(axes) * point - page->room.top;
     grid.width = floor((wide - (grid.columns - 1) * BETWEEN * point) / grid.columns);
     grid.height = floor(high / grid.rows - TITLE_HEIGHT * point);
     return grid;
@@ -92,7 +92,7 @@ cleanup:
 bool plot_grid_draw(const Page *page, const Plot *plot, const Box *below, Error *err)
 {
     Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE};
-    axes.box.bottom = (below->top - page->head) / 2;   // where ticks are counted
+    axes.box.bottom = (below->top - page->room.top) / 2;   // where ticks are counted
     GridPage grid = lay_out(page, plot, below, &axes);
     if (grid.width < 2 * BETWEEN * page->point || grid.height < 2 * BETWEEN * page->point)
         FAIL(err, ERROR_INPUT, "the page is too small for %d panels", plot->panel_count);

@@ -9,7 +9,14 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 1200, WIDTH_MAX = 1000, DPI_MAX = 2400 };   // mm; dots per inch
+enum { PATH_SIZE = 1200 };
+
+// The options of a picture, as PICTURE_OPTIONS has them.
+enum {
+#define X(name, ...) PICTURE_##name,
+    PICTURE_OPTIONS(X) PICTURE_OPTION_COUNT
+#undef X
+};
 
 static const CommandText text = {
     .name = "render",
@@ -24,10 +31,11 @@ static const CommandText text = {
         "that a sweep left: draws what its study asks for again, or with --plot anything that its "
         "table holds, in the words of a study's `plot`."
         "\vWithout --figure all pictures are drawn. In PDF and SVG lines and letters stay sharp "
-        "at any size, and fonts come along. Letters are 7.5 points high in print, whatever the "
+        "at any size, and fonts come along. Letters are 7 to 8 points high in print, whatever the "
         "width. Examples:\n\n"
         "  amontons render fig1-result --figure force --format pdf\n"
-        "  amontons render fig1-result --figure slip-map --width 178 --dpi 300\n"
+        "  amontons render fig1-result --figure slip-map --style columns --height 60\n"
+        "  amontons render fig1-result --panels force,slip-map,contact-density\n"
         "  amontons render fig1-result --figure field --of stress_xz --at U=0.0117\n"
         "  amontons render phase-sweep --plot '{x: load.pressure, y: mesh.set.length, color: "
         "mu_M}'"};
@@ -67,21 +75,29 @@ static int draw_sweep(const char *folder, const char *plot, const PictureStyle *
     return 0;
 }
 
-// Of --width and --dpi, whole numbers.
-static int read_size(const char *width, const char *dpi, PictureStyle *style)
+// What was given of each, by the table.
+static int set_style(const char *const words[PICTURE_OPTION_COUNT], bool no_title,
+                     PictureStyle *style)
 {
-    int32_t mm = 0, dots = 0;
-    int status = width ? option_count("--width", width, 20, WIDTH_MAX, &mm) : 0;
-    if (status == 0 && dpi) status = option_count("--dpi", dpi, 50, DPI_MAX, &dots);
-    style->width = mm;
-    style->dpi = dots;
-    return status;
+    static const char *const name[PICTURE_OPTION_COUNT] = {
+#define X(name, ...) #name,
+        PICTURE_OPTIONS(X)
+#undef X
+    };
+    if (no_title) style->title = "none";
+    for (int32_t k = 0; k < PICTURE_OPTION_COUNT; ++k) {
+        Error err = {0};
+        if (words[k] && !amontons_picture_option(style, name[k], words[k], &err))
+            return report_misuse("--%s", err.message);
+    }
+    return 0;
 }
 
 // The module that draws them checks the figures: it knows which there are.
 int command_render(int argc, char **argv)
 {
-    const char *from = NULL, *width = NULL, *dpi = NULL, *plot = NULL;
+    const char *from = NULL, *plot = NULL, *words[PICTURE_OPTION_COUNT] = {0};
+    bool no_title = false;
     OptionWords figures = {0};
     PictureRequest request = {.style = {.format = "png"}};
     Error err = {0};
@@ -92,9 +108,15 @@ int command_render(int argc, char **argv)
          "frames of one sliding). May "
          "be given several times",
          .words = &figures},
+        {"panels", 0, "NAME,NAME",
+         "Draw these of force, slip-map and contact-density below each other, as panels.png",
+         .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
-        {"width", 0, "MM", "Of the page in print; 86 by default, a column", .word = &width},
-        {"dpi", 0, "N", "Dots per inch, of a PNG and of maps; 508 by default", .word = &dpi},
+#define X(name, kind, low, high, allowed, argument, meaning)                                       \
+    {#name, 0, argument, meaning, .word = &words[PICTURE_##name]},
+        PICTURE_OPTIONS(X)
+#undef X
+            {"no-title", 0, NULL, "As --title none", .flag = &no_title},
         {"plot", 0, "PLOT", "Of a sweep: draw this, as in '{x: load.pressure, y: mu_M}'",
          .word = &plot},
         {"of", 0, "FIELD",
@@ -109,10 +131,12 @@ int command_render(int argc, char **argv)
         option_overwrite(&request.style.overwrite),
         {0}};
     int status = options_read(&text, options, argc, argv, &from);
-    if (status == 0) status = read_size(width, dpi, &request.style);
+    if (status == 0) status = set_style(words, no_title, &request.style);
     if (status != 0) return status;
-    if (figures.count && (is_plot(from) || is_sweep(from)))
-        return report_misuse("--figure has no meaning for a plot or a sweep");
+    if ((figures.count || request.panels) && (is_plot(from) || is_sweep(from)))
+        return report_misuse("%s has no meaning for a plot or a sweep",
+                             figures.count ? "--figure" : "--panels");
+    if (figures.count && request.panels) return report_misuse("--figure and --panels: one of them");
     if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
     if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");
     if (is_plot(from)) {

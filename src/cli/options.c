@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { KEY_FIRST = 1000, OPTIONS_MAX = 20 };   // keys of argp without a letter: from KEY_FIRST on
+enum { KEY_FIRST = 1000, OPTIONS_MAX = 40 };   // keys of argp without a letter: from KEY_FIRST on
 
 typedef struct Reading {
     const Option *options;

@@ -218,7 +218,9 @@ static bool comes_back(const Fields *fields, double U)
 }
 
 // Multiples of every_U and every_t, at the first step at or beyond each; a step that passes several
-// is written once. With at_events also steps in which a rapid event begins, crosses the interface
+// is written once. With every_slip also each time the fastest point has slipped so far: where slip
+// is rapid, steps of a time or of U would leave all of it out. With at_events
+// also steps in which a rapid event begins, crosses the interface
 // or ends.
 static bool is_due(Fields *fields, const Observation *seen)
 {
@@ -231,9 +233,13 @@ static bool is_due(Fields *fields, const Observation *seen)
         fields->next_t = (floor(seen->t / fields->def.every_t) + 1) * fields->def.every_t;
         due = true;
     }
+    fields->slipped += seen->max_slip_rate * seen->step_size;
+    if (fields->def.every_slip > 0 && fields->slipped >= fields->def.every_slip) due = true;
     const Events *events = fields->events;
     bool happens = events->began || events->crossed || events->ended;
-    return due || (fields->def.at_events && happens);
+    due = due || (fields->def.at_events && happens);
+    if (due) fields->slipped = 0;
+    return due;
 }
 
 // A run that is killed keeps every file that was written, each whole (io/files/part_file).
@@ -261,6 +267,7 @@ bool fields_archive(Fields *fields, Archive *archive, Error *err)
     archive_integer(archive, &written);
     archive_number(archive, &fields->next_U);
     archive_number(archive, &fields->next_t);
+    archive_number(archive, &fields->slipped);
     if (archive_reads(archive)) fields->written = fields->entry_count = 0;
     for (int32_t k = 0; k < written && !archive->failed; k++) {
         double time = archive_reads(archive) ? NAN : fields->entries[2 * k].time;

@@ -14,6 +14,7 @@
 typedef struct FieldsDef {
     double every_U, every_t;   // 0: not by this; length, time
     bool every_step, at_events;
+    double every_slip;   // of the fastest point of the contact, length; 0: not by this
 } FieldsDef;
 
 enum { FIELD_SLOTS = 8 };
@@ -45,6 +46,7 @@ typedef struct Fields {
     double seconds;   // wall time the run spent on them
     double seconds_beside;   // and the writer
     double next_U, next_t;   // when the next is due
+    double slipped;   // of the fastest point, since the last; length
 } Fields;
 
 bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,

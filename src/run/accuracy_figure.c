@@ -85,6 +85,9 @@ bool accuracy_figure(const Levels *levels, const char *title, const char *folder
     if (!json) return false;
     json_begin_object(json, NULL);
     json_text(json, "title", title);
+    json_begin_object(json, "page");
+    json_text(json, "title", "none");
+    json_end(json);
     write_axes(levels, json);
     json_begin_list(json, "series");
     write_means(levels, json);

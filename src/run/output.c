@@ -13,6 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { FILM_PARTS = 300 };   // of the way that the rod goes, between two files of a film
+
 // A name a line; freed by the caller. NULL: memory is short.
 static char *join_pad_names(const Interface *interface, Error *err)
 {
@@ -86,6 +88,12 @@ static bool open_fields(Simulation *simulation, Error *err)
                      .every_t = scene->output.fields_every_t,
                      .every_step = scene->output.fields_every_step,
                      .at_events = scene->output.fields_at_events};
+    if (scene->output.fields_film) {
+        double V = fabs(scene->rod.velocity), U = scene->time.until_U;
+        double way = U > 0 ? U : V * scene->time.until_t;
+        def.at_events = true;
+        def.every_U = def.every_slip = way / FILM_PARTS;
+    }
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
     simulation->fields.files.materials = simulation->model.materials.list;

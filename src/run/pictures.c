@@ -4,6 +4,7 @@
 
 #include "base/apart.h"
 #include "base/module.h"
+#include "io/text/picture_options.h"
 #include "render/render.h"
 
 #include <errno.h>
@@ -17,6 +18,11 @@ bool pictures_draw(const char *folder, const PictureRequest *request, Error *err
 {
     RenderFunction render = (RenderFunction)module_function("render", "amontons_render", err);
     return render && render(folder, request, err);
+}
+
+bool amontons_picture_option(PictureStyle *style, const char *name, const char *value, Error *err)
+{
+    return picture_option_set(style, name, value, err);
 }
 
 static bool check_folder(const char *folder, Error *err)

@@ -314,6 +314,8 @@ static const SceneKey keys[] = {
      .sentence = "true: a file at each step that the solver takes; best in an output.window."},
     {"output.fields.at_events", KEY_FLAG, offsetof(Scene, output.fields_at_events), "1", RANGE_ANY,
      "false", .sentence = "A file at the start and stop of each precursor and sliding."},
+    {"output.fields.film", KEY_FLAG, offsetof(Scene, output.fields_film), "1", RANGE_ANY, "false",
+     .sentence = "What a film needs: see above. `fields: film` says the same."},
     {"output.window.from_U", KEY_NUMBER, offsetof(Scene, output.window.from_U), "length",
      RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
      .sentence = "Fields are written in a part of the run only: from this U on."},
@@ -452,7 +454,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
         [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
         [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
-        [KEY_FIELDS] = "none, or a map of every_U, every_t, every_step, at_events",
+        [KEY_FIELDS] = "none, film, or a map of every_U, every_t, every_step, at_events, film",
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
     bool names = key->type == KEY_NAMES && key->choices, none = scene_key_may_be_none(key);

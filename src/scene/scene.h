@@ -108,9 +108,9 @@ typedef struct Scene {
     } reduction;
     struct {
         bool history;
-        bool fields;   // output.fields: none, or {every_U, every_t, every_step, at_events}
+        bool fields;   // output.fields: none, or {every_U, every_t, every_step, at_events, film}
         double fields_every_U, fields_every_t;
-        bool fields_every_step, fields_at_events;
+        bool fields_every_step, fields_at_events, fields_film;
         SceneWindow window;
         bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of render's RENDER_FIGURES

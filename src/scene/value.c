@@ -372,9 +372,11 @@ static bool set_list(const SceneKey *key, const SceneValue *value, Scene *scene,
 static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;
-    if (!is_map && strcmp(yaml_text(value->document, value->node), "none") != 0)
+    bool is_film = !is_map && strcmp(yaml_text(value->document, value->node), "film") == 0;
+    if (!is_map && !is_film && strcmp(yaml_text(value->document, value->node), "none") != 0)
         report_wrong(key, value, err);
-    scene->output.fields = is_map;
+    scene->output.fields = is_map || is_film;
+    scene->output.fields_film = is_film;
     scene->output.fields_every_U = scene->output.fields_every_t = 0;
     scene->output.fields_every_step = scene->output.fields_at_events = false;
     return error_is_clean(err);

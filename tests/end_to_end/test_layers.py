@@ -52,7 +52,7 @@ def allowed(folder, include):
     if include in ("amontons_error.h", "amontons_words.h"):
         return folder in ("base", "")   # what base/error.h and base/text.h show to everybody
     if include == "amontons_pictures.h":
-        return layer in ("render", "")   # what render/render.h is asked
+        return layer in ("render", "") or folder == "io/text"   # what render/render.h is asked; its options, read
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
     if include in ("build_record.h", "computing_sources.h", "page_resources.h"):
@@ -68,6 +68,7 @@ def allowed(folder, include):
     if layer == "render":
         return include.startswith(("base/", "render/")) or include in (
             "io/files/folder.h", "io/files/own_mark.h", "io/files/part_file.h", "io/text/html_writer.h", "io/text/yaml_document.h",
+            "io/text/csv_reader.h", "io/text/picture_options.h",
             "io/hdf5/array_file.h", "io/hdf5/result_file.h", "io/video/video_file.h", "io/mesh/mesh_file.h", "io/fields/field_read.h",
             "io/mesh/shape_functions.h")   # fields inside an element
     if folder == "cli":

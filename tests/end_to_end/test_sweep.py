@@ -489,8 +489,8 @@ class Sweep(unittest.TestCase):
             # Where cells are too long for slip nothing is known of the error, which the plot draws: one more reason.
             others = ", others" if name == "plot" else ""
             self.assertEqual([c["label"] for c in series if c["label"].startswith("open")],
-                             ["open: slip is not resolved", f"open: strains are not small{others}"])
-            drawn = [v for c in series if c["marker"] == "circle" and not c["filled"] and not c["label"] for v in c[value]]
+                             [f"open: slip is not resolved, or strains are not small{others}"], "one symbol, one entry")
+            drawn = [v for c in series if c["line"] == "none" and not c["filled"] and not c["label"] for v in c[value]]
             self.assertEqual(sorted(v for v in drawn if v is not None),
                              sorted(float(row["mu_max"]) for row, words in zip(rows, said) if words))
 

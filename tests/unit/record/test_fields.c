@@ -76,6 +76,17 @@ static void test_every_U(void **state)
                    (bool[]){1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0}, 11);
 }
 
+// At a slip rate of 0.1 in steps of 1 that do not show in U: by hand, every third.
+static void test_every_slip(void **state)
+{
+    (void)state;
+    start((FieldsDef){.every_slip = 0.25});
+    seen.max_slip_rate = 0.1;
+    seen.step_size = 1;
+    expect_written((double[]){0, 1, 2, 3, 4, 5, 6, 7}, (bool[]){1, 0, 0, 1, 0, 0, 1, 0}, 8);
+    seen.max_slip_rate = seen.step_size = 0;
+}
+
 static void test_every_t(void **state)
 {
     (void)state;
@@ -170,6 +181,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_every_U, setup, teardown),
         cmocka_unit_test_setup_teardown(test_every_t, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_every_slip, setup, teardown),
         cmocka_unit_test_setup_teardown(test_at_events, setup, teardown),
         cmocka_unit_test_setup_teardown(test_many, setup, teardown),
         cmocka_unit_test_setup_teardown(test_memory_faults, setup, teardown),

@@ -57,7 +57,7 @@ static const BadScene bad_values[] = {
     {0,
      "output: {fields: some}",
      "s.yaml:9:18: output.fields: found `some`",
-     {"none, or a map of every_U, every_t, every_step, at_events"}},
+     {"none, film, or a map of every_U, every_t, every_step, at_events, film"}},
     {0,
      "output: {fields: {}, window: {around: slide 3}}",
      "s.yaml:9:39: output.window.around: found `slide 3`",

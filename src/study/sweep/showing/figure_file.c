@@ -30,6 +30,9 @@ bool figure_begin(Figure *figure, Error *err)
     TRY((figure->json = json_create(path, err)));
     json_begin_object(figure->json, NULL);
     json_text(figure->json, "title", figure->title);
+    json_begin_object(figure->json, "page");   // what it shows is said where it is printed
+    json_text(figure->json, "title", "none");
+    json_end(figure->json);
 cleanup:
     return error_is_clean(err);
 }
@@ -141,17 +144,20 @@ bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
     return figure_write_curve(figure, &entry, err);
 }
 
+// One entry: one symbol has one meaning, of which there may be several reasons.
 bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err)
 {
     int32_t all = __builtin_popcount(doubts), shown = 0;
+    char label[LABEL_SIZE] = "open: ";
     for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
-        char label[LABEL_SIZE];
+        size_t used = strlen(label);
         if (!(doubts >> k & 1)) continue;
         bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
-        snprintf(label, sizeof label, "open: %.70s%s", names->words[k], has_more ? ", others" : "");
-        Curve entry = {.label = label, .line = "none", .marker = "circle"};
-        TRY(figure_write_entry(figure, &entry, err));
+        snprintf(label + used, sizeof label - used, "%s%.70s%s", shown > 1 ? ", or " : "",
+                 names->words[k], has_more ? ", others" : "");
     }
+    Curve entry = {.label = label, .line = "none", .marker = "circle"};
+    if (shown > 0) TRY(figure_write_entry(figure, &entry, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -193,7 +193,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Colours tell values of `series` apart, marks sweeps; without `series` colours do that, too.
+// Colours and marks tell curves apart, for print in grey too. Where there are several sweeps
+// colours tell values of `series` apart, marks sweeps; without `series` colours do that, too.
 static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const char *label)
 {
     static const char *const marker[MARKERS] = {"circle", "square", "triangle", "down"};
@@ -205,7 +206,7 @@ static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const 
     if (series->key) words_index(&self->curves, value, &color, &ignored);   // is there
     return (Curve){.label = label,
                    .line = "thin",
-                   .marker = marker[source % MARKERS],
+                   .marker = marker[(self->source_count > 1 ? source : (int32_t)color) % MARKERS],
                    .color = 1 + (int32_t)color % COLORS,
                    .filled = true};
 }

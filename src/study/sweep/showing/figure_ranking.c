@@ -53,7 +53,7 @@ static bool write_names(RankingFigure *self, Error *err)
     json_end(json);
     for (int32_t c = 0; c < study->column_count; c++)
         if (study_is_chosen(study, study->columns[c]))
-            join(label, sizeof label, label_last_word(study->columns[c]));
+            join(label, sizeof label, label_of_key(study->columns[c], false).words);
     json_text(json, "label", label);
     json_end(json);
 cleanup:
@@ -88,8 +88,12 @@ static bool write_baseline(RankingFigure *self, Error *err)
 {
     double base = self->ranking->base, x[] = {base, base}, y[] = {0.5, self->shown + 0.5};
     if (isnan(base)) return true;
-    Curve line = {
-        .label = "", .line = "dashed", .color = BASELINE_COLOR, .count = 2, .x = x, .y = y};
+    Curve line = {.label = "what gains are measured from",
+                  .line = "dashed",
+                  .color = BASELINE_COLOR,
+                  .count = 2,
+                  .x = x,
+                  .y = y};
     return figure_write_curve(&self->figure, &line, err);
 }
 

@@ -32,6 +32,31 @@ QuantityLabel label_of_record(const char *name)
     return label;
 }
 
+// What a key is called on an axis, with its symbol. Of a mesh's own parameters only names are
+// known.
+static void key_words(const char *name, char words[QUANTITY_LABEL_SIZE], bool *is_length)
+{
+    static const struct {
+        const char *key, *words;
+        bool is_length;   // of a mesh's parameter; of the others the table of keys knows
+    } known[] = {{"load.pressure", "pressure ~{P}_{ext}", false},
+                 {"rod.velocity", "rod velocity ~{V}", false},
+                 {"rod.height", "rod height ~{h}", false},
+                 {"friction.critical_velocity", "critical velocity ~{v}_{c}", false},
+                 {"mesh.set.length", "length ~{L}", true},
+                 {"mesh.set.height", "height ~{H}", true},
+                 {"mesh.set.pad_height", "pad height", true}};
+    bool of_mesh = strncmp(name, "mesh.set.", 9) == 0;
+    const char *last = label_last_word(name);
+    snprintf(words, QUANTITY_LABEL_SIZE, of_mesh ? "~{%.60s} (of the mesh)" : "%.60s", last);
+    *is_length = false;
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        if (strcmp(name, known[k].key) != 0) continue;
+        snprintf(words, QUANTITY_LABEL_SIZE, "%s", known[k].words);
+        *is_length = known[k].is_length;
+    }
+}
+
 QuantityLabel label_of_key(const char *name, bool is_si)
 {
     static const struct {
@@ -45,15 +70,19 @@ QuantityLabel label_of_key(const char *name, bool is_si)
     QuantityLabel label = {0};
     int32_t count = 0, index = scene_key_index(name);
     const SceneKey *keys = scene_keys(&count);
-    snprintf(label.words, QUANTITY_LABEL_SIZE, "%.60s", label_last_word(name));
-    if (index < 0 || keys[index].type != KEY_NUMBER) return label;
+    char words[QUANTITY_LABEL_SIZE];
+    bool is_length = false;
+    key_words(name, words, &is_length);
+    snprintf(label.words, QUANTITY_LABEL_SIZE, "%s", words);
+    bool has_unit = index >= 0 && keys[index].type == KEY_NUMBER;
+    if (!is_length && !has_unit) return label;
+    const char *unit = is_length ? "length" : keys[index].unit;
     for (size_t k = 0; k < sizeof units / sizeof units[0]; k++) {
-        if (strcmp(keys[index].unit, units[k].dimension) != 0) continue;
+        if (strcmp(unit, units[k].dimension) != 0) continue;
         if (is_si)
             label.unit = units[k].si;
         else if (units[k].normalised)
-            snprintf(label.words, QUANTITY_LABEL_SIZE, "%.60s / %s", label_last_word(name),
-                     units[k].normalised);
+            snprintf(label.words, QUANTITY_LABEL_SIZE, "%.60s / %s", words, units[k].normalised);
     }
     return label;
 }

@@ -76,7 +76,7 @@ static void test_drawn(void **state)
     mesh.style.dpi = 0;
     assert_true(amontons_render_mesh(&mesh, path, &err));
     read_size(path, size);
-    assert_int_equal(size[0], 1720);
+    assert_int_equal(size[0], 2031);   // 86 mm at 600 dots per inch
     unlink(path);
 }
 

@@ -19,7 +19,7 @@ static const double two_x[NODES] = {0.25, 0.75}, one_pad[NODES] = {0, 0};
 static float *grid_make(const SpaceTime *data, PixelGrid *grid)
 {
     Error err = {0};
-    *grid = (PixelGrid){0, 1, 0, 1, COLUMNS, ROWS, NULL};
+    *grid = (PixelGrid){0, 1, 0, 1, COLUMNS, ROWS, 1, NULL};
     assert_true(space_time_to_pixels(data, grid, &err));
     return grid->values;
 }
@@ -37,7 +37,7 @@ static void fastest_step_shows(void **state)
 {
     (void)state;
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 3, 2), 50, 0);   // lower node: |-50|, between slower steps
     assert_float_equal(at(&grid, 3, 1), 9, 0);   // upper node
@@ -51,7 +51,7 @@ static void long_steps_hold_their_end(void **state)
 {
     (void)state;
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 2, 2), 2, 0);
     for (int32_t column = 4; column <= 8; ++column) assert_float_equal(at(&grid, column, 2), 6, 0);
@@ -68,7 +68,7 @@ static void a_short_event_is_in_one_column(void **state)
     const double rate[STEPS * NODES] = {0, 0, 1, 1, 1, 1, 90, 90, 80, 80, 70, 70, 2, 2, 3, 3};
     const double event[1][2] = {{0.395, 0.41}}, whole[1][2] = {{0.31, 0.49}};
     PixelGrid grid;
-    SpaceTime data = {STEPS, U, NODES, two_x, one_pad, rate, NULL, 1, event};
+    SpaceTime data = {STEPS, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 1, event};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 3, 2), 1, 0);
     assert_float_equal(at(&grid, 4, 2), 90, 0);
@@ -80,12 +80,46 @@ static void a_short_event_is_in_one_column(void **state)
     pixel_grid_destroy(&grid);
 }
 
+// Three columns for it around that of its middle, whichever border it crosses.
+static void a_short_event_is_as_wide_as_asked(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const double U[4] = {0, 0.52, 0.53, 1}, event[1][2] = {{0.52, 0.53}};
+    const double rate[4 * NODES] = {0, 0, 90, 90, 80, 80, 2, 2};
+    PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, 3, NULL};
+    SpaceTime data = {4, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 1, event};
+    assert_true(space_time_to_pixels(&data, &grid, &err));
+    for (int32_t column = 4; column <= 6; ++column) assert_float_equal(at(&grid, column, 2), 90, 0);
+    assert_float_equal(at(&grid, 3, 2), 90, 0);   // inside of the step that ends in the event
+    assert_float_equal(at(&grid, 7, 2), 2, 0);
+    pixel_grid_destroy(&grid);
+}
+
+// Slip 0 to 1 evenly over U 0 to 0.5, then a leap of 3 at 0.55, V = 2: by hand.
+static void the_mean_is_slip_over_way(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const double U[5] = {0, 0.5, 0.55, 0.5500001, 1}, rate[5 * NODES] = {0};
+    const double slip[5 * NODES] = {0, 0, 1, 0, 1, 0, 4, 0, 4, 0};
+    PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, 1, NULL};
+    SpaceTime data = {5, U, NODES, two_x, one_pad, rate, NULL, slip, 2, 0, NULL};
+    assert_true(space_time_to_pixels(&data, &grid, &err));
+    for (int32_t column = 0; column < 5; ++column)
+        assert_float_equal(at(&grid, column, 2), 2 * 2, 1e-5);
+    assert_float_equal(at(&grid, 5, 2), 2 * 3 / 0.1, 1e-3);
+    assert_float_equal(at(&grid, 6, 2), 0, 1e-6);
+    assert_float_equal(at(&grid, 0, 1), 0, 0);
+    pixel_grid_destroy(&grid);
+}
+
 static void a_window_sees_what_surrounds_it(void **state)
 {
     (void)state;
     Error err = {0};
-    PixelGrid grid = {0.4, 0.6, 0, 1, COLUMNS, ROWS, NULL};
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
+    PixelGrid grid = {0.4, 0.6, 0, 1, COLUMNS, ROWS, 1, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     assert_true(space_time_to_pixels(&data, &grid, &err));
     for (int32_t column = 0; column < COLUMNS; ++column)
         assert_float_equal(at(&grid, column, 2), 6, 0);   // inside the step that ends at 0.85
@@ -97,7 +131,7 @@ static void before_the_first_step_is_nothing(void **state)
     (void)state;
     const double U[3] = {NAN, 0.5, 0.55}, rate[3 * NODES] = {7, 7, 1, 1, 2, 2};
     PixelGrid grid;
-    SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL, 0, NULL};
+    SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 0, NULL};
     grid_make(&data, &grid);
     for (int32_t column = 0; column < 5; ++column) assert_true(isnan(at(&grid, column, 0)));
     assert_float_equal(at(&grid, 5, 1), 2, 0);
@@ -112,7 +146,7 @@ static void nodes_fill_their_pads_only(void **state)
     const double U[2] = {0, 1}, rate[12] = {1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6};
     double from = 0, to = 0;
     PixelGrid grid;
-    SpaceTime data = {2, U, 6, x, pad, rate, NULL, 0, NULL};
+    SpaceTime data = {2, U, 6, x, pad, rate, NULL, NULL, 1, 0, NULL};
     node_extent(&data, 2, &from, &to);
     assert_float_equal(from, 0.175, 1e-15);
     assert_float_equal(to, 0.25, 1e-15);
@@ -131,7 +165,7 @@ static void open_is_infinite_and_nan_is_none(void **state)
     (void)state;
     const double U[2] = {0, 0.95}, rate[4] = {1, NAN, 1, NAN}, status[4] = {1, 1, 0, 1};
     PixelGrid grid;
-    SpaceTime data = {2, U, NODES, two_x, one_pad, rate, status, 0, NULL};
+    SpaceTime data = {2, U, NODES, two_x, one_pad, rate, status, NULL, 1, 0, NULL};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 0, 2), 1, 0);
     assert_true(isinf(at(&grid, 5, 2)));
@@ -153,9 +187,9 @@ static void agrees_with_the_definition(void **state)
             if (k > 0) U[k] = U[k - 1] + leap * rand() / RAND_MAX;
             rate[k] = rand() % 100;
         }
-        PixelGrid grid = {0, 1, 0, 1, COLUMNS, 1, NULL};
+        PixelGrid grid = {0, 1, 0, 1, COLUMNS, 1, 1, NULL};
         Error err = {0};
-        SpaceTime data = {MANY, U, 1, &x, &pad, rate, NULL, 0, NULL};
+        SpaceTime data = {MANY, U, 1, &x, &pad, rate, NULL, NULL, 1, 0, NULL};
         assert_true(space_time_to_pixels(&data, &grid, &err));
         for (int32_t column = 0; column < COLUMNS; ++column) {
             double fastest = -1, behind = -1;
@@ -177,11 +211,11 @@ static void agrees_with_the_definition(void **state)
 static void memory_can_be_short(void **state)
 {
     (void)state;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     int64_t live = memory_counters().live;
-    for (int64_t k = 0; k < 3; ++k) {
+    for (int64_t k = 0; k < 4; ++k) {
         Error err = {0};
-        PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, NULL};
+        PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, 1, NULL};
         memory_fail_after(k);
         assert_false(space_time_to_pixels(&data, &grid, &err));
         memory_fail_after(-1);
@@ -197,6 +231,8 @@ int main(void)
         cmocka_unit_test(fastest_step_shows),
         cmocka_unit_test(long_steps_hold_their_end),
         cmocka_unit_test(a_short_event_is_in_one_column),
+        cmocka_unit_test(a_short_event_is_as_wide_as_asked),
+        cmocka_unit_test(the_mean_is_slip_over_way),
         cmocka_unit_test(a_window_sees_what_surrounds_it),
         cmocka_unit_test(before_the_first_step_is_nothing),
         cmocka_unit_test(nodes_fill_their_pads_only),

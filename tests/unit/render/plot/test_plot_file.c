@@ -25,7 +25,8 @@ static const char WHOLE[] =
     "  - {label: one, x: [1e-3, 0.1, 1], y: [1, null, 3], low: [0.5, 1, 2], high: [1.5, 3, 4],\n"
     "     color: 2, marker: triangle, filled: false, line: dashed}\n"
     "  - {x: [0.01, 0.1], y: [2, 2], line: none, marker: down}\n"
-    "inset: {place: [0.5, 0.1, 0.9, 0.6], series: [{x: [0, 2], y: [5, 5]}]}\n";
+    "inset: {place: [0.5, 0.1, 0.9, 0.6], series: [{x: [0, 2], y: [5, 5]}]}\n"
+    "page: {style: slide, height: 60, limits: '1%,2'}\n";
 
 static const char PANELS[] =
     "x: {label: x, scale: log}\ny: {label: y, unit: Pa}\ncolor: {label: c}\ncontours: {label: l}\n"
@@ -60,6 +61,8 @@ static void holds_what_the_file_says(void **state)
     if (!plot_file_read(path, plot, &err)) fail_msg("%s", err.message);
     assert_string_equal(plot->title, "whole");
     assert_true(plot->height_over_width == 0.5);
+    assert_string_equal(plot->style.style, "slide");
+    assert_true(plot->style.height == 60 && !plot->style.legend);
     assert_true(plot->main.x.is_log && plot->main.x.low == 1e-3 && plot->main.x.high == 1);
     assert_int_equal(plot->main.legend, CORNER_LOWER_LEFT);
     assert_int_equal(plot->main.series_count, 2);
@@ -128,6 +131,9 @@ static void says_what_is_wrong(void **state)
         {"map: {x: [1], y: [1], value: [1, 2]}\n",
          "value: found a list of 2; allowed: a list of 1"},
         {"map: {x: none.h5:x, y: [1], value: [1]}\n", "none.h5"},
+        {"series: []\npage: {height: 1}\n", ":2:16: page: height 1: a number from 20 to 1000"},
+        {"series: []\npage: {hight: 1}\n", "a picture has no option \"hight\""},
+        {"series: []\npage: wide\n", "page: found `wide`"},
         {"panels: []\n", "panels: found"},
         {"panels: [{legend: none}]\n", "panels: unknown key `legend`"},
     };

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Several figures of the history on one page. Called by render.c.
+#ifndef AMONTONS_RENDER_PANELS_H
+#define AMONTONS_RENDER_PANELS_H
+
+#include "render/figures/figures.h"
+
+enum { PANELS_MAX = 6 };
+
+typedef struct PanelFigure {
+    const char *name;
+    double shape;   // height over the page's width
+    FigureFunction draw;
+} PanelFigure;
+
+// On a page begun here. figures: [count], at most PANELS_MAX; def: but its height.
+bool panels_draw(Page *page, PageDef *def, const PanelFigure *figures, int32_t count,
+                 ResultView *view, Error *err);
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/text/picture_options.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum OptionKind { OPTION_NUMBER, OPTION_WORD, OPTION_TEXT, OPTION_RANGE } OptionKind;
+
+typedef struct PictureOption {
+    const char *name;
+    OptionKind kind;
+    double low, high;   // of a number
+    const char *words;   // that are allowed, with blanks between
+    size_t offset;   // of the member of PictureStyle: a double for a number, else a text
+} PictureOption;
+
+static const PictureOption OPTIONS[] = {
+#define X(name, kind, low, high, words, argument, meaning)                                         \
+    {#name, OPTION_##kind, low, high, words, offsetof(PictureStyle, name)},
+    PICTURE_OPTIONS(X)
+#undef X
+};
+
+enum { OPTIONS_COUNT = sizeof OPTIONS / sizeof *OPTIONS, NAMES_SIZE = 200 };
+
+static bool is_among(const char *words, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = words; *at; at += strcspn(at, " "), at += *at == ' ')
+        if (length > 0 && strcspn(at, " ") == length && strncmp(at, word, length) == 0) return true;
+    return false;
+}
+
+static bool set_number(const PictureOption *option, const char *value, void *place, Error *err)
+{
+    char *end = NULL;
+    double number = strtod(value, &end);
+    if (!*value || *end || !(number >= option->low && number <= option->high))
+        FAIL(err, ERROR_INPUT, "%s %.40s: a number from %g to %g is allowed", option->name, value,
+             option->low, option->high);
+    *(double *)place = number;
+cleanup:
+    return error_is_clean(err);
+}
+
+// One end; *rest: behind it.
+static double read_end(const char *text, const char **rest, bool *is_part)
+{
+    char *end = NULL;
+    double value = strtod(text, &end);
+    *is_part = end != text && *end == '%';
+    *rest = end + *is_part;
+    if (end == text || !isfinite(value) || (*is_part && !(value >= 0 && value <= 100))) return NAN;
+    return *is_part ? value / 100 : value;
+}
+
+static bool check_range(const PictureOption *option, const char *value, Error *err)
+{
+    const char *rest = NULL;
+    bool part[2];
+    double low = read_end(value, &rest, &part[0]);
+    double high = *rest == ',' ? read_end(rest + 1, &rest, &part[1]) : NAN;
+    if (!isfinite(low + high) || *rest || (part[0] == part[1] && !(high > low)))
+        FAIL(err, ERROR_INPUT, "%s %.40s: two rising numbers are allowed, or percents: 1%%,99%%",
+             option->name, value);
+cleanup:
+    return error_is_clean(err);
+}
+
+static const PictureOption *find_option(const char *name, Error *err)
+{
+    char names[NAMES_SIZE] = "";
+    for (int32_t k = 0; k < OPTIONS_COUNT; ++k) {
+        if (strcmp(OPTIONS[k].name, name) == 0) return &OPTIONS[k];
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? ", " : "", OPTIONS[k].name);
+    }
+    FAIL(err, ERROR_INPUT, "a picture has no option \"%.40s\"; known are: %s", name, names);
+cleanup:
+    return NULL;
+}
+
+bool picture_option_set(PictureStyle *style, const char *name, const char *value, Error *err)
+{
+    const PictureOption *option = find_option(name, err);
+    TRY(option);
+    void *place = (char *)style + option->offset;
+    if (option->kind == OPTION_NUMBER) return set_number(option, value, place, err);
+    if (option->kind == OPTION_WORD && !is_among(option->words, value))
+        FAIL(err, ERROR_INPUT, "%s %.40s: one of these is allowed: %s", name, value, option->words);
+    if (option->kind == OPTION_RANGE) TRY(check_range(option, value, err));
+    *(const char **)place = value;
+cleanup:
+    return error_is_clean(err);
+}
+
+void picture_style_complete(PictureStyle *style, const PictureStyle *base)
+{
+    for (int32_t k = 0; k < OPTIONS_COUNT; ++k) {
+        void *own = (char *)style + OPTIONS[k].offset;
+        const void *other = (const char *)base + OPTIONS[k].offset;
+        if (OPTIONS[k].kind != OPTION_NUMBER) {
+            if (!*(const char **)own) *(const char **)own = *(const char *const *)other;
+        } else if (!(*(double *)own > 0)) {
+            *(double *)own = *(const double *)other;
+        }
+    }
+}
+
+double picture_limit(const PictureStyle *style, int32_t end, bool *is_part)
+{
+    const char *rest = NULL;
+    *is_part = false;
+    if (!style->limits) return NAN;
+    double value = read_end(style->limits, &rest, is_part);
+    return end == 0 || *rest != ',' ? value : read_end(rest + 1, &rest, is_part);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The options of a picture by their names, read and checked by the one table, PICTURE_OPTIONS.
+// Called by run/pictures, for callers, and by render/plot, for the `page` of a plot file.
+#ifndef AMONTONS_IO_TEXT_PICTURE_OPTIONS_H
+#define AMONTONS_IO_TEXT_PICTURE_OPTIONS_H
+
+#include "amontons_pictures.h"
+#include "base/error.h"
+
+// As amontons_picture_option.
+bool picture_option_set(PictureStyle *style, const char *name, const char *value, Error *err);
+
+// What `style` leaves open is as `base` has it.
+void picture_style_complete(PictureStyle *style, const PictureStyle *base);
+
+// One end of `limits`, 0 the lower: a number, or a part (of 1) of what is shown. NAN: none is
+// asked.
+double picture_limit(const PictureStyle *style, int32_t end, bool *is_part);
+
+#endif
