@@ -121,18 +121,18 @@ class Command(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             def call(*words):
                 return subprocess.run([FOLDER / "strangers.py", "-o", folder, "--limit", "0", *words], capture_output=True, text=True)
-            first = call("--only", "348")
-            kept = Path(folder, "348.json")
+            first = call("--only", "490")
+            kept = Path(folder, "490.json")
             data = json.loads(kept.read_text())
             self.assertEqual(data["asked"]["status"], 0, first.stderr)
             self.assertGreater(len(data["asked"]["levels"]), 2)
-            self.assertIn("0 problems to compute", call("--only", "348").stdout)
+            self.assertIn("0 problems to compute", call("--only", "490").stdout)
             self.assertEqual(json.loads(kept.read_text()), data)
             table = Path(folder, "table.md").read_text()
-            self.assertNotIn("| 348 |", table)
+            self.assertNotIn("| 490 |", table)
             self.assertIn("1 problems computed", table)
-            call("--only", "348", "--table", "--show-judging")
-            self.assertIn("| 348 |", Path(folder, "table.md").read_text())
+            call("--only", "490", "--table", "--show-judging")
+            self.assertIn("| 490 |", Path(folder, "table.md").read_text())
 
 
 if __name__ == "__main__":
