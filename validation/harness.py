@@ -194,16 +194,16 @@ class Static:
         length, force = np.abs(self.displacement).max(), np.abs(self.reaction).max()
         held = {s["group"] for s in self.scene["load"]["supports"]}
         if not any(g.startswith("contact") for g in held):
-            drawn = self.position[self.contact, 1]   # a curved contact: gaps far larger than u, and r of open nodes is rounding
-            gap, pressing, mu = (drawn + u[:, 1]) / max(length, drawn.max()), r[:, 1] / force, self.scene["friction"]["mu_static"]
+            drawn = self.position[self.contact, -1]   # a curved contact: gaps far larger than u, and r of open nodes is rounding
+            gap, pressing, mu = (drawn + u[:, -1]) / max(length, drawn.max()), r[:, -1] / force, self.scene["friction"]["mu_static"]
+            shear = np.linalg.norm(r[:, :-1], axis=1)
             if not any(self.scene.get("contact", {}).get(key) for key in ("radius", "gap", "profile")):
                 study.check(name, "penetration", max(0, -gap.min()), 1e-15)
                 study.check(name, "gap times pressure", np.abs(gap * pressing).max(), 1e-9 * slack if drawn.any() else 1e-12)
             study.check(name, "pull", max(0, -pressing.min()), 1e-9 * slack)
-            study.check(name, "Coulomb cone", max(0, (np.abs(r[:, 0]) / force - mu * pressing).max()),
-                        1e-9)
-            study.check(name, "slip against friction", max(0, (r[:, 0] * u[:, 0]).max() / force / length),
-                        1e-10)
+            study.check(name, "Coulomb cone", max(0, (shear / force - mu * pressing).max()), 1e-9)
+            work = (r[:, :-1] * u[:, :-1]).sum(axis=1)
+            study.check(name, "slip against friction", max(0, work.max() / force / length), 1e-10)
             study.check(name, "equilibrium: complementarity", self.errors["complementarity"], 1e-9 * slack)
         for key in ("residual", "force", "moment", "energy"):
             study.check(name, f"equilibrium: {key}", self.errors[key], 1e-9 * slack)
@@ -256,7 +256,8 @@ class Run:
             grid = reader.GetOutput()
             arrays = [grid.GetPoints().GetData(), *map(grid.GetPointData().GetArray,
                                                        ("displacement", "velocity"))]
-            yield (float(time), *(vtk_to_numpy(a)[:, :2].astype(float) for a in arrays))
+            axes = 2 if grid.GetBounds()[4:] == (0, 0) else 3   # VTK's third is 0 in the plane
+            yield (float(time), *(vtk_to_numpy(a)[:, :axes].astype(float) for a in arrays))
 
 
 def schemes():
@@ -267,13 +268,13 @@ def schemes():
 
 
 def make_mesh(path, geo, parameters, order=1):
-    """gmsh meshes meshes/GEO.geo into msh 2.2; gives the physical numbers of its curves and surfaces."""
-    words = ["gmsh", "-2", "-v", "1", SOURCE / "meshes" / f"{geo}.geo", "-format", "msh22", "-o", path]
+    """gmsh meshes meshes/GEO.geo into msh 2.2; gives the physical numbers of its curves, surfaces and volumes."""
+    words = ["gmsh", "-3" if geo.endswith("3d") else "-2", "-v", "1", SOURCE / "meshes" / f"{geo}.geo", "-format", "msh22", "-o", path]
     for key, value in {**parameters, "order": order}.items():
         words += ["-setstring" if isinstance(value, str) else "-setnumber", key, value]
     call(words)
     return dict((name, number) for number, name in
-                re.findall(r'^[12] (\d+) "(\w+)"', Path(path).read_text(), re.M))
+                re.findall(r'^[123] (\d+) "(\w+)"', Path(path).read_text(), re.M))
 
 
 def freefem(script, order, mesh, curves, out):

@@ -50,7 +50,8 @@ static void print_summary(const Scene *scene, const StaticSummary *summary)
     say("  errors         equations %.1e, forces %.1e, moments %.1e, contact %.1e\n",
         summary->residual, summary->force_balance, summary->moment_balance,
         summary->complementarity);
-    say("  units          %s, per width\n", is_si ? "SI" : "those of the scene (normalised)");
+    say("  units          %s%s\n", is_si ? "SI" : "those of the scene (normalised)",
+        summary->dim == 2 ? ", per width" : "");
 }
 
 // Without -o nothing is written: the lines printed are all.

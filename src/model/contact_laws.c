@@ -2,6 +2,7 @@
 #include "model/contact_laws.h"
 
 #include "base/memory.h"
+#include "model/place_formula.h"
 #include "scene/contact_laws.h"
 
 #include <math.h>
@@ -9,15 +10,10 @@
 
 enum { SAMPLES = 32 };   // of a formula over the part of a node; exact where it is straight
 
-static bool no_name(const void *context, const char *name, double *value)
-{
-    (void)context, (void)name, (void)value;
-    return false;
-}
-
-// A stretch of the contact.
+// A stretch of the contact along x, in space a square in it.
 typedef struct Part {
     double from, to;   // places, length
+    double y[2];   // likewise; not used in the plane
 } Part;
 
 // The part that node i stands for, behind that of the node before it: as long as its weight, so
@@ -30,25 +26,51 @@ static Part next_part(const Interface *interface, int32_t i, Part before)
 {
     double from = before.to, rounding = 1e-6 * interface->weight[i];
     if (i == 0 || before.to - interface->x[i - 1] < rounding) from = interface->x[i];
-    return (Part){from, from + interface->weight[i]};
+    return (Part){from, from + interface->weight[i], {0}};
+}
+
+// In space a square around the node, as large as its weight, as far as it lies within `all`, the box
+// around the contact.
+static Part square_part(const Interface *interface, int32_t i, Part all)
+{
+    double half = 0.5 * sqrt(interface->weight[i]), x = interface->x[i], y = interface->y[i];
+    return (Part){fmax(x - half, all.from),
+                  fmin(x + half, all.to),
+                  {fmax(y - half, all.y[0]), fmin(y + half, all.y[1])}};
+}
+
+static Part box_of(const Interface *interface)
+{
+    int32_t last = interface->contact_count - 1;
+    Part all = {interface->x[0], interface->x[last], {INFINITY, -INFINITY}};
+    for (int32_t i = 0; interface->y && i <= last; i++) {
+        all.y[0] = fmin(all.y[0], interface->y[i]);
+        all.y[1] = fmax(all.y[1], interface->y[i]);
+    }
+    return all;
 }
 
 // The mean over a part: by the factor of the node's place alone a jump would lie up to half a cell
 // off, and mu of all meshes that share this would agree on what it makes of it. Not weighted by
-// shape functions, as those of order 2 are negative in places. text: a formula of x, empty: 1.
-static bool take_mean(Part part, const char *text, double *factor, Error *err)
+// shape functions, as those of order 2 are negative in places. text: a formula of x, in space also of
+// y; empty: 1.
+static bool take_mean(Part part, bool plane, const char *text, double *factor, Error *err)
 {
-    static const FormulaNames names = {no_name, NULL, "x", "is no number here: x alone"};
     Formula formula;
     double ignored, mean = 0;
+    int32_t rows = plane ? 1 : SAMPLES, taken = 0;
     if (!*text) return true;
-    TRY(formula_read(text, &names, &formula, err));
-    for (int32_t k = 0; k < SAMPLES; k++) {
-        double x = part.from + (k + 0.5) / SAMPLES * (part.to - part.from);
-        double value = formula_at(&formula, x, &ignored);
-        if (!(value >= 0 && isfinite(value)))
-            FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed", x, value);
-        mean += (value - mean) / (k + 1);   // to the bit the value where it is level
+    for (int32_t j = 0; j < rows; j++) {
+        double y = part.y[0] + (j + 0.5) / rows * (part.y[1] - part.y[0]);
+        TRY(place_formula_read(text, plane ? NULL : &y, &formula, err));
+        for (int32_t k = 0; k < SAMPLES; k++) {
+            double x = part.from + (k + 0.5) / SAMPLES * (part.to - part.from);
+            double value = formula_at(&formula, x, &ignored);
+            if (!(value >= 0 && isfinite(value)))
+                FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed", x,
+                     value);
+            mean += (value - mean) / ++taken;   // to the bit the value where it is level
+        }
     }
     *factor *= mean;
 cleanup:
@@ -74,7 +96,7 @@ static bool check_groups(const Model *model, Error *err)
         for (int32_t p = 0; p < interface->pad_count; p++)
             found = found || strcmp(interface->pad_name[p], laws->item[k].group) == 0;
         if (!found)
-            FAIL(err, ERROR_INPUT, "`%s` is no contact curve; the first is `%s`, of %d",
+            FAIL(err, ERROR_INPUT, "`%s` is no contact group; the first is `%s`, of %d",
                  laws->item[k].group, interface->pad_name[0], interface->pad_count);
     }
 cleanup:
@@ -86,17 +108,18 @@ bool model_lay_laws(Model *model, Error *err)
     const Scene *scene = model->scene;
     const Interface *interface = &model->interface;
     int32_t count = interface->contact_count;
-    Part part = {0};
+    bool plane = !interface->y;
+    Part part = {0}, all = box_of(interface);
     if (scene->contact_laws.count == 0 && !*scene->own_friction.along) return true;
     TRY(scene_blame(scene, "friction.contacts", check_groups(model, err), err));
     TRY((model->node_laws = NEW_ARRAY(FrictionLaw, count, err)));
     for (int32_t i = 0; i < count; i++) {
         const SceneContactLaw *item = item_of(model, i);
         double factor = 1;
-        part = next_part(interface, i, part);
-        bool done = take_mean(part, scene->own_friction.along, &factor, err);
+        part = plane ? next_part(interface, i, part) : square_part(interface, i, all);
+        bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
         TRY(scene_blame(scene, "friction.along", done, err));
-        done = !item || take_mean(part, item->along, &factor, err);
+        done = !item || take_mean(part, plane, item->along, &factor, err);
         TRY(scene_blame(scene, "friction.contacts", done, err));
         FrictionLaw law = scene->friction;
         done = !item || scene_contact_law(scene, item, &law, err);

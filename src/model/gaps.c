@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/gaps.h"
 
-#include "base/formula.h"
 #include "base/memory.h"
+#include "model/place_formula.h"
 #include "scene/profile.h"
 
 #include <math.h>
 
-static bool no_name(const void *context, const char *name, double *value)
-{
-    (void)context, (void)name, (void)value;
-    return false;
-}
-
 static bool add_formula(const char *text, Interface *interface, Error *err)
 {
-    static const FormulaNames names = {no_name, NULL, "x", "is no number here: x alone"};
     Formula formula;
     double ignored;
-    TRY(formula_read(text, &names, &formula, err));
     for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (i == 0 || interface->y)
+            TRY(place_formula_read(text, interface->y ? &interface->y[i] : NULL, &formula, err));
         double gap = formula_at(&formula, interface->x[i], &ignored);
         if (!(gap >= 0 && isfinite(gap)))
             FAIL(err, ERROR_INPUT, "at x = %g the gap is %g; a number >= 0 is needed",

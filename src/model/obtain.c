@@ -272,6 +272,11 @@ static bool check_space(const Model *model, Error *err)
              "%s: reduction.use: always, but blocks in space are stepped on the whole mesh "
              "(`auto` or `never`)",
              scene->path);
+    if (model->mesh.dim > 2 && scene->accuracy.mu > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: accuracy.mu: how the error of a block in space falls with its cells was not "
+             "measured yet; run it on two meshes, and compare",
+             scene->path);
 cleanup:
     return error_is_clean(err);
 }

@@ -238,7 +238,8 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
 {
     const Mesh *mesh = &model->mesh;
     int32_t dofs = model->bulk.dof_count;
-    StaticSummary summary = {.nodes = mesh->node_count,
+    StaticSummary summary = {.dim = mesh->dim,
+                             .nodes = mesh->node_count,
                              .contact_nodes = model->interface.contact_count,
                              .rod_nodes = model->interface.rod_count,
                              .iterations = solution->iterations};

@@ -119,23 +119,24 @@ static const SceneKey keys[] = {
          "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
     {"friction.along", KEY_TEXT, offsetof(Scene, own_friction.along), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "Factor on mu along the contact: a formula of x, as in `points(x, 0.4, 1, 0.45, "
+     .sentence = "Factor on mu along the contact: a formula of x (in space also of y), as in "
+                 "`points(x, 0.4, 1, 0.45, "
                  "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
     {"friction.contacts", KEY_CONTACT_LAWS, offsetof(Scene, contact_laws), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence =
-         "Friction of single contact curves, a list of {group: NAME, ...} with those of law, "
+         "Friction of single contact groups, a list of {group: NAME, ...} with those of law, "
          "mu_static, mu_kinetic, critical_velocity, formula and along that differ there."},
     {"contact.radius", KEY_NUMBER, offsetof(Scene, contact.radius), "length", RANGE_NOT_NEGATIVE,
      "0",
      .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
                  "is flat."},
     {"contact.gap", KEY_TEXT, offsetof(Scene, contact.gap), "1", RANGE_ANY, NULL, .may_lack = true,
-     .sentence =
-         "How far the substrate lies below z = 0: a formula of x, as in `max(0, 0.1 - x)^2 / "
-         "0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, 1e-3, 0.5, 0, "
-         "...)`, a measured profile. It adds to radius and to what the mesh's own contact "
-         "curves leave."},
+     .sentence = "How far the substrate lies below z = 0: a formula of x (in space also of y), as "
+                 "in `max(0, 0.1 - x)^2 / "
+                 "0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, 1e-3, 0.5, 0, "
+                 "...)`, a measured profile. It adds to radius and to what the mesh's own contact "
+                 "curves leave."},
     {"contact.profile", KEY_TEXT, offsetof(Scene, contact.profile), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "The same as a file, relative to the scene's folder: a line for each point, x and "

@@ -118,7 +118,7 @@ class Contacts(unittest.TestCase):
 
     def test_refusals(self):
         for words, setting in (
-                ("`nope` is no contact curve", "friction.contacts=[{group: nope, mu_static: 0.2}]"),
+                ("`nope` is no contact group", "friction.contacts=[{group: nope, mu_static: 0.2}]"),
                 ("unknown key `mu_statc`", "friction.contacts=[{group: contact_1, mu_statc: 0.2}]"),
                 ("contact_1: mu_kinetic: 0.1 is more than mu_static (0.05)",
                  "friction.contacts=[{group: contact_1, mu_static: 0.05}]"),

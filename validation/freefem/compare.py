@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """FreeFEM on the same gmsh mesh, node by node: the same discrete problem, solved by another program.
 
-T3 is FreeFEM's P1 and T6 its P2 on the straight-sided mesh. Contact is on nodes in both, without a
+T3 and TET4 are FreeFEM's P1, T6 and TET10 its P2 on the straight-sided mesh. Contact is on nodes in both, without a
 penalty, so that nothing but rounding is left."""
 import numpy as np
 
@@ -15,6 +15,8 @@ FREE = {"shape": "triangle", "nx": 26, "nz": 8, "layout": "free"}
 PADS = {"shape": "triangle", "n": 4}
 LAYERS = {"shape": "triangle", "nx": 20, "nz": 8, "nz_layer": 3}
 SQUARE = {"shape": "triangle", "length": 0.04, "height": 0.04, "nx": 32, "nz": 32}
+SPACE = {"shape": "tet", "nx": 5, "ny": 4, "nz": 4}
+FREE_SPACE = {"shape": "tet", "layout": "free", "nx": 6, "ny": 5, "nz": 5, "grade_z": 3}
 MESHES = {"regular": REGULAR, "graded": GRADED, "unstructured": FREE}
 OTHERS = {"four pads": PADS, "on a layer": LAYERS, "32x32": SQUARE}
 
@@ -73,11 +75,33 @@ def compare(study, case, geo, mesh_name, order):
                   abs(theirs_open - ours.results["open"]), 0, note=states)
 
 
+def compare_in_space(study, case, mesh_name, parameters, order):
+    """Displacements and reactions of every node; where contact can open, how much of it is open. Of TET10 the mid-sides
+    are what touches."""
+    folder = study.new_folder(f"freefem-{case}")
+    folder.mkdir()
+    surfaces = make_mesh(folder / "linear.msh", "block3d", parameters)
+    make_mesh(folder / "ours.msh", "block3d", parameters, order)
+    theirs = freefem(FREEFEM / f"{case}.edp", order, folder / "linear.msh", surfaces, folder / "freefem.txt")
+    ours = Static(study, FREEFEM / f"{case}.yaml", f"static-{case}", {"mesh.file": folder / "ours.msh", "mesh.set": "{}"})
+    assert len(theirs) == len(ours.position)
+    theirs = theirs[match(ours.position, theirs[:, :3])]
+    label = f"{case.replace('_', ' ')}, {mesh_name}, {'TET4' if order == 1 else 'TET10'}"
+    for name, mine, yours, allowed in (("displacement", ours.displacement, theirs[:, 3:6], TOLERANCE),
+                                       ("reaction", ours.reaction, theirs[:, 6:9], 10 * TOLERANCE)):
+        study.add(GROUP, label, f"{name} of every node, largest", np.abs(yours).max(), np.abs(mine).max(),
+                  relative(mine, yours), allowed)
+    if case == "space_uplift":
+        open_there = int((np.abs(theirs[ours.contact, 8]) <= 1e-10 * np.abs(theirs[:, 8]).max()).sum())
+        study.add(GROUP, label, "open contact nodes", open_there, ours.results["open"],
+                  abs(open_there - ours.results["open"]), 0, note=f"of {len(ours.contact)}")
+
+
 def steps(study, order, case="step"):
     """Four viscoelastic steps with M, C and K: displacement and velocity; `layers_step` with two
-    materials. Loads come at once and the steps are long on purpose: the ledger shows their
+    materials, `space_step` in space. Loads come at once and the steps are long on purpose: the ledger shows their
     truncation, 1.7 %."""
-    geo, parameters = ("block", REGULAR) if case == "step" else ("layers", LAYERS)
+    geo, parameters = {"step": ("block", REGULAR), "layers_step": ("layers", LAYERS), "space_step": ("block3d", SPACE)}[case]
     folder = study.new_folder(f"freefem-{case}")
     folder.mkdir()
     curves = make_mesh(folder / "linear.msh", geo, parameters)
@@ -86,12 +110,14 @@ def steps(study, order, case="step"):
                      folder / "nodes.txt")
     run = Run(study, FREEFEM / f"{case}.yaml", case,
               {"mesh.file": folder / "ours.msh", "mesh.set": "{}"},
-              ledger=2e-2 if case == "step" else 0.2)
+              ledger=0.2 if case == "layers_step" else 2e-2)
     time, points, u, v = list(run.frames())[-1]
-    theirs = theirs[match(points, theirs[:, :2])]
-    label = (f"4 viscoelastic steps{'' if case == 'step' else ' on a layer'}, "
-             f"{'T3' if order == 1 else 'T6'}")
-    for name, mine, yours in (("displacement", u, theirs[:, 2:4]), ("velocity", v, theirs[:, 4:6])):
+    dim = points.shape[1]
+    theirs = theirs[match(points, theirs[:, :dim])]
+    where = {"step": "", "layers_step": " on a layer", "space_step": " in space"}[case]
+    element = ("T3", "T6") if dim == 2 else ("TET4", "TET10")
+    label = f"4 viscoelastic steps{where}, {element[order - 1]}"
+    for name, mine, yours in (("displacement", u, theirs[:, dim:2 * dim]), ("velocity", v, theirs[:, 2 * dim:])):
         study.add(GROUP, label, f"{name} of every node, largest", np.abs(yours).max(),
                   np.abs(mine).max(), relative(mine, yours), 1e-9)
 
@@ -160,6 +186,11 @@ def run(study):
     for order in (1, 2):
         steps(study, order)
         steps(study, order, "layers_step")
+        steps(study, order, "space_step")
+        for case in ("space_bonded", "space_uplift"):
+            compare_in_space(study, case, "regular", SPACE, order)
+            if not study.quick:
+                compare_in_space(study, case, "unstructured", FREE_SPACE, order)
     if not study.quick:
         quadrilaterals(study)
     controls(study)

@@ -111,6 +111,11 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
     TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
                        err));
     TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    if (mesh.dim > 2)
+        FAIL(err, ERROR_INPUT,
+             "%s: is a mesh in space, and the 1D model a line along a block in the "
+             "plane",
+             scene->mesh.file);
     TRY(mesh_contact(&mesh, scene->groups.contact.name, scene->groups.contact.count, &contact,
                      err));
     model->length = mesh.x_max - mesh.x_min;

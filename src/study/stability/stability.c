@@ -297,6 +297,17 @@ static void path_destroy(StabilityPath *path)
     memory_free(path->critical_mode);
 }
 
+static bool refuse_space(const Simulation *simulation, Error *err)
+{
+    if (simulation->model.interface.dim > 2)
+        FAIL(err, ERROR_INPUT,
+             "%s: the mesh is in space, and a front is followed along a line only: no critical "
+             "lengths of it yet",
+             simulation->scene.path);
+cleanup:
+    return error_is_clean(err);
+}
+
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per
 // front position, where things are lost, results.
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
@@ -310,6 +321,7 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
+    TRY(refuse_space(path.simulation, err));
     path.model = &path.simulation->model;
     if (!options->at_end) TRY(run_slidings(&path, err));
     double before = clock_seconds();

@@ -4,7 +4,7 @@
 // masses; a patch of each under constant stress; contact weights and nodes.
 #include "contact/interface.h"
 #include "fem/assembly.h"
-#include "fem/element.h"
+#include "fem/element_group.h"
 
 #include "dense_by_hand.h"
 #include "space_mesh.h"
@@ -203,9 +203,8 @@ static void test_elements(void **state)
 }
 
 // Constant stress, whatever the elements' shapes: K u of a linear field is the load of its tractions.
-static void test_patch(void **state)
+static void check_patch(bool mean)
 {
-    (void)state;
     static const char *const sides[] = {"rod", "leading", "left", "right", "contact", "top"};
     static const double g[3][3] = {{0.7, 0.2, 0.1}, {-0.5, 0.4, 0.9}, {0.3, -0.2, -0.6}};
     double nu = MATERIAL.poisson, shear = MATERIAL.young / (2 * (1 + nu));
@@ -220,6 +219,7 @@ static void test_patch(void **state)
         Mesh mesh;
         Bulk bulk;
         space_build(&def, &mesh);
+        if (mean) assert_true(element_groups_find((uint8_t[]){1}, &mesh, &err));
         assert_true(bulk_assemble(&mesh, &MATERIAL, &bulk, &err));
         for (int side = 0; side < 6; side++) {
             MeshBoundary boundary;
@@ -241,6 +241,44 @@ static void test_patch(void **state)
         bulk_destroy(&bulk);
         mesh_destroy(&mesh);
     }
+}
+
+static void test_patch(void **state)
+{
+    (void)state;
+    check_patch(false);
+    check_patch(true);
+}
+
+// Of a HEX8 whose volume alone resists, the mean technique leaves one condition: of its spectrum one
+// value is large, not one for each quadrature point.
+static void test_mean_volume(void **state)
+{
+    (void)state;
+    SpaceDef def = {ELEMENT_HEX8, {1, 1, 1}, {1, 1, 1}, 0, 1};
+    Material soft = MATERIAL;
+    soft.poisson = 0.49999;
+    Error err = {0};
+    Mesh mesh;
+    ElementGroup group;
+    ElementMatrices *matrices = malloc(sizeof *matrices);
+    space_build(&def, &mesh);
+    for (int mean = 0; mean < 2; mean++) {
+        double *a = hand_matrix(24, 24), *values = hand_matrix(24, 1);
+        int32_t large = 0;
+        if (mean) assert_true(element_groups_find((uint8_t[]){1}, &mesh, &err));
+        assert_true(element_group_at(&mesh, 0, &group));
+        element_group_matrices(&mesh, &soft, &group, matrices);
+        for (int32_t i = 0; i < 24; i++)
+            for (int32_t j = 0; j < 24; j++) a[j * 24 + i] = matrices->stiffness[i][j];
+        hand_eigenvalues(a, 24, values);
+        for (int32_t k = 0; k < 24; k++) large += values[k] > 100 * soft.young;
+        assert_int_equal(large, mean ? 1 : 7);
+        free(a);
+        free(values);
+    }
+    free(matrices);
+    mesh_destroy(&mesh);
 }
 
 // A mesh whose elements are all turned inside out is turned round; one among others is refused.
@@ -367,7 +405,8 @@ int main(void)
         cmocka_unit_test(test_shape_functions), cmocka_unit_test(test_quadrature),
         cmocka_unit_test(test_elements),        cmocka_unit_test(test_patch),
         cmocka_unit_test(test_orientation),     cmocka_unit_test(test_contact),
-        cmocka_unit_test(test_strip),           cmocka_unit_test(test_upright_contact),
+        cmocka_unit_test(test_mean_volume),     cmocka_unit_test(test_strip),
+        cmocka_unit_test(test_upright_contact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
