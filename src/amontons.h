@@ -196,7 +196,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
 // Equilibrium under the scene's load, rod displacement and supports; friction is Coulomb's with
 // mu_static, stick is relative to the undeformed block. Forces are per width, in space forces.
 typedef struct StaticSummary {
-    int32_t nodes, contact_nodes, rod_nodes, open, sticking, slipping;   // contact nodes that ...
+    int32_t dim, nodes, contact_nodes, rod_nodes, open, sticking, slipping;   // contact nodes that
     double normal_force, shear_force;   // of the plane on the block, along z and x
     double pressure_moment;   // sum of x r_n
     double rod_force, rod_height;   // of the rod along x; z of its resultant (NaN: no force)
@@ -206,7 +206,6 @@ typedef struct StaticSummary {
     double energy_balance;   // |u'Ku - f'u - r'u|, relative
     double complementarity;   // largest violation of the contact conditions, relative
     int64_t iterations;   // of the contact solver
-    int32_t dim;   // of the mesh: 2, forces are per width; 3, they are forces
 } StaticSummary;
 // Writes static.{json,h5,vtu} into `folder` (NULL: nothing). ERROR_COMPUTE: found no equilibrium.
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact nodes come from the mesh's contact boundaries (fem/mesh_contact: one a pad), rod nodes from
-// the strip of the face that is named. Weights are lumped: w_i is the integral of node i's shape
-// function over its boundary, so that a pressure field p gives the nodal force p_i w_i (consistent
-// integration gave a resultant 17 % wrong).
+// Contact nodes come from the mesh's contact boundaries (fem/mesh_contact: one a pad), rod nodes
+// from the strip of the face that is named. Weights are lumped: w_i is the integral of node i's
+// shape function over its boundary, so that a pressure field p gives the nodal force p_i w_i
+// (consistent integration gave a resultant 17 % wrong).
 #include "contact/interface.h"
 
 #include "base/memory.h"
 #include "fem/assembly.h"
+#include "fem/mesh_faces.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -138,8 +139,9 @@ static bool is_contact_node(const Interface *interface, int32_t node)
     return false;
 }
 
-// The face that the rod touches, by ascending z of its nodes. Each stands for a stretch that reaches
-// half way to the nodes beside it on the face, along z and, where the strip has a breadth, along y.
+// The face that the rod touches, by ascending z of its nodes. Each stands for a stretch that
+// reaches half way to the nodes beside it on the face, along z and, where the strip has a breadth,
+// along y.
 typedef struct Face {
     int32_t count;
     int32_t *node;   // [count]; owned

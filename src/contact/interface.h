@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where the block meets the world: contact nodes over the rigid plane z = 0, on it or with a gap,
 // each straight above its place (right where slopes are small), and rod nodes on the
-// trailing face. Nodes of no weight, the corners of T6 faces, touch nothing: a pressure has no nodal
-// force there, and the mid-sides are the points of a rule that integrates to second order. Lumped (nodal): one weight and one vector of reaction a contact node. Consistent
-// integration of the contact gave a 17 % wrong resultant in a static test.
+// trailing face. Nodes of no weight, the corners of T6 faces, touch nothing: a pressure has no
+// nodal force there, and the mid-sides are the points of a rule that integrates to second order.
+// Lumped (nodal): one weight and one vector of reaction a contact node. Consistent integration of
+// the contact gave a 17 % wrong resultant in a static test.
 //
 // Interface unknowns, in this order: u_x to u_z of contact node 0, of node 1, ...; u_x of the rod
 // nodes. Used by contact/contact_problem, stepping/ and run/.

@@ -11,7 +11,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "fem/element_group.h"
-#include "io/mesh/element_faces.h"
+#include "fem/mesh_faces.h"
 
 #include <math.h>
 #include <string.h>

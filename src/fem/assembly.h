@@ -35,9 +35,8 @@ void bulk_add_traction(const Mesh *mesh, const MeshBoundary *boundary, const dou
 // entries stay.
 void bulk_hold(int32_t dof, Bulk *bulk);
 
-// The weights of a boundary's nodes, int N_a dA; of its shadow on the floor: int N_a dx, in space dx
-// dy; added to weight[node];
-// [mesh->node_count].
+// The weights of a boundary's nodes, int N_a dA; of its shadow on the floor: int N_a dx, in space
+// dx dy; added to weight[node]; [mesh->node_count].
 void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
                           double *weight);
 

@@ -8,7 +8,8 @@
 //                                       B_a = [   0    N_a,z ]
 //                                             [ N_a,z  N_a,x ]
 //
-// a row for each axis, then one for each pair of axes. Returns det J, J = d(x ... z)/d(xi, eta, ...).
+// a row for each axis, then one for each pair of axes. Returns det J, J = d(x ... z)/d(xi, eta,
+// ...).
 double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,
                              double b[STRAINS_MAX][ELEMENT_DOFS_MAX])
 {
@@ -30,8 +31,8 @@ double element_strain_matrix(ElementKind kind, const MeshPlace *position, const 
     return determinant;
 }
 
-// out += weight * B' D B, B: [strains][dofs]. Inlined where the number of strains is known: twice as
-// fast in the plane.
+// out += weight * B' D B, B: [strains][dofs]. Inlined where the number of strains is known: twice
+// as fast in the plane.
 static inline __attribute__((always_inline)) void
 add_form(int32_t strains, int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
          const double d[STRAINS_MAX][STRAINS_MAX], double weight,

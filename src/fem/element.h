@@ -28,8 +28,8 @@ void element_matrices(ElementKind kind, const MeshPlace *position, const Materia
 // All zero, for as many unknowns.
 void element_matrices_clear(int32_t dof_count, ElementMatrices *out);
 
-// The same matrices without what a change of area meets: K and C of the strain less its areal part, which
-// fem/element_group adds as a mean.
+// The same matrices without what a change of area meets: K and C of the strain less its areal part,
+// which fem/element_group adds as a mean.
 void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                             ElementMatrices *out);
 

@@ -35,9 +35,7 @@ typedef struct Mesh {
         // (fem/element_group); owned
     int32_t group_count;
     MeshGroup *groups;   // [group_count]; nodes by ascending x, ..., z; owned
-    double x_min, x_max;   // extent, length
-    double y_min, y_max;   // 0 in the plane
-    double z_min, z_max;
+    double x_min, x_max, y_min, y_max, z_min, z_max;   // extent, length; y: 0 in the plane
 } Mesh;
 
 // Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
@@ -86,15 +84,6 @@ static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
 // Puts nodes [count] in order of ascending x, then y in space, then z.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count);
 
-// One face: its nodes [element_node_count(kind)], in the kind's order. Borrows.
-typedef struct FaceNodes {
-    ElementKind kind;
-    const int32_t *node;
-} FaceNodes;
-
-// Face `side` of element e; nodes: [FACE_NODES_MAX] room for them.
-FaceNodes mesh_element_face(const Mesh *mesh, int32_t e, int32_t side, int32_t *nodes);
-
 // A named piece of boundary: a curve in the plane, a surface in space. Borrows from the mesh, owns
 // nothing.
 typedef struct MeshBoundary {
@@ -106,8 +95,6 @@ typedef struct MeshBoundary {
     int32_t node_count;
     const int32_t *nodes;   // [node_count] each once, by ascending x, ..., z
 } MeshBoundary;
-
-FaceNodes mesh_boundary_face(const MeshBoundary *boundary, int32_t face);
 
 // Several pieces of contact as one list of nodes. A node of two of them is listed once and belongs
 // to that named first.
@@ -128,7 +115,8 @@ typedef struct MeshContact {
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
 void mesh_destroy(Mesh *mesh);
 
-// The piece of boundary called `name`; a missing one or a group of another dimension is ERROR_INPUT.
+// The piece of boundary called `name`; a missing one or a group of another dimension is
+// ERROR_INPUT.
 bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, Error *err);
 
 // The contact from boundaries called `names` [name_count]; no names: every one called "contact"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Contact is unilateral against the rigid plane z = 0, node by node, each straight above its place.
 // So nodes must stand on it or over it, over distinct places, in the plane in one order along the
-// curve, in space on faces that look down, on the block's boundary, with nothing of the block below.
+// curve, in space on faces that look down, on the block's boundary, with nothing of the block
+// below.
 #include "fem/mesh.h"
 
 #include "base/memory.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The faces of a mesh's elements (in the plane its edges), each once, with the number of elements it
-// is on: 1 on the block's boundary, 2 inside. Used by fem/mesh to check elements, named boundaries
-// and contact.
+// The faces of a mesh's elements (in the plane its edges), each once, with the number of elements
+// it is on: 1 on the block's boundary, 2 inside. Used by fem/mesh to check elements, named
+// boundaries and contact.
 #ifndef AMONTONS_FEM_MESH_FACES_H
 #define AMONTONS_FEM_MESH_FACES_H
 
@@ -9,6 +9,17 @@
 #include "io/mesh/element_faces.h"
 
 #include <stdint.h>
+
+// One face: its nodes [element_node_count(kind)], in the kind's order. Borrows.
+typedef struct FaceNodes {
+    ElementKind kind;
+    const int32_t *node;
+} FaceNodes;
+
+// Face `side` of element e; nodes: [FACE_NODES_MAX] room for them.
+FaceNodes mesh_element_face(const Mesh *mesh, int32_t e, int32_t side, int32_t *nodes);
+
+FaceNodes mesh_boundary_face(const MeshBoundary *boundary, int32_t face);
 
 enum { FACE_INNER_MAX = FACE_NODES_MAX - FACE_CORNERS_MAX };
 

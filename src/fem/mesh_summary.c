@@ -2,7 +2,7 @@
 // Counts and sizes of a mesh.
 #include "fem/mesh.h"
 
-#include "io/mesh/element_faces.h"
+#include "fem/mesh_faces.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 // sparse operator, made once; the stress of a point is that of its mean strain. Of elements that
 // share an areal strain (fem/element_group) this is the areal part.
 //
-// The mean is not weighted by the elements' sizes. Arrays are [strains * nodes]: xx, zz, xz of node 0,
-// of node 1, ...; shears of a strain are the engineering ones, 2 xz, as in fem/element.
+// The mean is not weighted by the elements' sizes. Arrays are [strains * nodes]: xx, zz, xz of node
+// 0, of node 1, ...; shears of a strain are the engineering ones, 2 xz, as in fem/element.
 #include "fem/recovery.h"
 
 #include "base/memory.h"
@@ -219,8 +219,8 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
     return found;
 }
 
-// sqrt(3 J_2) with all three normal stresses; in the plane across is sigma_yy, which counts in plane
-// strain.
+// sqrt(3 J_2) with all three normal stresses; in the plane across is sigma_yy, which counts in
+// plane strain.
 static double von_mises(int32_t dim, const double *stress, double across)
 {
     double xx = stress[0], yy = dim == 2 ? across : stress[1], zz = stress[dim - 1], shear = 0;

@@ -7,9 +7,9 @@
 #include "fem/material.h"
 #include "fem/mesh.h"
 
-// Components in the order xx, zz, xz; in space xx, yy, zz, xy, yz, xz. Where materials meet, stress jumps: a node there is a point
-// in each of them. The first points are the nodes of the mesh, each with the lowest number of its
-// materials; the others follow.
+// Components in the order xx, zz, xz; in space xx, yy, zz, xy, yz, xz. Where materials meet, stress
+// jumps: a node there is a point in each of them. The first points are the nodes of the mesh, each
+// with the lowest number of its materials; the others follow.
 typedef struct NodalStress {
     double *elastic;   // [point_count * strain_count(dim)] stress; owned
     double *total;   // [point_count * strain_count(dim)] elastic and viscous, stress; owned

@@ -29,8 +29,8 @@ static Part next_part(const Interface *interface, int32_t i, Part before)
     return (Part){from, from + interface->weight[i], {0}};
 }
 
-// In space a square around the node, as large as its weight, as far as it lies within `all`, the box
-// around the contact.
+// In space a square around the node, as large as its weight, as far as it lies within `all`, the
+// box around the contact.
 static Part square_part(const Interface *interface, int32_t i, Part all)
 {
     double half = 0.5 * sqrt(interface->weight[i]), x = interface->x[i], y = interface->y[i];
@@ -52,8 +52,8 @@ static Part box_of(const Interface *interface)
 
 // The mean over a part: by the factor of the node's place alone a jump would lie up to half a cell
 // off, and mu of all meshes that share this would agree on what it makes of it. Not weighted by
-// shape functions, as those of order 2 are negative in places. text: a formula of x, in space also of
-// y; empty: 1.
+// shape functions, as those of order 2 are negative in places. text: a formula of x, in space also
+// of y; empty: 1.
 static bool take_mean(Part part, bool plane, const char *text, double *factor, Error *err)
 {
     Formula formula;

@@ -195,8 +195,8 @@ static bool is_viscous(const Scene *scene)
     return viscous;
 }
 
-// The scene's bulk can be reduced: in the plane, stepped implicitly, with viscosity, from states the interface
-// made.
+// The scene's bulk can be reduced: in the plane, implicitly, with viscosity, from states that the
+// interface made.
 static bool is_reducible(const Model *model)
 {
     const Scene *scene = model->scene;

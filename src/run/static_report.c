@@ -86,8 +86,7 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
     const char *force = plane ? "force/width" : "force";
     ArrayFile *file = NULL;
     char path[PATH_SIZE];
-    double *number = NEW_ARRAY(double, nodes, err);
-    double *contact = NEW_ARRAY(double, 2 * contacts, err);
+    double *number = NEW_ARRAY(double, nodes, err), *contact = NEW_ARRAY(double, 2 * contacts, err);
     if (!number || !contact) goto cleanup;
     for (int64_t i = 0; i < nodes; i++) number[i] = (double)mesh->node_number[i];
     for (int64_t i = 0; i < contacts; i++) {
@@ -127,8 +126,7 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
          interface->weight,
          contacts}};
     snprintf(path, sizeof path, "%s/static.h5", folder);
-    file = array_file_create(path, err);
-    if (!file) goto cleanup;
+    TRY((file = array_file_create(path, err)));
     TRY(write_columns(file, columns, (int32_t)(sizeof columns / sizeof columns[0]), err));
 cleanup:
     memory_free(number);

@@ -43,18 +43,16 @@ static const SceneKey keys[] = {
                  "`si`: numbers in SI base units, or with a unit (10 um/s, 3 kPa).",
      .choices = units_choices},
     {"mesh.file", KEY_TEXT, offsetof(Scene, mesh.file), "1", RANGE_ANY, NULL,
-     .sentence =
-         "The mesh: a .msh file, or a .geo that gmsh meshes; relative to the scene's folder."},
+     .sentence = "The mesh: a .msh file, or a .geo for gmsh; relative to the scene's folder."},
     {"mesh.set", KEY_PARAMETERS, offsetof(Scene, mesh), "length", RANGE_ANY, "{}",
      .sentence = "Parameters of a .geo file, each a number or a word; which there are, the file "
-                 "says. Every "
-                 "mesh has `refine`: cells so many times as small (2, 4, ...)."},
+                 "says. Every mesh has `refine`: cells so many times as small (2, 4, ...)."},
     {"groups.top", KEY_NAME, offsetof(Scene, groups.top), "1", RANGE_ANY, "top",
      .sentence = "The physical group that carries load.pressure."},
     {"groups.rod", KEY_NAME, offsetof(Scene, groups.rod), "1", RANGE_ANY, "rod",
      .sentence = "The physical group of the trailing face, which the rod touches."},
     {"groups.contact", KEY_NAMES, offsetof(Scene, groups.contact), "1", RANGE_ANY, "[]",
-     .sentence = "The physical groups that lie on the substrate; none named: every curve called "
+     .sentence = "The physical groups that lie on the substrate; none named: every one called "
                  "`contact` or `contact_...`."},
     {"material.young", KEY_NUMBER, offsetof(Scene, material.young), "stress", RANGE_POSITIVE, "1",
      .sentence = "Young's modulus E.", .given_in_si = true},
@@ -67,12 +65,10 @@ static const SceneKey keys[] = {
     {"material.eta2", KEY_NUMBER, offsetof(Scene, material.eta2), "viscosity", RANGE_NOT_NEGATIVE,
      "1", .sentence = "Viscosity of the volume rate: stress eta2 tr(eps') I.", .given_in_si = true},
     {"material.plane", KEY_CHOICE, offsetof(Scene, material.plane), "1", RANGE_ANY, "stress",
-     .sentence =
-         "Plane stress (a thin plate) or plane strain (a wide block); a mesh in space is neither.",
+     .sentence = "Plane stress (a thin plate) or plane strain (a wide block); in space neither.",
      .choices = plane_choices},
     {"materials", KEY_MATERIALS, offsetof(Scene, materials), "1", RANGE_ANY, NULL, .may_lack = true,
-     .sentence = "Materials of regions, by the names of physical surfaces of the mesh (in space "
-                 "volumes): those of "
+     .sentence = "Materials of regions, by the names of physical surfaces (volumes): those of "
                  "young, poisson, density, eta1, eta2 that differ there from `material`."},
     {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
      .sentence =
@@ -84,8 +80,8 @@ static const SceneKey keys[] = {
     {"friction.mu_kinetic", KEY_NUMBER, offsetof(Scene, friction.mu_kinetic), "1",
      RANGE_NOT_NEGATIVE, NULL,
      .sentence =
-         "Local coefficient mu_K of fast slip, at most mu_static; not needed with `coulomb` and "
-         "one's own law."},
+         "Local coefficient mu_K of fast slip, at most mu_static; not needed with `coulomb` "
+         "and one's own law."},
     {"friction.critical_velocity", KEY_NUMBER, offsetof(Scene, friction.critical_velocity),
      "velocity", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Slip rate v_c over which friction weakens; needed by the weakening laws."},
@@ -104,8 +100,7 @@ static const SceneKey keys[] = {
      .may_lack = true,
      .sentence = "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
                  "log, tanh, abs, round, min, max, points, and mu_static, mu_kinetic, "
-                 "critical_velocity where "
-                 "they are given."},
+                 "critical_velocity where they are given."},
     {"friction.file", KEY_TEXT, offsetof(Scene, own_friction.file), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "Law `plugin`: a shared object with the functions of amontons_friction.h, "
@@ -119,9 +114,9 @@ static const SceneKey keys[] = {
          "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
     {"friction.along", KEY_TEXT, offsetof(Scene, own_friction.along), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "Factor on mu along the contact: a formula of x (in space also of y), as in "
-                 "`points(x, 0.4, 1, 0.45, "
-                 "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
+     .sentence =
+         "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, 1, 0.45, "
+         "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
     {"friction.contacts", KEY_CONTACT_LAWS, offsetof(Scene, contact_laws), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence =
@@ -132,9 +127,9 @@ static const SceneKey keys[] = {
      .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
                  "is flat."},
     {"contact.gap", KEY_TEXT, offsetof(Scene, contact.gap), "1", RANGE_ANY, NULL, .may_lack = true,
-     .sentence = "How far the substrate lies below z = 0: a formula of x (in space also of y), as "
-                 "in `max(0, 0.1 - x)^2 / "
-                 "0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, 1e-3, 0.5, 0, "
+     .sentence = "How far the substrate lies below z = 0: a formula of x (and y), as in `max(0, "
+                 "0.1 - x)^2 / 0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, "
+                 "1e-3, 0.5, 0, "
                  "...)`, a measured profile. It adds to radius and to what the mesh's own contact "
                  "curves leave."},
     {"contact.profile", KEY_TEXT, offsetof(Scene, contact.profile), "1", RANGE_ANY, NULL,
@@ -144,14 +139,10 @@ static const SceneKey keys[] = {
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
-     .sentence =
-         "Further tractions, a list of {group, x, z}, in space also y: a stress vector on a curve "
-         "or surface of the mesh."},
+     .sentence = "Further tractions, a list of {group, x, z} (and y): a stress on a group."},
     {"load.supports", KEY_SUPPORTS, offsetof(Scene, load.supports), "1", RANGE_ANY, "[]",
-     .sentence =
-         "Where the block is held, a list of {group, direction}: nodes of a curve or surface "
-         "of the mesh that do not move along `x`, `z` or `both`, in space also `y` or "
-         "`all`."},
+     .sentence = "Where the block is held, a list of {group, direction}: nodes of a group that do "
+                 "not move along `x`, `z` or `both`, in space also `y` or `all`."},
     {"load.program.t", KEY_NUMBERS, offsetof(Scene, load.program.t), "time", RANGE_NOT_NEGATIVE,
      NULL, .may_lack = true,
      .sentence = "Times of the program, ascending from 0; the same twice: a jump."},
@@ -170,10 +161,10 @@ static const SceneKey keys[] = {
                  "static`."},
     {"rod.stiffness", KEY_NUMBER, offsetof(Scene, rod.stiffness), "stress", RANGE_POSITIVE, NULL,
      .may_lack = true,
-     .sentence = "Stiffness of the machine: a spring between the drive, which moves with "
-                 "`rod.velocity`, and the rod; force per width of the block, in space per its "
-                 "breadth, over length. If not "
-                 "given, the rod itself moves with `rod.velocity`."},
+     .sentence =
+         "Stiffness of the machine: a spring between the drive, which moves with "
+         "`rod.velocity`, and the rod; force per width (breadth) of the block over length. If not "
+         "given, the rod itself moves with `rod.velocity`."},
     {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
      .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
                  "only."},
@@ -183,8 +174,7 @@ static const SceneKey keys[] = {
      .sentence = "Extent of the driven strip; 0: a tenth of the block's height."},
     {"rod.breadth", KEY_NUMBER, offsetof(Scene, rod.breadth), "length", RANGE_POSITIVE, NULL,
      .may_lack = true,
-     .sentence = "Of a mesh in space: extent of the strip along y, around the middle of its face; "
-                 "if not given, all of it."},
+     .sentence = "In space: extent of the strip along y, in the middle of its face; else all."},
     {"rod.whole", KEY_FLAG, offsetof(Scene, rod.whole), "1", RANGE_ANY, NULL, .may_lack = true,
      .sentence = "true: all of groups.rod is driven, in the place of a strip."},
     {"rod.kind", KEY_CHOICE, offsetof(Scene, rod.kind), "1", RANGE_ANY, "push",
@@ -212,8 +202,7 @@ static const SceneKey keys[] = {
      .choices = switch_choices},
     {"start.rod", KEY_CHOICE, offsetof(Scene, start.rod), "1", RANGE_ANY, "away",
      .sentence = "`away`: the rod touches the relaxed face at t = 0. `held`: it stands there while "
-                 "the block "
-                 "relaxes.",
+                 "the block relaxes.",
      .choices = start_rod_choices},
     {"start.state", KEY_CHOICE, offsetof(Scene, start.state), "1", RANGE_ANY, "relaxed",
      .sentence = "The block at t = 0: `relaxed` under its load, or `undeformed`, the load put on "
@@ -271,8 +260,7 @@ static const SceneKey keys[] = {
                  "are followed."},
     {"time.certificate", KEY_FLAG, offsetof(Scene, time.certificate), "1", RANGE_ANY, "true",
      .sentence = "Resolve waves wherever slip is not certified to be stable; off gives wrong "
-                 "answers and is "
-                 "for studying just that."},
+                 "answers and is for studying just that."},
     {"time.energy_tolerance", KEY_NUMBER, offsetof(Scene, time.energy_tolerance), "1", RANGE_PART,
      "1e-3",
      .sentence = "The run fails when the energy ledger is off by more, relative to the work done."},

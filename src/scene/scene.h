@@ -66,12 +66,10 @@ typedef struct Scene {
     } load;
     struct {
         double velocity, displacement;   // V; how far it is moved in `amontons static`
-        double stiffness;   // of the spring between drive and rod; 0, not given: rigid
-        double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
-        double breadth;   // of the strip along y; 0: all of its face
-        bool whole;   // all of its group, no strip
+        double stiffness, height, width, breadth;   // of its spring; of the strip; 0: not given
         SceneRodKind kind;
         SceneRodEnds ends;
+        bool whole;   // all of its group, no strip
         SceneProgram program;   // of the velocity
     } rod;
     struct {
@@ -126,9 +124,6 @@ typedef struct Scene {
 // is allowed; an unknown key comes with the nearest known one.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 Scene *scene, Error *err);
-
-// The word of load.supports: "x", "y", "z", "both" (x and z) or "all".
-const char *scene_support_direction(const SceneSupport *support);
 
 // Passes on whether a use of the value of `key` was `done`. If not, the error is wrong input, and
 // says where that value stands: "FILE:LINE: KEY: ...", without a line where the file does not give

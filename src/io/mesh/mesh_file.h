@@ -35,8 +35,8 @@ enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3 };
 // x to z in as many numbers as the mesh has dimensions: (x, z) in the plane, (x, y, z) in space.
 typedef double MeshPlace[DIM_MAX];
 
-// One physical group: of points (dimension 0), curves (1), surfaces (2) or volumes (3). Of the mesh's
-// own dimension it is a region, of one less a piece of boundary, made of faces.
+// One physical group: of points (dimension 0), curves (1), surfaces (2) or volumes (3). Of the
+// mesh's own dimension it is a region, of one less a piece of boundary, made of faces.
 typedef struct MeshGroup {
     char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal
     int32_t dimension;   // 0 to 3
@@ -81,12 +81,11 @@ typedef struct MeshParameter {
 // The parameter `refine` (cells so many times as small) is known to every mesh: where a .geo does
 // not declare it itself, gmsh halves all edges, so that it must be a power of two.
 //
-// Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has a
-// volume in 3D, else in 2D.
-// Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind
-// that is not in ELEMENT_KINDS, a parameter the .geo does not know, a name used twice.
-// A mesh without volumes that is not in the plane z = 0 of gmsh is refused. *mesh is destroyed by the
-// caller.
+// Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has
+// a volume in 3D, else in 2D. Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh,
+// no elements, an element kind that is not in ELEMENT_KINDS, a parameter the .geo does not know, a
+// name used twice. A mesh without volumes that is not in the plane z = 0 of gmsh is refused. *mesh
+// is destroyed by the caller.
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     MeshFile *mesh, Error *err);
 void mesh_file_destroy(MeshFile *mesh);

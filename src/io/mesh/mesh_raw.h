@@ -57,9 +57,10 @@ bool amontons_gmsh_read(const MeshRawRequest *request, MeshRaw *raw, Error *err)
 
 void mesh_raw_destroy(MeshRaw *raw);
 
-// Picks the volume elements, where there are none the surface elements (where physical groups of that
-// dimension exist: theirs, as gmsh does when it saves a mesh), the nodes and the groups. Nodes and elements are ordered by gmsh's tags, so that a .geo
-// and the .msh made from it give the same arrays. Errors (ERROR_INPUT) name `path`.
+// Picks the volume elements, where there are none the surface elements (where physical groups of
+// that dimension exist: theirs, as gmsh does when it saves a mesh), the nodes and the groups. Nodes
+// and elements are ordered by gmsh's tags, so that a .geo and the .msh made from it give the same
+// arrays. Errors (ERROR_INPUT) name `path`.
 bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err);
 
 #endif

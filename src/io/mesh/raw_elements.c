@@ -194,7 +194,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Faces of order 3 on are refused here, before the elements, as a message about the group says more.
+// Faces of order 3 on are refused here, before the elements, as a message about the group says
+// more.
 bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
                     RawElements *picked, Error *err)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Shape functions of the elements and the quadrature that goes with them, on the reference element:
-// triangles and tetrahedra xi, eta, zeta >= 0, their sum <= 1; lines, squares and cubes from -1 to 1;
-// the wedge is such a triangle times such a line. Node order is gmsh's. Used by fem (checks,
+// triangles and tetrahedra xi, eta, zeta >= 0, their sum <= 1; lines, squares and cubes from -1 to
+// 1; the wedge is such a triangle times such a line. Node order is gmsh's. Used by fem (checks,
 // matrices, recovered stresses) and render (fields in an element).
 //
 //     2           2            3---2      3-6-2      3-6-2

@@ -202,7 +202,8 @@ static void test_elements(void **state)
     }
 }
 
-// Constant stress, whatever the elements' shapes: K u of a linear field is the load of its tractions.
+// Constant stress, whatever the elements' shapes: K u of a linear field is the load of its
+// tractions.
 static void check_patch(bool mean)
 {
     static const char *const sides[] = {"rod", "leading", "left", "right", "contact", "top"};
@@ -250,8 +251,8 @@ static void test_patch(void **state)
     check_patch(true);
 }
 
-// Of a HEX8 whose volume alone resists, the mean technique leaves one condition: of its spectrum one
-// value is large, not one for each quadrature point.
+// Of a HEX8 whose volume alone resists, the mean technique leaves one condition: of its spectrum
+// one value is large, not one for each quadrature point.
 static void test_mean_volume(void **state)
 {
     (void)state;

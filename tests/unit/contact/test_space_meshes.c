@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// meshes/block3d.geo, pads3d.geo and grooves3d.geo: volumes, areas of the contact and groups against
-// what geometry says, in each of their shapes.
+// meshes/block3d.geo, pads3d.geo and grooves3d.geo: volumes, areas of the contact and groups
+// against what geometry says, in each of their shapes.
 #include "contact/interface.h"
 
 #include "near.h"

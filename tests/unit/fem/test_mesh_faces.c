@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The table of faces, in the plane edges, against Euler's formula and against what is known of a block's sides.
+// The table of faces, in the plane edges, against Euler's formula and against what is known of a
+// block's sides.
 #include "fem/mesh_faces.h"
 
 #include "base/memory.h"
