@@ -12,8 +12,8 @@
 
 // A derivative is factored anew when a step leaves more than this part of the residual.
 static const double CHORD_GAIN = 0.1;
-// All 435 problems of five blocks that Newton did not settle at once are solved with these, 433 with
-// 3 rounds, 420 with rounds of 15 sweeps each.
+// All 435 problems of five blocks that Newton did not settle at once are solved with these, 433
+// with 3 rounds, 420 with rounds of 15 sweeps each.
 enum {
     STEPS = 20,   // of Newton before any sweeps, and after each round of them
     HALVINGS = 4,   // of a step that leaves more than there was: to and fro over a kink of mu

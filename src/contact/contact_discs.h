@@ -12,12 +12,13 @@
 //     along      d.r_t + mu(s) r_n = 0
 //     across     (1 - theta) e.r_t + theta rho e.v_t = 0,      theta = mu p/(mu p + rho s),
 //
-// which say r_t = -mu(s) r_n v_t/s. The second is e.(r_t + mu r_n v_t/s) by (1 - theta): so a node
-// that only starts, s = 0, holds its direction, and one that slips fast turns as its force does.
-// Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is condensed
-// out as in the plane (contact/contact_newton).
-// A step that leaves more than there was is halved. Where steps do not settle, sweeps over the nodes
-// come next (contact/contact_sweeps), then steps again, then more sweeps. Called by contact/contact_solver.
+// which say r_t = -mu(s) r_n v_t/s. The second is e.(r_t + mu r_n v_t/s) by (1 - theta): so a
+// node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
+// does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is
+// condensed out as in the plane (contact/contact_newton).
+// A step that leaves more than there was is halved. Where steps do not settle, sweeps over the
+// nodes come next (contact/contact_sweeps), then steps again, then more sweeps. Called by
+// contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
 #define AMONTONS_CONTACT_CONTACT_DISCS_H
 

@@ -191,14 +191,17 @@ static bool stays_near(const PathTrace *trace)
 }
 
 // From the step's start by `distance` along the tangent and back onto the path; false: not found,
-// or so far aside that it may be another path.
+// or so far aside that it may be another path. Rod nodes do not count: a rod on a spring that they
+// do not touch holds them by little more than rounding (reduction/machine), and they bend no path.
 // On success velocity, reaction and tau are those of the point; on failure they are of no use, and
 // the next trial starts from `kept` again.
 static bool place_point(PathTrace *trace, double tau_kept, double distance)
 {
     ContactPath *path = trace->path;
     double *velocity = trace->system.at->velocity, *step = path->row, aside = 0;
-    int32_t free_count = trace->system.free_count;
+    int32_t free_count = trace->system.free_count, contact_free = free_count;
+    int32_t rod = interface_rod(trace->system.problem->interface, 0);
+    while (contact_free > 0 && path->free[contact_free - 1] >= rod) contact_free--;
     for (int32_t a = 0; a < free_count; a++)
         velocity[path->free[a]] = path->kept[a] + distance * path->tangent[a];
     trace->tau = tau_kept + distance * path->tangent[free_count];
@@ -217,7 +220,7 @@ static bool place_point(PathTrace *trace, double tau_kept, double distance)
         dense_lu_solve(path->matrix, free_count + 1, path->pivots, step);
         for (int32_t a = 0; a < free_count; a++) velocity[path->free[a]] += step[a];
         trace->tau += step[free_count];
-        aside += sqrt(dense_dot(step, step, free_count + 1));
+        aside += hypot(sqrt(dense_dot(step, step, contact_free)), step[free_count]);
         if (aside > ASIDE * distance + NEAR * trace->scales.velocity) return false;
     }
     return false;

@@ -30,11 +30,12 @@ double element_strain_matrix(ElementKind kind, const MeshPlace *position, const 
     return determinant;
 }
 
-// out += weight * B' D B, B: [strains][dofs].
-static void add_quadratic_form(int32_t strains, int32_t dofs,
-                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
-                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
-                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
+// out += weight * B' D B, B: [strains][dofs]. Inlined where the number of strains is known: twice as
+// fast in the plane.
+static inline __attribute__((always_inline)) void
+add_form(int32_t strains, int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+         const double d[STRAINS_MAX][STRAINS_MAX], double weight,
+         double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
 {
     for (int32_t j = 0; j < dofs; j++) {
         double stress[STRAINS_MAX];
@@ -49,6 +50,17 @@ static void add_quadratic_form(int32_t strains, int32_t dofs,
             out[i][j] += sum;
         }
     }
+}
+
+static void add_quadratic_form(int32_t dim, int32_t dofs,
+                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
+                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
+{
+    if (dim == 2)
+        add_form(strain_count(2), dofs, b, d, weight, out);
+    else
+        add_form(strain_count(3), dofs, b, d, weight, out);
 }
 
 // Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of
@@ -91,14 +103,14 @@ static void integrate(ElementKind kind, const MeshPlace *position,
                       const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
 {
     double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
-    int32_t dim = element_dim(kind), strains = strain_count(dim);
+    int32_t dim = element_dim(kind);
     element_matrices_clear(dim * element_node_count(kind), out);
     Quadrature quadrature = shape_quadrature(kind);
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
-        add_quadratic_form(strains, out->dof_count, b, elastic, weight, out->stiffness);
-        add_quadratic_form(strains, out->dof_count, b, viscous, weight, out->damping);
+        add_quadratic_form(dim, out->dof_count, b, elastic, weight, out->stiffness);
+        add_quadratic_form(dim, out->dof_count, b, viscous, weight, out->damping);
         for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % dim][j];
         out->area += weight;
     }

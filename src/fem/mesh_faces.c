@@ -56,7 +56,7 @@ static MeshFace *find_face(const MeshFaces *table, const FaceKey *key)
 }
 
 // "edge at (1, 0)", the middle of its corners.
-static void describe(const Mesh *mesh, const FaceKey *key, char text[PLACE_TEXT_SIZE + 8])
+static const char *describe(const Mesh *mesh, const FaceKey *key, char text[PLACE_TEXT_SIZE + 8])
 {
     MeshPlace middle = {0};
     char at[PLACE_TEXT_SIZE];
@@ -68,6 +68,7 @@ static void describe(const Mesh *mesh, const FaceKey *key, char text[PLACE_TEXT_
     }
     snprintf(text, PLACE_TEXT_SIZE + 8, "%s at %s", mesh->dim == 2 ? "edge" : "face",
              place_text(mesh->dim, middle, at));
+    return text;
 }
 
 // Puts a face (elements = 1) into its bucket, or counts one more element on it. ERROR_INPUT: the
@@ -80,17 +81,17 @@ static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, E
         table->faces[table->last[face->key.corner[0]]++] = *face;
         goto cleanup;
     }
-    describe(mesh, &face->key, what);
     if (memcmp(known->key.inner, face->key.inner, sizeof known->key.inner) != 0)
         FAIL(err, ERROR_INPUT,
              "%s: elements %lld and %lld share the %s but not its mid-side node: "
              "elements of different order do not fit together",
              mesh->path, (long long)mesh->element_number[known->element],
-             (long long)mesh->element_number[face->element], what);
+             (long long)mesh->element_number[face->element], describe(mesh, &face->key, what));
     if (++known->elements > 2)
         FAIL(err, ERROR_INPUT,
              "%s: the %s is on more than two elements (%lld among them): elements overlap",
-             mesh->path, what, (long long)mesh->element_number[face->element]);
+             mesh->path, describe(mesh, &face->key, what),
+             (long long)mesh->element_number[face->element]);
 cleanup:
     return error_is_clean(err);
 }

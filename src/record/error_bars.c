@@ -148,11 +148,6 @@ double levels_cells(const Levels *levels)
     return slipping_part(levels) * levels->list[levels->count - 1].nodes_along;
 }
 
-bool levels_resolved(const Levels *levels)
-{
-    return levels_cells(levels) >= SLIP_CELLS_ENOUGH;
-}
-
 // Of a level's value, over `origin`.
 static double scatter_of(const Level *level, double usual, double origin)
 {
@@ -231,16 +226,16 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     const Level *last = &levels->list[levels->count - 1];
     double spread = spread_of_runs(levels, kind);
     if (isnan(level_value(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}, false};
-    bool alone = is_alone(levels, kind), unknown = alone || !levels_resolved(levels);
+    bool alone = is_alone(levels, kind);
     Limit limit = alone ? one_level(last, kind, spread) : limit_of(levels, kind, spread);
     double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
     ErrorBar bar = {.value = limit.value,
-                    .parts = {.mesh = unknown ? NAN : mesh,
+                    .parts = {.mesh = alone ? NAN : mesh,
                               .branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(limit.runs),
                               .drops = limit.drops}};
     double others = hypot(known(bar.parts.branches), bar.parts.drops);
     bar.apart = fabs(limit.value - level_value(last, kind)) > hypot(mesh, others);
-    if (bar.apart && !unknown)
+    if (bar.apart && !alone)
         bar.parts.mesh = sqrt(pow(limit.value - level_value(last, kind), 2) - others * others);
     bar.bar = hypot(bar.parts.mesh, others);
     return bar;

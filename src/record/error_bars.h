@@ -96,10 +96,9 @@ bool levels_enough(const Levels *levels, AnswerKind kind);
 double level_value(const Level *level, AnswerKind kind);
 
 // That slip on the last level where slow slip turns fast, by the part of the contact that does on
-// all levels; all of them where slip never turns fast. The mesh's part of a bar is known only where
-// they are SLIP_CELLS_ENOUGH.
+// all levels; all of them where slip never turns fast. The fewer they are, the longer is the mesh's
+// part of a bar.
 double levels_cells(const Levels *levels);
-bool levels_resolved(const Levels *levels);
 
 // A run of the last level has no answer, as its run-in was not over.
 bool levels_run_in(const Levels *levels);

@@ -3,10 +3,17 @@
 
 #include "base/memory.h"
 
+#include <math.h>
+
 // Of damping alone kappa is 0, and S' of all rod nodes is singular: a rod that no node touches may
 // move as it likes. It gets this part of what the block sets against it, far above rounding and far
 // below what tells a certified state from another.
 static const double LOOSE = 1e-6;
+
+// So it is in a step so short that beside the block the spring is rounding. There the rod gets at
+// least this part, as if it had so much of the mass of its nodes. (A block 1e6 times as stiff as
+// the machine is a rigid one, and 1e-6 would be seen.)
+static const double LOOSE_LIMIT = 1e-10;
 
 bool machine_soften(const Machine *machine, double reach, int32_t count, double *schur,
                     MachineColumn *column, Error *err)
@@ -19,7 +26,7 @@ bool machine_soften(const Machine *machine, double reach, int32_t count, double 
     for (int64_t b = first; b < count; b++)
         for (int32_t a = 0; a < count; a++) s[a] += schur[b * count + a];
     for (int32_t b = first; b < count; b++) resistance += s[b];
-    double kappa = reach > 0 ? reach * machine->stiffness : LOOSE * resistance;
+    double kappa = fmax(reach * machine->stiffness, (reach > 0 ? LOOSE_LIMIT : LOOSE) * resistance);
     column->pivot = kappa + resistance;
     double factor = 1 / column->pivot;
     for (int64_t b = 0; b < count; b++)   // symmetric to the bit

@@ -34,8 +34,8 @@ typedef struct MachineColumn {
     double given;   // f + e'g of the last machine_refer
 } MachineColumn;
 
-// Makes S' of S in `schur` [count^2]. reach: of the operator (OperatorTerms.stiffness); 0: of
-// damping alone, whose S' would leave a rod that touches nothing undetermined: see machine.c.
+// Makes S' of S in `schur` [count^2]. reach: of the operator (OperatorTerms.stiffness); 0 or very
+// short: S' would leave a rod that touches nothing undetermined, see machine.c.
 bool machine_soften(const Machine *machine, double reach, int32_t count, double *schur,
                     MachineColumn *column, Error *err);
 void machine_column_destroy(MachineColumn *column);

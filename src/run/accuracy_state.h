@@ -3,9 +3,9 @@
 // run/accuracy_member does one run. amontons.h declares what the caller sees.
 //
 // Time (accuracy.within) ends a search inside a run. Of what is given a part is kept for the run in
-// full on the last mesh whose runs are whole; a run or a mesh that would take longer than what is
-// left before is not begun. What was cut short has no part in the bar. Where it was the first run
-// of all, its own answers stand, without a bar.
+// full on the last mesh whose runs are whole; not begun is a run that would take longer than what
+// is left before, or a mesh that would by more than forecasts are off. What was cut short has no
+// part in the bar. Where it was the first run of all, its own answers stand, without a bar.
 #ifndef AMONTONS_RUN_ACCURACY_STATE_H
 #define AMONTONS_RUN_ACCURACY_STATE_H
 

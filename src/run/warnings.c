@@ -166,9 +166,7 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
 static const char *why_unknown(const Levels *levels)
 {
     const Level *last = &levels->list[levels->count - 1];
-    if (last->undamped) return "cells are too long for slip";
-    bool one = levels->count == 1 || levels_resolved(levels);
-    return one ? "one mesh" : "too few cells where slip turns fast";
+    return last->undamped ? "cells are too long for slip" : "one mesh";
 }
 
 static const char *why_not_sure(const Levels *levels)

@@ -1,35 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact, friction and rod of each node after the step that is free of them (stepping/explicit_sweep).
+// Contact, friction and rod of each node after the step that is free of them
+// (stepping/explicit_sweep).
 #include "stepping/explicit_reference.h"
 
 #include "base/dense.h"
 #include "base/memory.h"
 #include "contact/slip.h"
-#include "stepping/explicit_sweep.h"
 
 #include <math.h>
 #include <string.h>
 
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err)
 {
-    int32_t nodes = dof_node(def->bulk->dim, def->bulk->dof_count);
-    *scheme = (ExplicitReference){.def = *def, .node_count = nodes};
-    scheme->now = NEW_ARRAY(double, explicit_field_size(scheme), err);
-    scheme->next = NEW_ARRAY(double, explicit_field_size(scheme), err);
-    scheme->force = NEW_ARRAY(double, explicit_field_size(scheme), err);
+    *scheme = (ExplicitReference){.def = *def};
     scheme->bound = NEW_ARRAY(double, def->interface->count, err);
-    return error_is_clean(err) && explicit_sweep_create(scheme, err);
+    return error_is_clean(err) && explicit_sweep_create(def->bulk, def->step, &scheme->mesh, err);
 }
 
 void explicit_reference_destroy(ExplicitReference *scheme)
 {
-    memory_free(scheme->start);
-    memory_free(scheme->column);
-    memory_free(scheme->blocks);
-    memory_free(scheme->kick);
-    memory_free(scheme->now);
-    memory_free(scheme->next);
-    memory_free(scheme->force);
+    explicit_sweep_destroy(&scheme->mesh);
     memory_free(scheme->bound);
     *scheme = (ExplicitReference){0};
 }
@@ -39,7 +29,7 @@ void explicit_reference_destroy(ExplicitReference *scheme)
 void explicit_reference_start(ExplicitReference *scheme, const State *state)
 {
     const Bulk *bulk = scheme->def.bulk;
-    double *elastic = scheme->force, *viscous = scheme->force + bulk->dof_count;
+    double *elastic = scheme->mesh.force, *viscous = scheme->mesh.force + bulk->dof_count;
     scheme->time = state->time;
     scheme->rod_way = state->rod_way;
     scheme->steps = 0;
@@ -47,13 +37,13 @@ void explicit_reference_start(ExplicitReference *scheme, const State *state)
     sparse_apply(&bulk->pattern, bulk->damping, state->velocity, viscous);
     for (int32_t k = 0; k < state->interface_count; k++)
         elastic[scheme->def.interface->dofs[k]] -= state->reaction[k];
-    for (int32_t i = 0; i < scheme->node_count; i++) {
+    for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
         for (int32_t d = 0; d < bulk->dim; d++) {
             int32_t dof = node_dof(bulk->dim, i, d);
             double inertia = bulk->held[dof] ? 0 : bulk->load[dof] - elastic[dof] - viscous[dof];
-            scheme->now[explicit_place(scheme, i) + d] = state->displacement[dof];
-            scheme->now[explicit_velocity(scheme, i) + d] = state->velocity[dof] -
-                                                            0.5 * scheme->kick[i] * inertia;
+            scheme->mesh.now[explicit_place(&scheme->mesh, i) + d] = state->displacement[dof];
+            scheme->mesh.now[explicit_velocity(&scheme->mesh, i) + d] =
+                state->velocity[dof] - 0.5 * scheme->mesh.kick[i] * inertia;
         }
     }
 }
@@ -124,7 +114,7 @@ static void resolve_slip(const ExplicitReference *scheme, int32_t i, double stre
     state->status[i] = speed == 0 ? CONTACT_STICK : status_of_slip(v[0]);
     for (int32_t c = 0; c < tangents; c++) {
         double left = speed == 0 ? copysign(0, v[c]) : speed * (v[c] / free_speed);
-        state->reaction[t + c] = (left - v[c]) / scheme->kick[interface->node[i]];
+        state->reaction[t + c] = (left - v[c]) / scheme->mesh.kick[interface->node[i]];
         v[c] = left;
     }
 }
@@ -135,10 +125,11 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     const Interface *interface = scheme->def.interface;
     int32_t t = interface_tangent(interface, i), last = interface->dim - 1;
     int32_t node = scheme->def.interface->node[i];
-    double step = scheme->def.step, kick = scheme->kick[node], power = 0;
-    double *u = scheme->next + explicit_place(scheme, node), *v = u + explicit_room(scheme);
-    const double *start = scheme->now + explicit_place(scheme, node);
-    const double *before = start + explicit_room(scheme);
+    double step = scheme->def.step, kick = scheme->mesh.kick[node], power = 0;
+    double *u = scheme->mesh.next + explicit_place(&scheme->mesh, node),
+           *v = u + explicit_room(&scheme->mesh);
+    const double *start = scheme->mesh.now + explicit_place(&scheme->mesh, node);
+    const double *before = start + explicit_room(&scheme->mesh);
     double *reaction = state->reaction + t, *slip_rate = state->slip_rate + t;
     double initial = interface_gap(scheme->def.interface, i);
     double gap = start[last] + initial, bound = -gap / step;
@@ -183,7 +174,7 @@ static void lead_rod(ExplicitReference *scheme, double time)
     const Rod *rod = scheme->def.rod;
     double step = scheme->def.step, own = 0, *bound = scheme->bound;
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        double at = scheme->now[explicit_place(scheme, interface->rod_node[j])];
+        double at = scheme->mesh.now[explicit_place(&scheme->mesh, interface->rod_node[j])];
         bound[interface_rod(interface, j)] =
             rod->stiffness > 0 ? rod_bound_on_spring(rod, j, at, scheme->rod_way, step)
                                : rod_bound(rod, j, at, time, step);
@@ -197,9 +188,9 @@ static void lead_rod(ExplicitReference *scheme, double time)
         touching = 0;
         for (int32_t j = 0; j < interface->rod_count; j++) {
             int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-            double velocity = scheme->next[explicit_velocity(scheme, node)];
+            double velocity = scheme->mesh.next[explicit_velocity(&scheme->mesh, node)];
             if (k > 0 && !rod_holds(rod, velocity, bound[x] + own)) continue;
-            double share = 1 / (scheme->kick[node] + rod_yields(scheme, j));
+            double share = 1 / (scheme->mesh.kick[node] + rod_yields(scheme, j));
             given -= share * (bound[x] - velocity);
             resists += share;
             touching++;
@@ -215,20 +206,20 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, do
 {
     const Interface *interface = scheme->def.interface;
     int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-    double step = scheme->def.step, *u = scheme->next + explicit_place(scheme, node);
-    double *v = u + explicit_room(scheme);
+    double step = scheme->def.step, *u = scheme->mesh.next + explicit_place(&scheme->mesh, node);
+    double *v = u + explicit_room(&scheme->mesh);
     double bound = scheme->bound[x], yields = rod_yields(scheme, j);
     bool touches = rod_holds(scheme->def.rod, v[0], bound);
     state->rod_touches[j] = touches;
     // v' = v + kick r = bound - yields r.
-    state->reaction[x] = touches ? (bound - v[0]) / (scheme->kick[node] + yields) : 0;
+    state->reaction[x] = touches ? (bound - v[0]) / (scheme->mesh.kick[node] + yields) : 0;
     if (touches) {
         v[0] = bound - yields * state->reaction[x];
-        u[0] = scheme->now[explicit_place(scheme, node)] + step * v[0];
+        u[0] = scheme->mesh.now[explicit_place(&scheme->mesh, node)] + step * v[0];
     }
     state->slip_rate[x] = v[0];
     double pushed = state->reaction[x] * v[0];
-    double before = scheme->now[explicit_velocity(scheme, node)];
+    double before = scheme->mesh.now[explicit_velocity(&scheme->mesh, node)];
     *dissipated += pushed - mean_power(state->reaction[x], before, v[0]);
     return pushed;
 }
@@ -238,10 +229,10 @@ static double load_power(const ExplicitReference *scheme)
 {
     double power = 0;
     int32_t dim = scheme->def.bulk->dim;
-    for (int32_t i = 0; i < scheme->node_count; i++)
+    for (int32_t i = 0; i < scheme->mesh.node_count; i++)
         for (int32_t d = 0; d < dim; d++)
             power += scheme->def.bulk->load[node_dof(dim, i, d)] *
-                     scheme->next[explicit_velocity(scheme, i) + d];
+                     scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
     return scheme->factor * power;
 }
 
@@ -251,7 +242,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     const Interface *interface = scheme->def.interface;
     double step = scheme->def.step, frictional = 0, pushed = 0;
     scheme->factor = load_factor(scheme->def.course, scheme->time + step * (double)scheme->steps);
-    double viscous = explicit_sweep(scheme);
+    double viscous = explicit_sweep_free(&scheme->mesh, scheme->factor);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
     double end = scheme->time + step * (double)(scheme->steps + 1);
@@ -271,10 +262,11 @@ static double centred_residual(ExplicitReference *scheme, const State *state)
     const Bulk *bulk = scheme->def.bulk;
     int32_t dofs = bulk->dof_count;
     double step = scheme->def.step;
-    double *field = scheme->next, *sum = scheme->force, *viscous = scheme->force + dofs;
+    double *field = scheme->mesh.next, *sum = scheme->mesh.force,
+           *viscous = scheme->mesh.force + dofs;
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->velocity[k] -
-                   0.5 * scheme->kick[dof_node(bulk->dim, k)] * state->inertia[k];
+                   0.5 * scheme->mesh.kick[dof_node(bulk->dim, k)] * state->inertia[k];
     sparse_apply(&bulk->pattern, bulk->damping, field, viscous);
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->displacement[k] - step * state->velocity[k];
@@ -292,16 +284,17 @@ static double fill_state(ExplicitReference *scheme, State *state)
 {
     const Bulk *bulk = scheme->def.bulk;
     double load_work = 0;
-    for (int32_t i = 0; i < scheme->node_count; i++) {
+    for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
         for (int32_t d = 0; d < bulk->dim; d++) {
             int32_t dof = node_dof(bulk->dim, i, d);
-            int64_t place = explicit_velocity(scheme, i) + d;
-            double u = scheme->now[explicit_place(scheme, i) + d], v = scheme->now[place];
+            int64_t place = explicit_velocity(&scheme->mesh, i) + d;
+            double u = scheme->mesh.now[explicit_place(&scheme->mesh, i) + d],
+                   v = scheme->mesh.now[place];
             load_work += bulk->load[dof] * (u - state->displacement[dof]);
             state->displacement[dof] = u;
             state->velocity[dof] = v;
             state->momentum[dof] = bulk->mass[dof] * v;
-            state->inertia[dof] = (v - scheme->next[place]) / scheme->kick[i];
+            state->inertia[dof] = (v - scheme->mesh.next[place]) / scheme->mesh.kick[i];
         }
     }
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
@@ -317,9 +310,9 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
 {
     for (int64_t k = 0; k < steps; k++) {
         advance_once(scheme, state, ledger);
-        double *spare = scheme->now;
-        scheme->now = scheme->next;
-        scheme->next = spare;
+        double *spare = scheme->mesh.now;
+        scheme->mesh.now = scheme->mesh.next;
+        scheme->mesh.next = spare;
     }
     ledger->load_work += fill_state(scheme, state);
     energy_store(state, ledger);
@@ -339,6 +332,7 @@ void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
     archive_number(archive, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
-    archive_numbers(archive, scheme->now, scheme->now ? explicit_field_size(scheme) : 0);
+    archive_numbers(archive, scheme->mesh.now,
+                    scheme->mesh.now ? explicit_field_size(&scheme->mesh) : 0);
     archive_numbers(archive, scheme->bound, scheme->bound ? scheme->def.interface->count : 0);
 }

@@ -26,6 +26,7 @@
 #include "fem/assembly.h"
 #include "contact/rod.h"
 #include "stepping/energy.h"
+#include "stepping/explicit_sweep.h"
 #include "stepping/load_course.h"
 
 typedef struct ExplicitDef {
@@ -39,15 +40,7 @@ typedef struct ExplicitDef {
 
 typedef struct ExplicitReference {
     ExplicitDef def;   // its parts are not owned
-    int32_t node_count;
-    int32_t *start;   // [node_count + 1] of the node's blocks; owned, like all that follows
-    int32_t *column;   // [blocks] node; the first of each row is the diagonal
-    double *
-        blocks;   // [blocks * block_size] upper triangle of K and C by nodes, see explicit_sweep.c
-    double *kick;   // [node_count] dt / mass
-    double *now;   // [field_size] u of a node at t_n, then its v at t_n - dt/2
-    double *next;   // [field_size] the same a step later
-    double *force;   // [field_size] work: K u, C v
+    ExplicitSweep mesh;   // owned, like the next
     double *bound;   // [interface->count] of the last step, as in contact/contact_problem
     double rod_way;   // R at t_n, of a rod on a spring, length
     double time;   // t_n at the start

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One pass over the matrices a step. Blocks of a node's unknowns by another's, K and C side by side,
-// upper triangle only: block (i, j), j >= i, holds in the plane
+// One pass over the matrices a step. Blocks of a node's unknowns by another's, K and C side by
+// side, upper triangle only: block (i, j), j >= i, holds in the plane
 //
 //     K_xx K_zx | K_xz K_zz | C_xx C_zx | C_xz C_zz      (rows i, columns j)
 //
@@ -18,9 +18,9 @@
 // x and z of one node.
 typedef double Pair __attribute__((vector_size(16)));
 
-static int64_t block_size(const ExplicitReference *scheme)
+static int64_t block_size(const ExplicitSweep *sweep)
 {
-    return 2 * scheme->def.interface->dim * explicit_room(scheme);
+    return 2 * sweep->bulk->dim * explicit_room(sweep);
 }
 
 static int32_t count_blocks(const SparsePattern *pattern, int32_t dim)
@@ -32,54 +32,71 @@ static int32_t count_blocks(const SparsePattern *pattern, int32_t dim)
     return count;
 }
 
-static void fill_blocks(ExplicitReference *scheme)
+static void fill_blocks(ExplicitSweep *sweep)
 {
-    const Bulk *bulk = scheme->def.bulk;
+    const Bulk *bulk = sweep->bulk;
     const SparsePattern *pattern = &bulk->pattern;
-    int32_t filled = 0, dim = bulk->dim, room = explicit_room(scheme);
-    for (int32_t i = 0; i < scheme->node_count; i++) {
+    int32_t filled = 0, dim = bulk->dim, room = explicit_room(sweep);
+    for (int32_t i = 0; i < sweep->node_count; i++) {
         const int32_t *row = pattern->start + node_dof(dim, i, 0);
         for (int32_t k = 0; k < row[1] - row[0]; k += dim) {
             int32_t j = dof_node(dim, pattern->index[row[0] + k]);
             if (j < i) continue;
-            double *block = scheme->blocks + block_size(scheme) * filled;
+            double *block = sweep->blocks + block_size(sweep) * filled;
             for (int32_t d = 0; d < dim; d++)
                 for (int32_t e = 0; e < dim; e++) {
                     block[room * d + e] = bulk->stiffness[row[e] + k + d];
                     block[room * (dim + d) + e] = bulk->damping[row[e] + k + d];
                 }
-            scheme->column[filled++] = j;
+            sweep->column[filled++] = j;
         }
-        scheme->start[i + 1] = filled;
-        scheme->kick[i] = scheme->def.step / bulk->mass[node_dof(dim, i, 0)];
+        sweep->start[i + 1] = filled;
+        sweep->kick[i] = sweep->step / bulk->mass[node_dof(dim, i, 0)];
     }
 }
 
-bool explicit_sweep_create(ExplicitReference *scheme, Error *err)
+bool explicit_sweep_create(const Bulk *bulk, double step, ExplicitSweep *sweep, Error *err)
 {
-    const Bulk *bulk = scheme->def.bulk;
-    int32_t nodes = scheme->node_count, blocks = count_blocks(&bulk->pattern, bulk->dim);
-    scheme->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
-    scheme->column = NEW_ARRAY(int32_t, blocks, err);
-    scheme->blocks = NEW_ARRAY(double, block_size(scheme) * blocks, err);
-    scheme->kick = NEW_ARRAY(double, nodes, err);
-    if (error_is_clean(err)) fill_blocks(scheme);
+    int32_t nodes = dof_node(bulk->dim, bulk->dof_count);
+    int32_t blocks = count_blocks(&bulk->pattern, bulk->dim);
+    *sweep = (ExplicitSweep){.bulk = bulk, .step = step, .node_count = nodes};
+    int64_t size = explicit_field_size(sweep);
+    sweep->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
+    sweep->column = NEW_ARRAY(int32_t, blocks, err);
+    sweep->blocks = NEW_ARRAY(double, block_size(sweep) * blocks, err);
+    sweep->kick = NEW_ARRAY(double, nodes, err);
+    sweep->now = NEW_ARRAY(double, size, err);
+    sweep->next = NEW_ARRAY(double, size, err);
+    sweep->force = NEW_ARRAY(double, size, err);
+    if (error_is_clean(err)) fill_blocks(sweep);
     return error_is_clean(err);
 }
 
-// In the plane.
-static double sweep_plane(ExplicitReference *scheme)
+void explicit_sweep_destroy(ExplicitSweep *sweep)
 {
-    const Pair *restrict blocks = (const Pair *)scheme->blocks;
-    const Pair *restrict load = (const Pair *)scheme->def.bulk->load;
-    const Pair *restrict now = (const Pair *)scheme->now;
-    Pair *restrict next = (Pair *)scheme->next;
-    Pair *restrict force = (Pair *)scheme->force;
-    const int32_t *restrict start = scheme->start, *restrict column = scheme->column;
-    double step = scheme->def.step, factor = scheme->factor;
+    memory_free(sweep->start);
+    memory_free(sweep->column);
+    memory_free(sweep->blocks);
+    memory_free(sweep->kick);
+    memory_free(sweep->now);
+    memory_free(sweep->next);
+    memory_free(sweep->force);
+    *sweep = (ExplicitSweep){0};
+}
+
+// In the plane.
+static double sweep_plane(ExplicitSweep *sweep, double factor)
+{
+    const Pair *restrict blocks = (const Pair *)sweep->blocks;
+    const Pair *restrict load = (const Pair *)sweep->bulk->load;
+    const Pair *restrict now = (const Pair *)sweep->now;
+    Pair *restrict next = (Pair *)sweep->next;
+    Pair *restrict force = (Pair *)sweep->force;
+    const int32_t *restrict start = sweep->start, *restrict column = sweep->column;
+    double step = sweep->step;
     Pair power = {0, 0};
-    memset(force, 0, (size_t)explicit_field_size(scheme) * sizeof(double));
-    for (int32_t i = 0; i < scheme->node_count; i++) {
+    memset(force, 0, (size_t)explicit_field_size(sweep) * sizeof(double));
+    for (int32_t i = 0; i < sweep->node_count; i++) {
         Pair u = now[2 * i], v = now[2 * i + 1];
         const Pair *diagonal = blocks + 4 * (int64_t)start[i];
         Pair elastic = force[2 * i] + diagonal[0] * u[0] + diagonal[1] * u[1];
@@ -97,7 +114,7 @@ static double sweep_plane(ExplicitReference *scheme)
                                 __builtin_shufflevector(cx, cz, 1, 3) * v[1];
         }
         power += v * viscous;
-        Pair faster = v + scheme->kick[i] * (factor * load[i] - elastic - viscous);
+        Pair faster = v + sweep->kick[i] * (factor * load[i] - elastic - viscous);
         next[2 * i] = u + step * faster;
         next[2 * i + 1] = faster;
     }
@@ -116,18 +133,18 @@ WITH_CONSTANTS void add_transposed(const Lane *column, const double *x, Lane *su
 }
 
 // The same in space.
-FOR_EACH_PROCESSOR static double sweep_space(ExplicitReference *scheme)
+FOR_EACH_PROCESSOR static double sweep_space(ExplicitSweep *sweep, double factor)
 {
-    const Lane *restrict blocks = (const Lane *)scheme->blocks;
-    const double *restrict load = scheme->def.bulk->load;
-    const Lane *restrict now = (const Lane *)scheme->now;
-    Lane *restrict next = (Lane *)scheme->next;
-    Lane *restrict force = (Lane *)scheme->force;
-    const int32_t *restrict start = scheme->start, *restrict column = scheme->column;
-    double step = scheme->def.step, factor = scheme->factor;
+    const Lane *restrict blocks = (const Lane *)sweep->blocks;
+    const double *restrict load = sweep->bulk->load;
+    const Lane *restrict now = (const Lane *)sweep->now;
+    Lane *restrict next = (Lane *)sweep->next;
+    Lane *restrict force = (Lane *)sweep->force;
+    const int32_t *restrict start = sweep->start, *restrict column = sweep->column;
+    double step = sweep->step;
     Lane power = {0};
-    memset(force, 0, (size_t)explicit_field_size(scheme) * sizeof(double));
-    for (int32_t i = 0; i < scheme->node_count; i++) {
+    memset(force, 0, (size_t)explicit_field_size(sweep) * sizeof(double));
+    for (int32_t i = 0; i < sweep->node_count; i++) {
         Lane u = now[2 * i], v = now[2 * i + 1];
         const Lane *own = blocks + 6 * (int64_t)start[i];
         Lane elastic = force[2 * i] + own[0] * u[0] + own[1] * u[1] + own[2] * u[2];
@@ -143,14 +160,14 @@ FOR_EACH_PROCESSOR static double sweep_space(ExplicitReference *scheme)
         }
         power += v * viscous;
         Lane given = {load[3 * i], load[3 * i + 1], load[3 * i + 2], 0};
-        Lane faster = v + scheme->kick[i] * (factor * given - elastic - viscous);
+        Lane faster = v + sweep->kick[i] * (factor * given - elastic - viscous);
         next[2 * i] = u + step * faster;
         next[2 * i + 1] = faster;
     }
     return power[0] + power[1] + power[2];
 }
 
-double explicit_sweep(ExplicitReference *scheme)
+double explicit_sweep_free(ExplicitSweep *sweep, double factor)
 {
-    return scheme->def.interface->dim == 2 ? sweep_plane(scheme) : sweep_space(scheme);
+    return sweep->bulk->dim == 2 ? sweep_plane(sweep, factor) : sweep_space(sweep, factor);
 }

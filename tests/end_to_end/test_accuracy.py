@@ -92,9 +92,9 @@ class Accuracy(unittest.TestCase):
     def test_cut_within_a_mesh(self):
         """A run whose answer is known to 0.002 % after minutes: time ends it, and what it has so far is told."""
         began = time.monotonic()
-        ended = self.run_it("--to", "0.01%", "--within", "5s", settings=["load.pressure=0.006", "time.until.U=3", *SETTINGS[2:]])
+        ended = self.run_it("--to", "0.01%", "--within", "5s", settings=["load.pressure=0.006", "time.until.U=100", *SETTINGS[2:]])
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertLess(time.monotonic() - began, 5 * 8)      # a busy machine; the whole takes minutes
+        self.assertLess(time.monotonic() - began, 5 * 8)      # a busy machine; the whole takes minutes on any
         found, results = self.report()["accuracy"], self.report()["results"]
         self.assertFalse(found["met"])
         self.assertEqual((found["levels"], found["cut"]["mesh"], found["cut"]["run"]), ([], 1, 1))

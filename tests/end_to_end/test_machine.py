@@ -43,6 +43,16 @@ class Machine(Driven):
         scene = json.loads((self.folder / "plain/run.json").read_text())["scene"]
         self.assertNotIn("stiffness", scene["rod"])
 
+    def test_crown_settles_without_the_rod(self):
+        """Its middle touches first, and contact is settled in steps so short that beside the block the spring is rounding."""
+        shape = {"length": 0.38745, "height": 0.11549, "crown": 7.987e-05, "nx": 32, "nz": 10}
+        found = self.run_scene("crown", *(f"mesh.set.{key}={value}" for key, value in shape.items()),
+                               "material.poisson=0.36874", "material.eta2=0.81841", "material.plane=strain", "friction.mu_static=0.55427",
+                               "friction.mu_kinetic=0.11386", "friction.critical_velocity=6.915e-6", "load.pressure=0.00016259",
+                               "rod.velocity=4.7991e-7", "rod.height=0.048876", "rod.width=0.011163", "rod.stiffness=0.046951",
+                               "time.until.U=1e-6")
+        self.assertAlmostEqual(found["normal_force"][-1] / (0.00016259 * 0.38745), 1, delta=1e-3)
+
     def test_explicit_steps(self):
         found, times = [], numpy.linspace(5, 60, 60)
         for scheme in ("sdirk2", "explicit"):

@@ -28,26 +28,16 @@ static const double CUBE_NODES[27][DIM_MAX] = {
     {1, 1, 0},    {-1, 1, 0},  {0, -1, 1},  {-1, 0, 1},  {1, 0, 1},   {0, 1, 1},  {0, 0, -1},
     {0, -1, 0},   {-1, 0, 0},  {1, 0, 0},   {0, 1, 0},   {0, 0, 1},   {0, 0, 0}};
 
-const double *shape_node(ElementKind kind, int32_t a)
-{
-    switch (element_corner_count(kind)) {
-    case 2:
-        return LINE_NODES[a];
-    case 3:
-        return TRIANGLE_NODES[a];
-    case 4:
-        return element_dim(kind) == 2 ? SQUARE_NODES[a] : TETRAHEDRON_NODES[a];
-    case 6:
-        return WEDGE_NODES[a];
-    default:
-        return CUBE_NODES[a];
-    }
-}
+// A reference element.
+typedef struct Reference {
+    int32_t dim, nodes;
+    const double (*node)[DIM_MAX];   // [nodes]
+} Reference;
 
 // N_a = L_a, the area or volume coordinates themselves.
-static void shape_simplex(ElementKind kind, const double *point, ShapeValues *shape)
+static void shape_simplex(const Reference *of, const double *point, ShapeValues *shape)
 {
-    int32_t dim = element_dim(kind);
+    int32_t dim = of->dim;
     shape->value[0] = 1;
     for (int32_t d = 0; d < dim; d++) {
         shape->value[0] -= point[d];
@@ -61,17 +51,17 @@ static void shape_simplex(ElementKind kind, const double *point, ShapeValues *sh
 // and the next.
 static const uint8_t SIMPLEX_SIDES[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
-static void shape_simplex_2(ElementKind kind, const double *point, ShapeValues *shape)
+static void shape_simplex_2(const Reference *of, const double *point, ShapeValues *shape)
 {
     ShapeValues linear = {0};   // L_0, L_1, ... and their slopes
-    int32_t dim = element_dim(kind), corners = dim + 1;
-    shape_simplex(kind, point, &linear);
+    int32_t dim = of->dim, corners = dim + 1;
+    shape_simplex(of, point, &linear);
     for (int32_t a = 0; a < corners; a++) {
         double la = linear.value[a];
         shape->value[a] = la * (2 * la - 1);
         for (int32_t d = 0; d < dim; d++) shape->slope[a][d] = (4 * la - 1) * linear.slope[a][d];
     }
-    for (int32_t m = corners; m < element_node_count(kind); m++) {
+    for (int32_t m = corners; m < of->nodes; m++) {
         int32_t a = SIMPLEX_SIDES[m - corners][0], b = SIMPLEX_SIDES[m - corners][1];
         double la = linear.value[a], lb = linear.value[b];
         shape->value[m] = 4 * la * lb;
@@ -81,12 +71,12 @@ static void shape_simplex_2(ElementKind kind, const double *point, ShapeValues *
 }
 
 // N_a = product of (1 + c s) / 2 over the axes, c the node's place there.
-static void shape_product(ElementKind kind, const double *point, ShapeValues *shape)
+static void shape_product(const Reference *of, const double *point, ShapeValues *shape)
 {
-    int32_t dim = element_dim(kind);
+    int32_t dim = of->dim;
     double scale = 1 << dim;
-    for (int32_t a = 0; a < element_node_count(kind); a++) {
-        const double *c = shape_node(kind, a);
+    for (int32_t a = 0; a < of->nodes; a++) {
+        const double *c = of->node[a];
         double value = 1;
         for (int32_t d = 0; d < dim; d++) value *= 1 + c[d] * point[d];
         shape->value[a] = value / scale;
@@ -105,14 +95,14 @@ static double quadratic(double c, double s, double *slope)
     return c == 0 ? 1 - s * s : s * (s + c) / 2;
 }
 
-static void shape_product_2(ElementKind kind, const double *point, ShapeValues *shape)
+static void shape_product_2(const Reference *of, const double *point, ShapeValues *shape)
 {
-    int32_t dim = element_dim(kind);
-    for (int32_t a = 0; a < element_node_count(kind); a++) {
+    int32_t dim = of->dim;
+    for (int32_t a = 0; a < of->nodes; a++) {
         double factor[DIM_MAX], slope[DIM_MAX];
         shape->value[a] = 1;
         for (int32_t d = 0; d < dim; d++) {
-            factor[d] = quadratic(shape_node(kind, a)[d], point[d], &slope[d]);
+            factor[d] = quadratic(of->node[a][d], point[d], &slope[d]);
             shape->value[a] *= factor[d];
         }
         for (int32_t d = 0; d < dim; d++) {
@@ -123,11 +113,11 @@ static void shape_product_2(ElementKind kind, const double *point, ShapeValues *
 }
 
 // N_a = L_a (1 + c zeta) / 2, c = -1 below and 1 above.
-static void shape_wedge(ElementKind kind, const double *point, ShapeValues *shape)
+static void shape_wedge(const Reference *of, const double *point, ShapeValues *shape)
 {
     ShapeValues flat = {0};
-    shape_simplex(ELEMENT_T3, point, &flat);
-    for (int32_t a = 0; a < element_node_count(kind); a++) {
+    shape_simplex(&(Reference){2, 3, TRIANGLE_NODES}, point, &flat);
+    for (int32_t a = 0; a < of->nodes; a++) {
         double c = WEDGE_NODES[a][2], height = (1 + c * point[2]) / 2;
         shape->value[a] = flat.value[a % 3] * height;
         shape->slope[a][0] = flat.slope[a % 3][0] * height;
@@ -137,10 +127,10 @@ static void shape_wedge(ElementKind kind, const double *point, ShapeValues *shap
 }
 
 // With p = 1 + xi_a xi and q = 1 + eta_a eta; mid-sides 4 and 6 have xi_a = 0, 5 and 7 eta_a = 0.
-static void shape_q8(ElementKind kind, const double *point, ShapeValues *shape)
+static void shape_q8(const Reference *of, const double *point, ShapeValues *shape)
 {
     double xi = point[0], eta = point[1];
-    for (int32_t a = 0; a < element_node_count(kind); a++) {
+    for (int32_t a = 0; a < of->nodes; a++) {
         double xa = SQUARE_NODES[a][0], ea = SQUARE_NODES[a][1];
         double p = 1 + xa * xi, q = 1 + ea * eta;
         if (a < 4) {
@@ -238,7 +228,8 @@ static Quadrature tetrahedron_rule_5(void)
 // What makes a kind of element; how many nodes it has stands in io/mesh/mesh_file. A simplex times
 // as many lines as are left of its dimension.
 typedef struct ShapeRow {
-    void (*values)(ElementKind kind, const double *point, ShapeValues *shape);
+    const double (*node)[DIM_MAX];   // reference coordinates
+    void (*values)(const Reference *of, const double *point, ShapeValues *shape);
     Quadrature (*rule)(void);   // of the simplex; NULL: lines alone
     Quadrature (*mass_rule)(void);
     int32_t simplex_dim;
@@ -247,23 +238,31 @@ typedef struct ShapeRow {
 
 // Exact for B' D B where sides are straight and opposite ones parallel, mass_rule for N_a^2.
 static const ShapeRow ROWS[ELEMENT_KIND_COUNT] = {
-    [ELEMENT_L2] = {shape_product, .line_points = 2},
-    [ELEMENT_L3] = {shape_product_2, .line_points = 3},
-    [ELEMENT_T3] = {shape_simplex, triangle_rule_1, triangle_rule_1, 2},
-    [ELEMENT_T6] = {shape_simplex_2, triangle_rule_2, triangle_rule_4, 2},
-    [ELEMENT_Q4] = {shape_product, .line_points = 2},
-    [ELEMENT_Q8] = {shape_q8, .line_points = 3},
-    [ELEMENT_Q9] = {shape_product_2, .line_points = 3},
-    [ELEMENT_TET4] = {shape_simplex, tetrahedron_rule_1, tetrahedron_rule_1, 3},
-    [ELEMENT_TET10] = {shape_simplex_2, tetrahedron_rule_2, tetrahedron_rule_5, 3},
-    [ELEMENT_WEDGE6] = {shape_wedge, triangle_rule_2, triangle_rule_2, 2, 2},
-    [ELEMENT_HEX8] = {shape_product, .line_points = 2},
-    [ELEMENT_HEX27] = {shape_product_2, .line_points = 3}};
+    [ELEMENT_L2] = {LINE_NODES, shape_product, .line_points = 2},
+    [ELEMENT_L3] = {LINE_NODES, shape_product_2, .line_points = 3},
+    [ELEMENT_T3] = {TRIANGLE_NODES, shape_simplex, triangle_rule_1, triangle_rule_1, 2},
+    [ELEMENT_T6] = {TRIANGLE_NODES, shape_simplex_2, triangle_rule_2, triangle_rule_4, 2},
+    [ELEMENT_Q4] = {SQUARE_NODES, shape_product, .line_points = 2},
+    [ELEMENT_Q8] = {SQUARE_NODES, shape_q8, .line_points = 3},
+    [ELEMENT_Q9] = {SQUARE_NODES, shape_product_2, .line_points = 3},
+    [ELEMENT_TET4] = {TETRAHEDRON_NODES, shape_simplex, tetrahedron_rule_1, tetrahedron_rule_1, 3},
+    [ELEMENT_TET10] = {TETRAHEDRON_NODES, shape_simplex_2, tetrahedron_rule_2, tetrahedron_rule_5,
+                       3},
+    [ELEMENT_WEDGE6] = {WEDGE_NODES, shape_wedge, triangle_rule_2, triangle_rule_2, 2, 2},
+    [ELEMENT_HEX8] = {CUBE_NODES, shape_product, .line_points = 2},
+    [ELEMENT_HEX27] = {CUBE_NODES, shape_product_2, .line_points = 3}};
+
+const double *shape_node(ElementKind kind, int32_t a)
+{
+    return ROWS[kind].node[a];
+}
 
 ShapeValues shape_at(ElementKind kind, const double *point)
 {
+    const ElementInfo *info = element_info(kind);
+    const ShapeRow *row = &ROWS[kind];
     ShapeValues shape = {0};
-    ROWS[kind].values(kind, point, &shape);
+    row->values(&(Reference){info->dim, info->node_count, row->node}, point, &shape);
     return shape;
 }
 

@@ -223,8 +223,6 @@ static void test_what_is_said_of_a_bar(void **state)
     expect(levels, "known to 10.0 % from too few meshes that count, asked for");
     levels.list[2].answer[0].parts.mesh = NAN;
     expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
-    levels.list[1].slip_cells = levels.list[2].slip_cells = 1;
-    expect(levels, "not known (too few cells where slip turns fast: no time for more)");
     levels.list[2].undamped = true;
     expect(levels, "not known (cells are too long for slip: no time for more)");
 }

@@ -80,8 +80,8 @@ static void motion_of(const StiffBlock *block, double motion[3], double total[2]
     motion[2] /= total[1];
 }
 
-// a = mu P/(rho H) against an oblique velocity of size v: it stays straight, stops after v/a, v^2/(2 a)
-// away, and holds.
+// a = mu P/(rho H) against an oblique velocity of size v: it stays straight, stops after v/a,
+// v^2/(2 a) away, and holds.
 static void test_braking(void **state)
 {
     (void)state;
