@@ -49,22 +49,74 @@ cleanup:
     return error_is_clean(err);
 }
 
-// One value a row and node; `rows` shrinks likewise.
-static bool interface_read(ResultView *view, ResultSeries series, double **values, Error *err)
+// Of a vector, how large it is; of slip its part along the drive.
+static double vector_value(ResultSeries series, const double *vector)
+{
+    return series == SERIES_SLIP ? vector[0] : hypot(vector[0], vector[1]);
+}
+
+// In place: of each vector one value.
+static void take_values(ResultSeries series, double *values, int64_t count)
+{
+    for (int64_t k = 0; k < count; ++k) values[k] = vector_value(series, values + 2 * k);
+}
+
+static void take_line(const ResultView *view, double *values, int64_t rows)
+{
+    for (int64_t row = 0; row < rows; ++row)
+        for (int32_t k = 0; k < view->nodes; ++k)
+            values[row * view->nodes + k] = values[row * view->all_nodes + view->line[k]];
+}
+
+// One value a row and contact node; `rows` shrinks likewise.
+static bool nodes_series_read(ResultView *view, ResultSeries series, double **values, Error *err)
 {
     int64_t rows = 0;
-    int32_t width = 0;
+    int32_t width = 0, nodes = view->all_nodes;
     TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
-    if (width != view->nodes)
+    bool vectors = view->line && width == 2 * nodes;
+    if (width != nodes && !vectors)
         FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
-             result_series_name(series), width, view->nodes);
+             result_series_name(series), width, nodes);
+    if (vectors) take_values(series, *values, rows * nodes);
     if (rows < view->rows) view->rows = rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+// The same of the nodes that are shown against U.
+bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    TRY(nodes_series_read(view, series, values, err));
+    if (view->line) take_line(view, *values, view->rows);
     TRY(range_check(view, err));
 cleanup:
     if (!error_is_clean(err)) {
         memory_free(*values);
         *values = NULL;
     }
+    return error_is_clean(err);
+}
+
+// x and pads become those of the line; ascending x, as the nodes are.
+static bool line_read(ResultView *view, Error *err)
+{
+    double *of_line = NULL;
+    int32_t count = 0, all = view->nodes;
+    TRY(result_file_read_nodes(view->file, NODES_LINE, &of_line, &count, err));
+    if (count != all)
+        FAIL(err, ERROR_FILE, "%d contact nodes with %d marks of the line", all, count);
+    TRY(view->line = NEW_ARRAY(int32_t, all, err));
+    view->nodes = 0;
+    for (int32_t i = 0; i < all; ++i) {
+        if (!(of_line[i] > 0)) continue;
+        view->x[view->nodes] = view->x[i];
+        view->pad[view->nodes] = view->pad[i];
+        view->line[view->nodes++] = i;
+    }
+    if (view->nodes < 1) FAIL(err, ERROR_FILE, "no contact node is on the line");
+cleanup:
+    memory_free(of_line);
     return error_is_clean(err);
 }
 
@@ -76,6 +128,8 @@ static bool nodes_read(ResultView *view, Error *err)
     TRY(result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err));
     if (view->nodes < 1 || pads != view->nodes)
         FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
+    view->all_nodes = view->nodes;
+    if (result_file_has_nodes(view->file, NODES_LINE)) TRY(line_read(view, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -163,17 +217,17 @@ cleanup:
 
 bool result_view_read_slip_rate(ResultView *view, Error *err)
 {
-    return view->slip_rate || interface_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
+    return view->slip_rate || result_view_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
 }
 
 bool result_view_read_status(ResultView *view, Error *err)
 {
-    return view->status || interface_read(view, SERIES_STATUS, &view->status, err);
+    return view->status || result_view_read(view, SERIES_STATUS, &view->status, err);
 }
 
 bool result_view_read_slip(ResultView *view, Error *err)
 {
-    return view->slip || interface_read(view, SERIES_SLIP, &view->slip, err);
+    return view->slip || result_view_read(view, SERIES_SLIP, &view->slip, err);
 }
 
 bool result_view_read_front(ResultView *view, Error *err)
@@ -190,6 +244,7 @@ void result_view_close(ResultView *view)
     memory_free(view->mu);
     memory_free(view->x);
     memory_free(view->pad);
+    memory_free(view->line);
     memory_free(view->title);
     memory_free(view->pad_names);
     memory_free(view->warnings);

@@ -26,9 +26,11 @@ typedef struct ResultView {
     double *t;   // [rows] time; owned
     double *U;   // [rows] rod displacement, length; owned
     double *mu;   // [rows] 1; owned
-    int32_t nodes;   // contact nodes, at least 1
+    int32_t nodes;   // contact nodes, at least 1; in space those of the line along the middle
     double *x;   // [nodes] ascending, length; owned
     double *pad;   // [nodes] number of the contact curve; owned
+    int32_t all_nodes;   // of the contact
+    int32_t *line;   // [nodes] which of them are shown; NULL in the plane: all; owned
     char *pad_names;   // a line a contact curve, by number; empty: without names; owned
     char *warnings;   // of the run, one a line; empty: none; owned
     double *slip_rate;   // [rows * nodes] velocity, or NULL: not read yet; owned
@@ -52,6 +54,10 @@ bool result_view_read_slip_rate(ResultView *view, Error *err);
 bool result_view_read_status(ResultView *view, Error *err);
 bool result_view_read_slip(ResultView *view, Error *err);
 bool result_view_read_front(ResultView *view, Error *err);
+
+// *values [rows * nodes], the caller's; in space |v| of slip rates, their size of shear. `rows` may
+// shrink.
+bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err);
 
 // The first and the last finite U.
 void result_view_range(const ResultView *view, double *low, double *high);

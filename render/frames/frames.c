@@ -81,18 +81,17 @@ cleanup:
 // --- along the contact ---------------------------------------------------------------------------
 
 // One quantity at the chosen steps, [count * nodes]; the whole series is in memory only meanwhile.
-static bool read_rows(const Frames *frames, ResultSeries series, double **values, Error *err)
+static bool read_rows(Frames *frames, ResultSeries series, double **values, Error *err)
 {
     double *all = NULL;
-    int64_t rows = 0;
-    int32_t width = 0, nodes = frames->view.nodes;
-    TRY(result_file_read_series(frames->view.file, series, &all, &rows, &width, err));
+    int32_t nodes = frames->view.nodes;
+    TRY(result_view_read(&frames->view, series, &all, err));
     TRY(*values = NEW_ARRAY(double, (int64_t)frames->count *nodes, err));
     for (int32_t k = 0; k < frames->count; ++k) {
         int64_t row = frames->rows[frames->chosen[k]];
-        if (width != nodes || row >= rows)
-            FAIL(err, ERROR_FILE, "%s has %lld rows of %d columns, but there are %d contact nodes",
-                 result_series_name(series), (long long)rows, width, nodes);
+        if (row >= frames->view.rows)
+            FAIL(err, ERROR_FILE, "%s has %lld rows only", result_series_name(series),
+                 (long long)frames->view.rows);
         for (int32_t i = 0; i < nodes; ++i) (*values)[k * nodes + i] = all[row * nodes + i];
     }
 cleanup:

@@ -268,6 +268,11 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
     return read_column(file, nodes_rows[nodes].name, values, count, err);
 }
 
+bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes)
+{
+    return array_file_has(file, nodes_rows[nodes].name);
+}
+
 // A run that did not end has no tables: an empty one is given.
 bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
                             Error *err)

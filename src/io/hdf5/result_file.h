@@ -43,6 +43,7 @@ bool result_file_read_series(ArrayFile *file, ResultSeries series, double **valu
                              int32_t *width, Error *err);
 bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values, int32_t *count,
                             Error *err);
+bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes);   // y and line: in space
 bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
                             Error *err);
 // Columns [table_count] of one table, owned by the caller also after a failure; count: rows of all.
