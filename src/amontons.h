@@ -42,7 +42,8 @@ enum { NODE_OPEN, NODE_STICKS, NODE_WEAKENS, NODE_SLIPS };
 // accepted step.
 typedef struct ContactView {
     int32_t count;   // contact nodes
-    int32_t tangents;   // directions of slip: 1, along x; in space 2, along y, too; the fastest index
+    int32_t
+        tangents;   // directions of slip: 1, along x; in space 2, along y, too; the fastest index
         // of [count][tangents]
     const double *x;   // [count] position, ascending, length
     const double *y;   // [count] across the drive, length; NULL in the plane

@@ -26,7 +26,7 @@ struct SparseAnalysis {
     cholmod_dense *permuted;   // right-hand side in L's order
     cholmod_dense
         *passages[PARALLEL_WORKERS_MAX];   // [size, PASSAGE_COLUMNS] work of a thread each;
-        // NULL: not used yet
+    // NULL: not used yet
 };
 
 struct SparseFactor {

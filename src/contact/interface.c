@@ -16,7 +16,8 @@
 
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
-static const double LINE_ROUNDING = 1e-6;   // of places along the contact, over the length of a cell
+static const double LINE_ROUNDING =
+    1e-6;   // of places along the contact, over the length of a cell
 
 // Below that a node has no weight: the integral is 0 but for rounding.
 static double least_weight(const Mesh *mesh, const double *weight)
@@ -80,7 +81,8 @@ bool interface_find_line(Interface *interface, Error *err)
         int32_t *last = interface->line + interface->line_count - 1;
         double off = fabs(interface->y[i] - place);
         if (off > 0.5 * cell + rounding) continue;
-        bool beside = interface->line_count > 0 && interface->x[i] - interface->x[*last] <= rounding;
+        bool beside = interface->line_count > 0 &&
+                      interface->x[i] - interface->x[*last] <= rounding;
         if (!beside)
             interface->line[interface->line_count++] = i;
         else if (off < fabs(interface->y[*last] - place))

@@ -27,7 +27,8 @@ typedef struct Interface {
     int32_t pad_count;
     char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact boundaries; owned
     int32_t line_count;
-    int32_t *line;   // [line_count] contact nodes one behind the other along the drive, in space those
+    int32_t
+        *line;   // [line_count] contact nodes one behind the other along the drive, in space those
         // along the middle: fronts, and how far slip reaches, are read off it; NULL: all of them; owned
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
@@ -37,7 +38,7 @@ typedef struct Interface {
         // way to its neighbours, lies in the strip; owned
     double
         *rod_length;   // [rod_count] how long the strip's end is at the node, length; NULL in the
-        // plane, where it is the unit width; owned
+    // plane, where it is the unit width; owned
     double rod_face[2];   // from which z to which the whole face reaches, length
     int32_t count;   // dim * contact_count + rod_count
     int32_t *dofs;   // [count] unknowns of the bulk; owned

@@ -208,9 +208,8 @@ static void note_slip(const Events *events, const Interface *interface, Event *e
     const PadSum *before = &events->pads_before[event->pad];
     PadSize size = pad_size(interface, event->pad);
     event->slip_length = before->slipping / size.breadth;
-    event->slip_cells = interface->dim == 2
-                            ? before->slipping_cells
-                            : event->slip_length / sqrt(size.weight / size.nodes);
+    event->slip_cells = interface->dim == 2 ? before->slipping_cells
+                                            : event->slip_length / sqrt(size.weight / size.nodes);
     event->slip_before = sum_slipping(events->pads_before, interface->pad_count);
 }
 
@@ -239,7 +238,8 @@ static void follow_front(Events *events, const Observation *seen)
     Event *event = &events->list[events->rapid];
     double reach = pad_reach(events, seen->interface, event->pad);
     double front = fast_front(events, seen, event->pad), elapsed = seen->t - events->fast_t_start;
-    if (seen->interface->line && isnan(events->fast_front_start)) {   // it may begin beside the line
+    if (seen->interface->line &&
+        isnan(events->fast_front_start)) {   // it may begin beside the line
         events->fast_front_start = front;
         events->fast_t_start = seen->t;
     }

@@ -30,7 +30,8 @@ typedef struct Event {
     double front_start;   // front when it began, length
     double reach;   // slow: the farthest front; rapid: largest x up to which a pad that took part
         // has slipped from its trailing end on, along the line of the contact, length
-    double slipped;   // how much of the contact slipped: rapid: in all of it; slow: at most at once;
+    double
+        slipped;   // how much of the contact slipped: rapid: in all of it; slow: at most at once;
         // length, in space length^2
     double peak_slip_rate;   // velocity
     double front_speed;   // mean along the contact; rapid: of the fast front on `pad`; NaN: it did

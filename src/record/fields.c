@@ -186,11 +186,10 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
         columns[2][i] = state->displacement[dofs[n]] + interface_gap(interface, i);
         columns[3][i] = state->reaction[n] / interface->weight[i];
         columns[4][i] = -state->reaction[t] / interface->weight[i];
-        columns[5][i] =
-            state->status[i] == CONTACT_OPEN
-                ? 0
-                : friction_contact_density(friction_at(fields->law, i),
-                                           slip_size(interface, i, state->slip_rate));
+        columns[5][i] = state->status[i] == CONTACT_OPEN
+                            ? 0
+                            : friction_contact_density(friction_at(fields->law, i),
+                                                       slip_size(interface, i, state->slip_rate));
     }
 }
 

@@ -77,8 +77,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
         seen.normal_force += state->reaction[n];
         double height = state->displacement[seen.system->interface_dofs[n]];
         seen.penetration = fmax(seen.penetration, -height - interface_gap(interface, i));
-        seen.max_slip_rate =
-            fmax(seen.max_slip_rate, slip_size(interface, i, state->slip_rate));
+        seen.max_slip_rate = fmax(seen.max_slip_rate, slip_size(interface, i, state->slip_rate));
     }
     Moments moments = sum_moments(control);
     double moment_scale = scales->load * scales->length;

@@ -18,7 +18,8 @@ typedef struct Observation {
     double rod_force;   // F_T, force/width
     double normal_force;   // resultant of the contact pressure, force/width
     double mu;   // F_T / F_N, F_N the applied load
-    double front;   // x to which slip reaches without a gap from the trailing edge, along the line of
+    double
+        front;   // x to which slip reaches without a gap from the trailing edge, along the line of
         // the contact
     double trailing;   // x of the block's trailing end: l is front - trailing
     double max_slip_rate;   // velocity

@@ -31,8 +31,7 @@ bool pads_create(const Interface *interface, const Events *events, Pads *pads, E
     pads->count = interface->pad_count;
     for (int32_t p = 0; p < pads->count; p++) {
         Pad *pad = &pads->list[p];
-        *pad = (Pad){
-            .size = pad_size(interface, p), .now = NOTHING_YET, .last = NOTHING_YET};
+        *pad = (Pad){.size = pad_size(interface, p), .now = NOTHING_YET, .last = NOTHING_YET};
         pad->length = pad->size.weight / pad->size.breadth;
         if (interface->pad_name)
             snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);

@@ -18,7 +18,8 @@ const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);
 
 // Writing: creates RESULT/history.h5(.part) with the series of the table, empty, and the fixed
-// arrays. `nodes[k]`: [contact_count] for each ResultNodes, y and line NULL in the plane; nodes[NODES_PAD] says how many pads.
+// arrays. `nodes[k]`: [contact_count] for each ResultNodes, y and line NULL in the plane;
+// nodes[NODES_PAD] says how many pads.
 typedef struct ResultHead {
     const char *title, *units, *version;
     const char *pads;   // NULL: without names

@@ -34,29 +34,28 @@ static int setup(void **state)
 {
     (void)state;
     Error err = {0};
-    hand = (HandSpace){.interface = {.dim = 3,
-                                     .contact_count = NODES,
-                                     .count = UNKNOWNS,
-                                     .x = hand.x,
-                                     .y = hand.y,
-                                     .weight = hand.weight,
-                                     .pad = hand.pad,
-                                     .pad_count = 1,
-                                     .dofs = hand.dofs},
-                       .system = {.dof_count = UNKNOWNS,
-                                  .interface_count = UNKNOWNS,
-                                  .interface_dofs = hand.dofs},
-                       .state = {.dof_count = UNKNOWNS,
-                                 .interface_count = UNKNOWNS,
-                                 .contact_count = NODES,
-                                 .displacement = hand.displacement,
-                                 .slip_rate = hand.slip_rate,
-                                 .reaction = hand.reaction,
-                                 .status = hand.status},
-                       .seen = {.state = &hand.state,
-                                .interface = &hand.interface,
-                                .system = &hand.system,
-                                .certified = true}};
+    hand = (HandSpace){
+        .interface = {.dim = 3,
+                      .contact_count = NODES,
+                      .count = UNKNOWNS,
+                      .x = hand.x,
+                      .y = hand.y,
+                      .weight = hand.weight,
+                      .pad = hand.pad,
+                      .pad_count = 1,
+                      .dofs = hand.dofs},
+        .system = {.dof_count = UNKNOWNS, .interface_count = UNKNOWNS, .interface_dofs = hand.dofs},
+        .state = {.dof_count = UNKNOWNS,
+                  .interface_count = UNKNOWNS,
+                  .contact_count = NODES,
+                  .displacement = hand.displacement,
+                  .slip_rate = hand.slip_rate,
+                  .reaction = hand.reaction,
+                  .status = hand.status},
+        .seen = {.state = &hand.state,
+                 .interface = &hand.interface,
+                 .system = &hand.system,
+                 .certified = true}};
     for (int32_t i = 0; i < NODES; i++) {
         hand.x[i] = 0.5 * (i / 3);
         hand.y[i] = 0.5 * (i % 3);
@@ -128,7 +127,8 @@ static void test_line(void **state)
     }
     expect_line(12, x, y, (const int32_t[]){1, 5, 9, -1});
     // Cells long across: of nodes side by side that nearest to the middle; and none of the sides.
-    double free_x[] = {0, 0, 0, 0.3, 0.3, 0.7, 1, 1}, free_y[] = {0, 0.45, 1, 0.4, 0.5, 0.9, 0.55, 1};
+    double free_x[] = {0, 0, 0, 0.3, 0.3, 0.7, 1, 1},
+           free_y[] = {0, 0.45, 1, 0.4, 0.5, 0.9, 0.55, 1};
     expect_line(8, free_x, free_y, (const int32_t[]){1, 4, 6, -1});
     // Two rows of pads with a gap along the middle: the lower row.
     double gap_x[] = {0, 0, 0, 0, 1, 1, 1, 1}, gap_y[] = {0, 0.4, 0.6, 1, 0, 0.4, 0.6, 1};

@@ -410,7 +410,7 @@ static void what_others_wrote_is_checked(void **state)
     Error err = {0};
     const char *path = path_of("foreign.h5");
     hid_t id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t cube = H5Screate_simple(3, (hsize_t[]){2, 2, 2}, NULL);
+    hid_t cube = H5Screate_simple(4, (hsize_t[]){2, 2, 2, 2}, NULL);
     hid_t plane = H5Screate_simple(2, (hsize_t[]){2, 3}, NULL);
     hid_t wide = H5Screate_simple(2, (hsize_t[]){1, (hsize_t)1 << 40}, NULL);
     hid_t text = H5Tcopy(H5T_C_S1);
@@ -434,7 +434,7 @@ static void what_others_wrote_is_checked(void **state)
     for (int32_t k = 0; k < 6; k++) assert_true(values[k] == (double)whole[k]);
     memory_free(values);
     assert_false(array_file_read(file, "cube", &values, &rows, &width, &err));
-    assert_error(&err, ERROR_FILE, "cube", "3 dimensions");
+    assert_error(&err, ERROR_FILE, "cube", "4 dimensions");
     assert_false(array_file_read(file, "wide", &values, &rows, &width, &err));
     assert_error(&err, ERROR_FILE, "wide", "too large");
     assert_false(array_file_read(file, "texts", &values, &rows, &width, &err));
