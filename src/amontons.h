@@ -42,9 +42,7 @@ enum { NODE_OPEN, NODE_STICKS, NODE_WEAKENS, NODE_SLIPS };
 // accepted step.
 typedef struct ContactView {
     int32_t count;   // contact nodes
-    int32_t
-        tangents;   // directions of slip: 1, along x; in space 2, along y, too; the fastest index
-        // of [count][tangents]
+    int32_t tangents;   // of slip: 1, along x; in space 2, and y; fastest of [count][tangents]
     const double *x;   // [count] position, ascending, length
     const double *y;   // [count] across the drive, length; NULL in the plane
     const double *slip_rate;   // [count][tangents] velocity
@@ -269,5 +267,4 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
 #ifdef __cplusplus
 }
 #endif
-
 #endif

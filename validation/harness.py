@@ -240,7 +240,8 @@ class Run:
         pressure, shear = self.series["pressure"], self.series["shear"]
         scale, mu = np.abs(pressure).max() or 1.0, scene["friction"]["mu_static"]
         study.check(name, "pull", max(0, -pressure.min() / scale), 0)
-        study.check(name, "Coulomb cone", max(0, (np.abs(shear) - mu * pressure).max() / scale), 1e-6)
+        shear = np.linalg.norm(shear, axis=-1) if shear.ndim > pressure.ndim else np.abs(shear)     # a vector in space
+        study.check(name, "Coulomb cone", max(0, (shear - mu * pressure).max() / scale), 1e-6)
 
     def __getitem__(self, key):
         return self.series[key]

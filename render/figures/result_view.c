@@ -49,6 +49,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+enum { SLIP_COMPONENTS = 2 };   // in space
+
 // Of a vector, how large it is; of slip its part along the drive.
 static double vector_value(ResultSeries series, const double *vector)
 {
@@ -58,7 +60,8 @@ static double vector_value(ResultSeries series, const double *vector)
 // In place: of each vector one value.
 static void take_values(ResultSeries series, double *values, int64_t count)
 {
-    for (int64_t k = 0; k < count; ++k) values[k] = vector_value(series, values + 2 * k);
+    for (int64_t k = 0; k < count; ++k)
+        values[k] = vector_value(series, values + SLIP_COMPONENTS * k);
 }
 
 static void take_line(const ResultView *view, double *values, int64_t rows)
@@ -74,7 +77,7 @@ static bool nodes_series_read(ResultView *view, ResultSeries series, double **va
     int64_t rows = 0;
     int32_t width = 0, nodes = view->all_nodes;
     TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
-    bool vectors = view->line && width == 2 * nodes;
+    bool vectors = view->line && width == SLIP_COMPONENTS * nodes;
     if (width != nodes && !vectors)
         FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
              result_series_name(series), width, nodes);

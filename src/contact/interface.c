@@ -65,8 +65,8 @@ static double line_place(const Interface *interface, double rounding)
     return place;
 }
 
-// On a grid the row of nodes nearest to the middle; elsewhere those of a strip around it, as wide as
-// a mean cell is long.
+// On a grid the row of nodes nearest to the middle; elsewhere those of a strip around it, as wide
+// as a mean cell is long.
 bool interface_find_line(Interface *interface, Error *err)
 {
     double area = 0;

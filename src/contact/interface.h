@@ -27,9 +27,9 @@ typedef struct Interface {
     int32_t pad_count;
     char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact boundaries; owned
     int32_t line_count;
-    int32_t
-        *line;   // [line_count] contact nodes one behind the other along the drive, in space those
-        // along the middle: fronts, and how far slip reaches, are read off it; NULL: all of them; owned
+    int32_t *line;   // [line_count] contact nodes one behind the other along the drive, in space
+        // along the middle: fronts and how far slip reaches are read off it; NULL: all of them;
+        // owned
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
     double *rod_z;   // [rod_count] height, length; owned

@@ -37,8 +37,8 @@ typedef struct Event {
     double front_speed;   // mean along the contact; rapid: of the fast front on `pad`; NaN: it did
         // not move
     // Rapid: the pad on which slow slip turned fast, and how much of it slipped in the step before,
-    // length and cells: in space the mean over its breadth. Slow: -1, NaN; in the first step of all:
-    // NaN.
+    // length and cells: in space the mean over its breadth. Slow: -1, NaN; in the first step of
+    // all: NaN.
     int32_t pad;
     double slip_length, slip_cells;
     double slip_before;   // the same of the whole contact: length, in space length^2

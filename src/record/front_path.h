@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How the front of a rapid event runs along the contact: when slip first became faster than the
-// event's threshold, node by node while it goes on, and at evenly spaced stations along the contact's
-// line (contact/interface) once it is over.
+// event's threshold, node by node while it goes on, and at evenly spaced stations along the
+// contact's line (contact/interface) once it is over.
 // A front of slip that was slow before is a front of speeding up, and may run faster than any wave;
 // ahead of where slow slip had come to it is a rupture. Between pads nothing slips: there is no
 // station in a gap, and no speed across one. Kept by record/events.

@@ -46,11 +46,12 @@ bool turning_record(void *self, const Observation *seen, Error *err)
     for (int32_t i = 0; i < contact->count; i++) {
         double w = interface->weight[i];
         double x = interface->x[i] - means.x, y = interface->y[i] - means.y;
-        turned += w * (x * contact->slip[2 * i + 1] - y * contact->slip[2 * i]);
+        const double *slip = &contact->slip[contact->tangents * i];
+        turned += w * (x * slip[1] - y * slip[0]);
         inertia += w * (x * x + y * y);
         low = fmin(low, interface->y[i]);
         high = fmax(high, interface->y[i]);
-        keep_largest(&turning->across, contact->slip[2 * i + 1]);
+        keep_largest(&turning->across, slip[1]);
     }
     turning->breadth = high - low;
     keep_largest(&turning->angle, turned / inertia);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a block in space turns about z while it slides, and goes across the drive: what a block in the
-// plane cannot do. By the slip of its contact nodes, of which the nearest rigid motion is taken. A
-// Recorder, after record/contact_arrays; in the plane all stays 0.
+// How a block in space turns about z while it slides, and goes across the drive: what a block in
+// the plane cannot do. By the slip of its contact nodes, of which the nearest rigid motion is
+// taken. A Recorder, after record/contact_arrays; in the plane all stays 0.
 #ifndef AMONTONS_RECORD_TURNING_H
 #define AMONTONS_RECORD_TURNING_H
 

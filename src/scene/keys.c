@@ -114,9 +114,8 @@ static const SceneKey keys[] = {
          "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
     {"friction.along", KEY_TEXT, offsetof(Scene, own_friction.along), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence =
-         "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, 1, 0.45, "
-         "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
+     .sentence = "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, "
+                 "1, 0.45, 0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
     {"friction.contacts", KEY_CONTACT_LAWS, offsetof(Scene, contact_laws), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence =
@@ -129,9 +128,8 @@ static const SceneKey keys[] = {
     {"contact.gap", KEY_TEXT, offsetof(Scene, contact.gap), "1", RANGE_ANY, NULL, .may_lack = true,
      .sentence = "How far the substrate lies below z = 0: a formula of x (and y), as in `max(0, "
                  "0.1 - x)^2 / 0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, "
-                 "1e-3, 0.5, 0, "
-                 "...)`, a measured profile. It adds to radius and to what the mesh's own contact "
-                 "curves leave."},
+                 "1e-3, 0.5, 0, ...)`, a measured profile. It adds to radius and to what the "
+                 "mesh's own contact curves leave."},
     {"contact.profile", KEY_TEXT, offsetof(Scene, contact.profile), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "The same as a file, relative to the scene's folder: a line for each point, x and "
@@ -161,10 +159,9 @@ static const SceneKey keys[] = {
                  "static`."},
     {"rod.stiffness", KEY_NUMBER, offsetof(Scene, rod.stiffness), "stress", RANGE_POSITIVE, NULL,
      .may_lack = true,
-     .sentence =
-         "Stiffness of the machine: a spring between the drive, which moves with "
-         "`rod.velocity`, and the rod; force per width (breadth) of the block over length. If not "
-         "given, the rod itself moves with `rod.velocity`."},
+     .sentence = "Stiffness of the machine: a spring between the drive, which moves with "
+                 "`rod.velocity`, and the rod; force per width (breadth) of the block over "
+                 "length. If not given, the rod itself moves with `rod.velocity`."},
     {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
      .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
                  "only."},

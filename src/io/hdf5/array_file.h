@@ -49,7 +49,8 @@ bool array_file_set_text(ArrayFile *file, const char *name, const char *value, E
 bool array_file_get_number(ArrayFile *file, const char *name, double *value, Error *err);
 bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err);
 
-// A whole dataset as doubles: *values [rows * width], components the fastest, owned by the caller (memory_free).
+// A whole dataset as doubles: *values [rows * width], components the fastest, owned by the caller
+// (memory_free).
 bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                      int32_t *width, Error *err);
 bool array_file_has(ArrayFile *file, const char *name);

@@ -360,8 +360,8 @@ cleanup:
 
 // --- reading ------------------------------------------------------------------------------------
 
-// Rows and width of a dataset; of vectors all components. The numbers come from a file, which may be
-// damaged: a product that would overflow is refused here, one too large by the allocator.
+// Rows and width of a dataset; of vectors all components. The numbers come from a file, which may
+// be damaged: a product that would overflow is refused here, one too large by the allocator.
 static bool read_shape(const Hdf5File *file, const char *name, hid_t dataset, int64_t *rows,
                        int32_t *width, Error *err)
 {

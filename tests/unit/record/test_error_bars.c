@@ -3,8 +3,8 @@
 // are those of generalised least squares with numpy.linalg.inv, of levels whose values have the
 // covariance ((s / n_i)^2 + w_i^2 + r^2 / N_i) delta_ij + s^2 / (n_i n_j), s = 0.05 of the last
 // level's value times nodes over cells that slip (all, where it is not known how many do), 0.2 of
-// it at least, w what its last nodes hold up, r the spread of runs, with chi^2 = 1 of one level more, times Student's
-// factor.
+// it at least, w what its last nodes hold up, r the spread of runs, with chi^2 = 1 of one level
+// more, times Student's factor.
 #include "record/error_bars.h"
 
 #include "near.h"
