@@ -103,7 +103,7 @@ static void test_operator(void **state)
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         build(&SHAPES[s], &block);
-        check_operator(&block, 44);
+        check_operator(&block, 43);
         reduced_block_destroy(&block);
     }
 }
