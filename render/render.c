@@ -229,8 +229,8 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
         bool always = k != FIGURE_STRIP;   // which needs a sliding with several times: for who asks
-        if (request->figure_count == 0 && figure.draw_whole && !(always && has_fields(folder)))
-            continue;
+        bool there = always && !view.line && has_fields(folder);   // those of the plane are drawn
+        if (request->figure_count == 0 && figure.draw_whole && !there) continue;
         TRY(figure_make(folder, request, &figure, &view, err));
     }
 cleanup:

@@ -95,6 +95,11 @@ bool amontons_render_plot_file(const char *plot, const char *picture, const Pict
     RenderPlotFunction render =
         (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
     TRY(render);
+    if (style && style->compare)
+        FAIL(err, ERROR_INPUT,
+             "%s: measurements are drawn beside the force or slip-map of a result: compare goes "
+             "with a result's folder",
+             plot);
     TRY(render(plot, picture, style, err));
 cleanup:
     return error_is_clean(err);

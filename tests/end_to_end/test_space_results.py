@@ -46,6 +46,27 @@ class Space(unittest.TestCase):
                          ["force", "length^2", "length", "length^2"])
         self.assertAlmostEqual(self.arrays["nodes/weight"].sum(), 0.5 * 0.4, 12)
 
+    def test_what_is_not_drawn(self):
+        """Fields of a block in space: left out where all figures are drawn, refused in a sentence where they are asked for."""
+        with tempfile.TemporaryDirectory() as folder:
+            def call(*words):
+                return subprocess.run([PROGRAM, *words], capture_output=True, text=True, cwd=folder)
+            words = [word for setting in (*SETTINGS[:2], "mesh.set={nx: 4, ny: 2, nz: 2, length: 0.5, breadth: 0.4, height: 0.25}", "time.until.U=1e-3",
+                                          "output.figures=[]", "output.fields={every_U: 5e-4}") for word in ("--set", setting)]
+            self.assertEqual(call("run", SOURCE / "validation/paper/fig1.yaml", *words, "-o", "run", "-q").returncode, 0)
+            done = call("render", "run")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(sorted(path.name for path in Path(folder, "run/figures").iterdir()),
+                             ["contact-density.png", "force.png", "slip-map.png"])
+            for command in (("render", "run", "--figure", "field"), ("film", "run", "-o", "run.mp4")):
+                done = call(*command)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn("in space, whose inside is not drawn here: open fields.pvd in ParaView", done.stderr)
+            Path(folder, "plot.yaml").write_text("x: {label: U}\n")
+            done = call("render", "plot.yaml", "--compare", "measured.csv")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("compare goes with a result's folder", done.stderr)
+
     def test_sums(self):
         """Pressure and shear are forces over weights; the rod's force is the shear of a block at rest."""
         weight = self.arrays["nodes/weight"]

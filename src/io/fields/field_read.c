@@ -99,11 +99,17 @@ cleanup:
     return error_is_clean(err);
 }
 
+enum { PLANE_STRESSES = 3 };   // of a node; in space twice as many
+
 static bool take_values(const FieldPart *part, int32_t components, const FieldFrame *frame,
                         double **values, Error *err)
 {
     memory_free(*values);
     *values = NULL;
+    if (components == PLANE_STRESSES && part->components == 2 * PLANE_STRESSES)
+        FAIL(err, ERROR_INPUT,
+             "it is of a block in space, whose inside is not drawn here: open fields.pvd in "
+             "ParaView");
     if (part->components != components || part->count != frame->node_count)
         FAIL(err, ERROR_FILE, "its array %s is not one of %d numbers a node", part->name,
              components);
