@@ -21,7 +21,7 @@ from measured_run import PROGRAM, markdown_table   # noqa: E402
 
 ANSWERS = ("mu_M", "mu_hold")
 NO_KEYS = {"point", "run", "status", "message", "warnings", "period", "slip_cells", "spread", "l_c", "total_s",
-           "model.contact_nodes", *ANSWERS, *(f"{name}_error" for name in ANSWERS)}
+           "model.contact_nodes", *ANSWERS, *(f"{name}_{what}" for name in ANSWERS for what in ("error", "known_to"))}
 
 
 def answer(row, name):
