@@ -5,7 +5,6 @@
 #include "cases.h"
 
 #include <signal.h>
-#include <stdint.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>

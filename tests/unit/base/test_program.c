@@ -5,7 +5,6 @@
 #include "cases.h"
 
 #include <signal.h>
-#include <stdint.h>
 #include <string.h>
 
 static int shell(const char *script, char *output, size_t size)

@@ -5,7 +5,6 @@
 
 #include "contact/contact_factors.h"
 
-#include "base/dense.h"
 #include "contact_by_hand.h"
 
 enum { OPEN = 20, RODS = 2, COUNT = 2 * HAND_NODES + RODS };

@@ -3,7 +3,6 @@
 // what they refuse.
 #include "fem/mesh.h"
 
-#include "base/memory.h"
 #include "near.h"
 
 enum { PARAMETERS_MAX = 12, PADS_MAX = 12 };

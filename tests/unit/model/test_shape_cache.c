@@ -8,7 +8,6 @@
 #include "scene_of_text.h"
 #include "random_numbers.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { FOLDER_SIZE = 64, PATH_SIZE = 256, TEXT_SIZE = 4000 };

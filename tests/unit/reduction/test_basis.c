@@ -4,7 +4,6 @@
 // mesh to boundary motions it was given; and what it condenses to, against elimination by hand.
 #include "reduction/basis.h"
 
-#include "base/memory.h"
 #include "reduced_block.h"
 
 static const Material MATERIAL = {

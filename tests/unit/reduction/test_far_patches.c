@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Patches of a rectangle of even cells, whose distances and nearest nodes can be counted.
 #include "reduction/far_patches.h"
-#include "random_numbers.h"
 #include "reduced_block.h"
 
 static const Material MATERIAL = {.young = 2, .poisson = 0.3, .density = 3, .eta1 = 1, .eta2 = 0.5};

@@ -5,7 +5,6 @@
 
 #include "block_rig.h"
 #include "plane.h"
-#include "contact/contact_check.h"
 
 static const double PRESSURE = 0.003;
 

@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "cases.h"
 
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

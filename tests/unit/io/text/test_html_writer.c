@@ -7,7 +7,6 @@
 #include "io/files/text_file.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 

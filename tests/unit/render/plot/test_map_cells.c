@@ -6,8 +6,6 @@
 
 #include "near.h"
 
-#include "base/memory.h"
-
 static void grid_with_gaps(void **state)
 {
     (void)state;

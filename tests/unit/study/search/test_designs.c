@@ -5,8 +5,6 @@
 #include "base/memory.h"
 #include "near.h"
 
-#include <string.h>
-
 static Study study = {
     .axis_count = 1,
     .axes = {{.count = 2}},

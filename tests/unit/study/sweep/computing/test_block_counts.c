@@ -3,7 +3,6 @@
 // on, in whatever order they come.
 #include "study/sweep/computing/block_counts.h"
 
-#include "base/memory.h"
 #include "near.h"
 
 enum { POINTS = 12 };
