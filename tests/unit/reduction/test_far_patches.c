@@ -23,9 +23,8 @@ static void list_contact(const ReducedBlock *block, int32_t *dofs)
 }
 
 // Rows 1 to 15 are near; layers of 15, 30 and, to the top, 80 rows follow, of 16, 8 and 4 parts.
-static void test_rectangle(void **state)
+TEST(test_rectangle)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     FarPatches patches;
@@ -57,9 +56,8 @@ static void test_rectangle(void **state)
 }
 
 // Each far unknown stands once in the list of its patch, in order.
-static void test_lists(void **state)
+TEST(test_lists)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     FarPatches patches;
@@ -84,13 +82,4 @@ static void test_lists(void **state)
         assert_int_equal(patches.of[block.dofs[j]], NO_PATCH);
     far_patches_destroy(&patches);
     reduced_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_lists),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

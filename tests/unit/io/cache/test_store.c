@@ -381,5 +381,3 @@ TEST_BETWEEN(test_memory_faults, cache_begin, cache_end)
     memory_fail_after(-1);
     assert_int_equal(memory_counters().live, live);
 }
-
-#define CASE(test) cmocka_unit_test_setup_teardown(test, cache_begin, cache_end)
