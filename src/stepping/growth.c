@@ -258,8 +258,8 @@ cleanup:
 }
 
 // Fills `projected` [VECTORS_LIMIT + 1 rows]; *count: the dimension reached, *rest: its last
-// residual. Arnoldi: column j of `projected` has the products of step j, below its diagonal the length of
-// what was new.
+// residual. Arnoldi: column j of `projected` has the products of step j, below its diagonal the
+// length of what was new.
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
     int64_t size = state_size(growth), rows = VECTORS_LIMIT + 1;

@@ -250,8 +250,8 @@ static void note_snap(StabilityPath *path, double mu)
 
 // Steps until the front has reached the end (whose own state is the last point), or is some
 // positions beyond l_c. A node that goes SNAP_LIMIT times as far in one step as the rod has jumped:
-// where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
-// The path's long steps damp the jump and go on; in time it may be a sliding.
+// where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches
+// mu_S. The path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->model->interface;
