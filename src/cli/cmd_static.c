@@ -4,8 +4,6 @@
 #include "cli/say.h"
 #include "cli/scene_words.h"
 
-#include <stdio.h>
-
 static const CommandText text = {
     .name = "static",
     .argument = "SCENE",

@@ -11,8 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;

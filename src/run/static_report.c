@@ -10,7 +10,6 @@
 #include "record/field_files.h"
 #include "scene/keys.h"
 
-#include <math.h>
 #include <stdio.h>
 
 enum { PATH_SIZE = 1200 };

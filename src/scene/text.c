@@ -6,7 +6,6 @@
 
 #include <stdarg.h>
 #include <stdlib.h>
-#include <string.h>
 
 // A growing line in a buffer of fixed size; what does not fit is cut.
 typedef struct Line {

@@ -8,7 +8,6 @@
 #include "io/text/json_writer.h"
 #include "scene/keys.h"
 
-#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 

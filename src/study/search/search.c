@@ -12,7 +12,6 @@
 #include "study/sweep/reading/study_point.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 

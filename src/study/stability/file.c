@@ -8,7 +8,6 @@
 #include "io/text/json_writer.h"
 #include "scene/keys.h"
 
-#include <math.h>
 #include <stdio.h>
 
 // Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.

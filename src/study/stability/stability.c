@@ -17,7 +17,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 // A step of the path in units of crossing time + viscous time: long against all that can grow.
 static const double PATH_STEP = 10;

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/figures/measured.h"
 
+#include "cases.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char path[] = "/tmp/amontons_measured_XXXXXX";
 static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01, 0.05};
@@ -40,9 +37,8 @@ static bool take(const char *text, MeasuredKind kind, Measured *measured, Error 
 }
 
 // 0.03 more than 0.1 and 0.04 less than 0.3; the third point lies beyond the history.
-static void the_misfit_is_a_root_mean_square(void **state)
+TEST(the_misfit_is_a_root_mean_square)
 {
-    (void)state;
     Error err = {0};
     Measured measured;
     assert_true(take("U (mm),F_T/F_N,error,source\n0.5,0.13,0.01,me\n2,0.26,0.02,me\n9,1,0.1,me\n",
@@ -54,9 +50,8 @@ static void the_misfit_is_a_root_mean_square(void **state)
     // sqrt((0.03^2 + 0.04^2) / 2) and sqrt((3^2 + 2^2) / 2)
 }
 
-static void units_and_quotients(void **state)
+TEST(units_and_quotients)
 {
-    (void)state;
     Error err = {0};
     Measured measured;
     assert_true(take("F_N (kN), F_T (kN), U/L\n2,0.4,0.01\n", MEASURED_MU, &measured, &err));
@@ -72,7 +67,7 @@ static void units_and_quotients(void **state)
     measured_destroy(&measured);
 }
 
-static void what_is_wrong_is_said(void **state)
+TEST(what_is_wrong_is_said)
 {
     static const char *const cases[][2] = {{"U,mu\n1,2\n", "lengths need a unit"},
                                            {"U (ft),mu\n1,2\n", "no unit \"ft\""},
@@ -93,12 +88,4 @@ static void what_is_wrong_is_said(void **state)
     view.si = true;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_misfit_is_a_root_mean_square),
-        cmocka_unit_test(units_and_quotients),
-        cmocka_unit_test(what_is_wrong_is_said),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+GROUP_BETWEEN(begin, end);

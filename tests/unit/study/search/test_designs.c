@@ -5,8 +5,6 @@
 #include "base/memory.h"
 #include "near.h"
 
-#include <string.h>
-
 static Study study = {
     .axis_count = 1,
     .axes = {{.count = 2}},
@@ -38,7 +36,7 @@ static void give(Designs *designs, int32_t design, double a, double b)
 }
 
 // 0.30 +- 0.01 and 0.31 +- 0.03: the lower may be as low as 0.28 and is at most 0.31.
-static void test_the_worst(void **state)
+TEST_BETWEEN(test_the_worst, begin, end)
 {
     Designs *designs = *state;
     double x[] = {4, 0.1};
@@ -58,7 +56,7 @@ static void test_the_worst(void **state)
     assert_true(isnan(designs->list[d].value));
 }
 
-static void test_the_mean(void **state)
+TEST_BETWEEN(test_the_mean, begin, end)
 {
     Designs *designs = *state;
     double x[] = {4, 0.1};
@@ -68,7 +66,7 @@ static void test_the_mean(void **state)
     assert_near("bar", designs->list[0].bar, hypot(0.01, 0.03) / 2, 1e-15);
 }
 
-static void test_the_best(void **state)
+TEST_BETWEEN(test_the_best, begin, end)
 {
     Designs *designs = *state;
     double x[][2] = {{1, 0.1}, {2, 0.1}, {3, 0.1}};
@@ -87,7 +85,7 @@ static void test_the_best(void **state)
     assert_int_equal(designs_find(designs, x[2]), -1);
 }
 
-static void test_written(void **state)
+TEST_BETWEEN(test_written, begin, end)
 {
     Designs *designs = *state;
     Error err = {0};
@@ -107,15 +105,4 @@ static void test_written(void **state)
     memory_free(text);
     design_words(&study, &designs->list[0], words);
     assert_string_equal(words, "mesh.set.n=4 rod.height=0.0123");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_the_worst, begin, end),
-        cmocka_unit_test_setup_teardown(test_the_mean, begin, end),
-        cmocka_unit_test_setup_teardown(test_the_best, begin, end),
-        cmocka_unit_test_setup_teardown(test_written, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
