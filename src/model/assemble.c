@@ -31,8 +31,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A material in space is neither in plane stress nor in plane strain; lambda is that of the latter.
-static bool take_to_space(Model *model, Error *err)
+// lambda is that of plane strain.
+bool model_take_to_space(Model *model, Error *err)
 {
     Materials *materials = &model->materials;
     bool possible = true;
@@ -81,7 +81,7 @@ bool model_read_mesh(Model *model, Error *err)
     model->height = mesh->z_max - mesh->z_min;
     model->elements = mesh->element_count;
     if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
-    TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
+    TRY(mesh->dim > 2 ? model_take_to_space(model, err) : refuse_across(scene, err));
     TRY(model_mark_regions(model, err));
 cleanup:
     mesh_file_destroy(&file);
