@@ -15,13 +15,19 @@
 // Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
 static const double NODE_BYTES = 4e3;
 
-// Said before the memory is full: then the system would end this or another program.
-static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
+double model_memory_there(void)
 {
     struct rlimit room;
     double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
         have = fmin(have, (double)room.rlim_cur);
+    return have;
+}
+
+// Said before the memory is full: then the system would end this or another program.
+static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
+{
+    double have = model_memory_there();
     if (node_count * NODE_BYTES > have)
         FAIL(err, ERROR_INPUT,
              "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "

@@ -15,6 +15,8 @@ bool model_hold_supports(Model *model, Error *err);   // takes their unknowns ou
 // volume.
 bool model_take_to_space(Model *model, Error *err);
 
+double model_memory_there(void);   // of this computer, or what a limit leaves of it, bytes
+
 // The force that others are measured with, from the resultant of the loads towards the plane, per
 // unit of load_reference(), wherever that comes from. ERROR_INPUT: nothing presses the block down.
 bool model_set_load(Model *model, double unit_resultant, Error *err);

@@ -221,7 +221,8 @@ static bool expect(Model *model, bool held, Error *err)
                                 model->interface.count, &parts, err));
     Drive drive = stages_drive(model);
     model->choice =
-        (ChoiceSizes){.unknowns = model->full_dofs,
+        (ChoiceSizes){.space = model->interface.dim > 2,
+                      .unknowns = model->full_dofs,
                       .interface = model->interface.count,
                       .stages = stages_expect(scene, &drive),
                       .parts = parts,
@@ -253,15 +254,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What is not there yet for a mesh in space.
-static bool check_space(const Model *model, Error *err)
+// Said before anything is factored; in space, where it goes up with the fourth power of the cells
+// along a side.
+static bool check_memory(const Model *model, Error *err)
 {
-    const Scene *scene = model->scene;
-    if (model->mesh.dim > 2 && scene->accuracy.mu > 0)
+    double bytes = model->is_reduced ? model->expected.bytes_reduced : model->expected.bytes_full;
+    double have = model_memory_there();
+    if (bytes > have && model->scene->time.scheme != SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT,
-             "%s: accuracy.mu: how the error of a block in space falls with its cells was not "
-             "measured yet; run it on two meshes, and compare",
-             scene->path);
+             "%s: %d contact nodes are too many for this computer: a run takes some %.0f GB of "
+             "memory, and there are %.1f; coarser cells at the contact are needed",
+             model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
 cleanup:
     return error_is_clean(err);
 }
@@ -270,9 +273,9 @@ cleanup:
 static bool choose(Model *model, Error *err)
 {
     TRY(model_hold_supports(model, err));
-    TRY(check_space(model, err));
     TRY(expect(model, false, err));
     model->is_reduced = is_reducible(model) && reduction_pays(model);
+    TRY(check_memory(model, err));
 cleanup:
     return error_is_clean(err);
 }
