@@ -276,7 +276,6 @@ static void store(const char *key, uint64_t seed, char note[CACHE_NOTE_SIZE])
     shape_destroy(&shape);
 }
 
-TEST(test_round_trip)
 // One in space has more of each node, and the line along its middle.
 TEST(test_space)
 {
@@ -311,7 +310,7 @@ TEST(test_space)
     shape_destroy(&read);
 }
 
-static void test_round_trip(void **state)
+TEST(test_round_trip)
 {
     Shape made, read;
     char note[CACHE_NOTE_SIZE];
