@@ -53,6 +53,9 @@ static Figure figure_get(FigureId id)
         figure.height_over_width = 0.62;
         figure.draw = figure_contact_density;
         break;
+    case FIGURE_CONTACT_PLANE:
+        figure.draw_whole = figure_contact_plane;
+        break;
     case FIGURE_FIELD:
         figure.draw_whole = figure_field;
         break;
@@ -204,12 +207,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Who asks for all figures gets those that there are.
 static bool has_fields(const char *folder)
 {
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s/fields.pvd", folder);
     return access(path, R_OK) == 0;
+}
+
+// Who asks for all figures gets those that there are. field-strip needs a sliding with several
+// times: for who asks. Likewise contact-plane without an event.
+static bool is_there(FigureId id, const char *folder, const PictureRequest *request,
+                     const ResultView *view)
+{
+    const char *of = request->field.of;
+    if (id == FIGURE_FIELD) return !view->line && has_fields(folder);
+    if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(of))) return false;
+    return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
 }
 
 // One open result serves all pictures.
@@ -228,9 +241,8 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     for (int32_t k = 0; k < count; ++k) {
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
-        bool always = k != FIGURE_STRIP;   // which needs a sliding with several times: for who asks
-        bool there = always && !view.line && has_fields(folder);   // those of the plane are drawn
-        if (request->figure_count == 0 && figure.draw_whole && !there) continue;
+        bool all = request->figure_count == 0;
+        if (all && figure.draw_whole && !is_there((FigureId)k, folder, request, &view)) continue;
         TRY(figure_make(folder, request, &figure, &view, err));
     }
 cleanup:

@@ -2,12 +2,11 @@
 #include "render/figures/block_page.h"
 
 #include "base/memory.h"
-#include "io/text/picture_options.h"
 #include "render/figures/rod_mark.h"
+#include "render/figures/value_range.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { ARROWS = 9, STATUSES = 4 };
 
@@ -17,7 +16,6 @@ static const double CONTACT_GAP = 0.6,
                     CONTACT_HEIGHT = 4;   // points: the floor's line to the band, its height
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
 static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
-static const double LEFT_OUT = 0.01;   // of the area at each end of the range: a corner of the rod
 static const double FACE_SLACK = 1e-3;   // of the rod's width: nodes of the face it pushes
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
@@ -63,18 +61,8 @@ void block_page_ranges(const double extent[4], double scale, double share, Axes 
 
 // --- range of the colours ------------------------------------------------------------------------
 
-typedef struct Weighed {
-    double value, area;
-} Weighed;
-
-static int compare_weighed(const void *left, const void *right)
-{
-    double a = ((const Weighed *)left)->value, b = ((const Weighed *)right)->value;
-    return a < b ? -1 : a > b;
-}
-
-// Adds to each node's area its share of the elements around it, by their corners.
-static void add_areas(const FieldFrame *frame, Weighed *nodes)
+// Adds to each node's weight its share of the elements around it, by their corners.
+static void add_areas(const FieldFrame *frame, WeighedValue *nodes)
 {
     for (int32_t e = 0; e < frame->element_count; ++e) {
         const int32_t *own = frame->element_nodes + frame->first_node[e];
@@ -86,78 +74,32 @@ static void add_areas(const FieldFrame *frame, Weighed *nodes)
             const double *b = frame->position + 3 * own[(k + 1) % corners];
             area += (a[0] * b[1] - b[0] * a[1]) / 2;
         }
-        for (int32_t k = 0; k < count; ++k) nodes[own[k]].area += fabs(area) / count;
+        for (int32_t k = 0; k < count; ++k) nodes[own[k]].weight += fabs(area) / count;
     }
-}
-
-// The value below which `part` of the area lies. sorted: [count], area of them all.
-static double value_at(const Weighed *sorted, int64_t count, double area, double part)
-{
-    double below = 0;
-    int64_t k = 0;
-    while (k + 1 < count && (below += sorted[k].area) < part * area) ++k;
-    return sorted[k].value;
-}
-
-typedef struct ColorEnds {
-    double range[2];   // what the style asks for, or where all but LEFT_OUT of the area lies
-    double whole[2];   // where all of it does
-} ColorEnds;
-
-// factor: from values to the numbers shown.
-static bool find_range(const Block *blocks, int32_t count, const PictureStyle *style, double factor,
-                       ColorEnds *ends, Error *err)
-{
-    int64_t total = 0, kept = 0;
-    double area = 0;
-    Weighed *sorted = NULL;
-    for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
-    TRY(sorted = NEW_ARRAY(Weighed, total, err));
-    for (int64_t k = 0, start = 0; k < count; start += blocks[k++].frame.node_count)
-        add_areas(&blocks[k].frame, sorted + start);
-    for (int64_t k = 0, from = 0; k < count; ++k)
-        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i, ++from) {
-            if (!isfinite(blocks[k].value[i])) continue;
-            sorted[kept++] = (Weighed){blocks[k].value[i], sorted[from].area};
-            area += sorted[kept - 1].area;
-        }
-    if (kept == 0) FAIL(err, ERROR_FILE, "the field holds no number");
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_weighed);
-    ends->whole[0] = sorted[0].value;
-    ends->whole[1] = sorted[kept - 1].value;
-    for (int32_t end = 0; end < 2; ++end) {
-        bool is_part = false;
-        double limit = picture_limit(style, end, &is_part);
-        double part = is_part ? limit : end ? 1 - LEFT_OUT : LEFT_OUT;
-        ends->range[end] = isfinite(limit) && !is_part ? limit / factor
-                                                       : value_at(sorted, kept, area, part);
-    }
-cleanup:
-    memory_free(sorted);
-    return error_is_clean(err);
 }
 
 bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err)
 {
-    ColorEnds ends = {{0, 0}, {0, 0}};
-    const double *range = ends.range, *whole = ends.whole;
+    int64_t total = 0;
+    WeighedValue *nodes = NULL;
+    ValueBar fitted;
     BlockWords words = block_words(quantity);
-    const PictureStyle none = {0}, *style = map->style ? map->style : &none;
-    TRY(find_range(blocks, count, &none, 1, &ends, err));
-    Axis axis = {.low = range[0], .high = range[1], .factor = 1};
-    if (map->view->si)
-        axis_set_unit(&axis, words.words, words.si);
-    else
-        snprintf(axis.label, sizeof axis.label, "%s / %s", words.words, words.normalised);
-    map->factor = axis.factor;
-    map->bar = (Colorbar){.label = map->label};
-    if (style->limits) TRY(find_range(blocks, count, style, axis.factor, &ends, err));
-    colorbar_fit(&map->bar, (double[]){range[0] * axis.factor, range[1] * axis.factor});
-    map->bar.clipped = whole[0] * axis.factor < map->bar.low;
-    map->bar.clipped_above = whole[1] * axis.factor > map->bar.high;
-    snprintf(map->label, sizeof map->label, "%s", axis.label);
+    ValueWords shown = {words.words, words.si, words.normalised, map->view->si};
+    for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
+    TRY(nodes = NEW_ARRAY(WeighedValue, total, err));
+    for (int64_t k = 0, start = 0; k < count; start += blocks[k++].frame.node_count) {
+        add_areas(&blocks[k].frame, nodes + start);
+        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
+            nodes[start + i].value = blocks[k].value[i];
+    }
+    TRY(value_bar_fit(nodes, total, &shown, map->style, &fitted, err));
+    map->factor = fitted.factor;
+    snprintf(map->label, sizeof map->label, "%s", fitted.label);
+    map->bar = fitted.bar;
+    map->bar.label = map->label;
 cleanup:
+    memory_free(nodes);
     return error_is_clean(err);
 }
 

@@ -87,6 +87,18 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    TRY(nodes_series_read(view, series, values, err));
+    TRY(range_check(view, err));
+cleanup:
+    if (!error_is_clean(err)) {
+        memory_free(*values);
+        *values = NULL;
+    }
+    return error_is_clean(err);
+}
+
 // The same of the nodes that are shown against U.
 bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err)
 {

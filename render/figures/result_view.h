@@ -59,6 +59,9 @@ bool result_view_read_front(ResultView *view, Error *err);
 // shrink.
 bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err);
 
+// The same of all nodes of the contact: *values [rows * all_nodes].
+bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err);
+
 // The first and the last finite U.
 void result_view_range(const ResultView *view, double *low, double *high);
 

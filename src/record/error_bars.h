@@ -24,7 +24,6 @@
 #include "record/answers.h"
 
 enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
-enum { LEVELS_LEAST = 3, RUNS_LEAST = 5 };   // fewer agree by chance
 
 typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
 
@@ -89,8 +88,9 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of th
 // Damped levels whose runs all have such an answer, and whose last nodes do not hold the
 // block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
-// These, and their runs, are enough for a bar that is met.
-bool levels_enough(const Levels *levels, AnswerKind kind);
+// Of cell size from the last level to one that is twice as fine as the coarsest of these. A bar is
+// met by no less: neighbours agree by chance, and on what only coarse meshes do.
+double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left
 
 // Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "contact/contact_faces.h"
 #include "run/pictures.h"
 #include "run/warnings.h"
 #include "scene/window.h"
@@ -23,6 +24,26 @@ static char *join_pad_names(const Interface *interface, Error *err)
         used += snprintf(text + used, GROUP_NAME_SIZE + 1, "%s%s", p > 0 ? "\n" : "",
                          interface->pad_name[p]);
     return text;
+}
+
+// faces and *points [faces->count * faces->width] are the caller's. A block whose mesh was not read
+// has none.
+static bool add_faces(const Model *model, ResultHead *head, ContactFaces *faces, double **points,
+                      Error *err)
+{
+    if (model->mesh.dim < 3) return true;
+    TRY(contact_faces_build(&model->mesh, &model->interface, faces, err));
+    int64_t count = (int64_t)faces->count * faces->width;
+    TRY(*points = NEW_ARRAY(double, count, err));
+    for (int64_t k = 0; k < count; k++) (*points)[k] = faces->point[k];
+    head->faces[FACES_NODES].rows = faces->count;
+    head->faces[FACES_NODES].width = faces->width;
+    head->faces[FACES_NODES].values = *points;
+    head->faces[FACES_CORNERS].rows = faces->corner_count;
+    head->faces[FACES_CORNERS].width = 2;
+    head->faces[FACES_CORNERS].values = faces->corner;
+cleanup:
+    return error_is_clean(err);
 }
 
 // mu_M and l_c are NaN in the head: they are known at the end only.
@@ -58,12 +79,17 @@ static bool open_history(Simulation *simulation, Error *err)
         head.numbers[NUMBER_ROD_LOW] = middle - 0.5 * width;
         head.numbers[NUMBER_ROD_HIGH] = middle + 0.5 * width;
     }
+    ContactFaces faces = {0};
+    double *points = NULL;
     char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));
+    TRY(add_faces(&simulation->model, &head, &faces, &points, err));
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->contact, &simulation->history, err));
 cleanup:
+    contact_faces_destroy(&faces);
+    memory_free(points);
     memory_free(pads);
     return error_is_clean(err);
 }

@@ -220,9 +220,10 @@ NOT_A_CHOICE = {
     "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "record/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "record/error_bars.c": {
-        "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "END_WAITS": "of error bars: set B at P = 1e-5",
+        "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "SPAN": "the same",
+        "ROUNDING": "of products of a few steps from mesh to mesh", "END_WAITS": "of error bars: set B at P = 1e-5",
         "STEPS": "of error bars: what this table's tolerances move"},
-    "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE, "LEVELS_LEAST": "of error bars: priors.md", "RUNS_LEAST": "the same"},
+    "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
     "record/steady.c": {"STEADY_RANGE": "twice what the steps of a standard run move mu by"},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},

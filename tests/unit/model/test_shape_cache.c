@@ -213,7 +213,8 @@ static void make_shape(uint64_t seed, Shape *shape)
     enum { M = 7 };
     Random random = {.state = seed};
     *shape = (Shape){
-        .sizes = {1.5, 0.5, 0.75, 36, 98, 0.01, 1.4, 0.1, 0.75, {{{1, 0}, 0.25}}, 2, {0.5, 0.25}}};
+        .sizes = {
+            1.5, 0.5, 1, 0.75, 36, 98, 0.01, 1.4, 0.1, 0.75, {{{1, 0}, 0.25}}, 2, {0.5, 0.25}}};
     shape->interface = (Interface){.dim = 2,
                                    .contact_count = 3,
                                    .node = index_array(&random, 3, 49),
@@ -273,6 +274,40 @@ static void store(const char *key, uint64_t seed, char note[CACHE_NOTE_SIZE])
     make_shape(seed, &shape);
     shape_cache_store(key, &shape, note);
     shape_destroy(&shape);
+}
+
+// One in space has more of each node, and the line along its middle.
+TEST(test_space)
+{
+    Shape made, read;
+    char note[CACHE_NOTE_SIZE];
+    static const char SPACE_KEY[] = "10112233445566778899aabbccddeeff";
+    Random random = {.state = 77};
+    make_shape(7, &made);
+    Interface *a = &made.interface;
+    memory_free(a->node), memory_free(a->rod_node), memory_free(a->dofs);
+    a->dim = 3;
+    a->count = 10;
+    a->node = index_array(&random, 3, 30), a->rod_node = index_array(&random, 1, 30);
+    a->dofs = index_array(&random, 10, 90);
+    a->y = random_array(&random, 3);
+    a->rod_y = random_array(&random, 1);
+    a->rod_length = random_array(&random, 1);
+    a->line_count = 2;
+    a->line = index_array(&random, 2, 3);
+    made.sizes.full_dofs = 90;
+    shape_cache_store(SPACE_KEY, &made, note);
+    assert_true(load(SPACE_KEY, &read, note));
+    const Interface *b = &read.interface;
+    assert_memory_equal(&made.sizes, &read.sizes, sizeof made.sizes);
+    assert_true(b->dim == 3 && b->count == 10 && b->line_count == 2);
+    assert_memory_equal(a->y, b->y, 3 * sizeof(double));
+    assert_memory_equal(a->rod_y, b->rod_y, sizeof(double));
+    assert_memory_equal(a->rod_length, b->rod_length, sizeof(double));
+    assert_memory_equal(a->line, b->line, 2 * sizeof(int32_t));
+    assert_memory_equal(a->dofs, b->dofs, 10 * sizeof(int32_t));
+    shape_destroy(&made);
+    shape_destroy(&read);
 }
 
 TEST(test_round_trip)

@@ -153,10 +153,6 @@ TEST(test_a_level_without_an_answer)
     assert_near("branches", mu_M->parts.branches, 0.022370609097319347, 1e-15);
     assert_int_equal(levels_known(&levels, ANSWER_MU_M), 2);
     assert_int_equal(levels_known(&levels, ANSWER_MU_HOLD), 3);
-    assert_true(levels_enough(&levels, ANSWER_MU_HOLD) && !levels_enough(&levels, ANSWER_MU_M));
-    levels.list[1].run_count = levels.list[2].run_count = 1;   // four runs on three meshes
-    assert_false(levels_enough(&levels, ANSWER_MU_HOLD));
-    levels.list[1].run_count = levels.list[2].run_count = 2;
     levels.list[2].end_wait = 0.02;   // so much mu rises while the last nodes hold
     levels_estimate(&levels);
     assert_near("wait", levels_answer(&levels, ANSWER_MU_M)->parts.mesh,
@@ -201,4 +197,26 @@ TEST(test_last_mesh_apart)
     levels_add_run(&levels, 1, &answers, 100);
     assert_true(levels_run_in(&levels));
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_HOLD)->value));
+}
+
+// Meshes behind a bar that is met differ by a factor of two in cell size; one without an answer
+// has no part in that.
+TEST(test_span)
+{
+    Levels levels = {0};
+    begin(&levels, 0.5, 20);
+    add(&levels, NAN, 0.2, NAN);
+    assert_near("one", levels_span_left(&levels, ANSWER_MU_HOLD), 2, 0);
+    begin(&levels, 0.6, 24);
+    add(&levels, 0.3, 0.2, NAN);
+    assert_near("two", levels_span_left(&levels, ANSWER_MU_HOLD), 2 * 0.5 / 0.6, 1e-15);
+    assert_near("mu_M", levels_span_left(&levels, ANSWER_MU_M), 2, 0);
+    double step = pow(2, 0.25);
+    begin(&levels, 0.5 * step * step * step * step, 40);   // 1, but for rounding
+    add(&levels, 0.3, 0.2, NAN);
+    assert_near("twice", levels_span_left(&levels, ANSWER_MU_HOLD), 1, 0);
+    assert_near("mu_M", levels_span_left(&levels, ANSWER_MU_M), 1.2, 1e-14);
+    begin(&levels, 4, 160);
+    add(&levels, 0.3, 0.2, NAN);
+    assert_near("more", levels_span_left(&levels, ANSWER_MU_M), 1, 0);
 }

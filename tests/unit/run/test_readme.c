@@ -114,6 +114,11 @@ static void write_history_table(FILE *out)
     put_array(out, name, "nodes", #type, (const char *[]){unit, words});
     RESULT_NODES(X)
 #undef X
+#define X(symbol, name, type, unit, words)                                                         \
+    put_array(out, name, strcmp(name, "faces/nodes") == 0 ? "faces, points" : "corners, 2", #type, \
+              (const char *[]){unit, words});
+    RESULT_FACES(X)
+#undef X
 #define X(symbol, name, unit, words)                                                               \
     put_array(out, name, strncmp(name, "peaks/", 6) == 0 ? "peaks" : "events", "ARRAY_FLOAT64",    \
               (const char *[]){unit, words});
