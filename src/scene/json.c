@@ -103,9 +103,8 @@ static void write_file(const char *path, JsonWriter *json, const char *name, con
     json_text(json, name, file);
 }
 
-// name: the last word of the key. An output.fields that is a map never comes here: its keys follow
-// by themselves.
-static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
+// Of an output.fields that is a map the keys follow by themselves.
+void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
     const void *field = (const char *)scene + key->offset;
     switch (key->type) {
@@ -144,7 +143,7 @@ static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *jso
         write_materials(field, json, name);
         return;
     case KEY_FIELDS:
-        json_text(json, name, "none");
+        json_text(json, name, scene->output.fields ? "as below" : "none");
         return;
     }
 }
@@ -188,7 +187,7 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
         else if (strcmp(keys[k].name, "contact.profile") == 0)
             write_file(scene->contact.profile, json, rest, folder);
         else
-            write_value(&keys[k], scene, json, rest);
+            scene_write_value(&keys[k], scene, json, rest);
     }
     for (; depth >= 0; depth--) json_end(json);
 }

@@ -19,14 +19,14 @@
 #include <stdio.h>
 
 // A step of the path in units of crossing time + viscous time: long against all that can grow.
-static const double PATH_STEP = 10;
+static const double PATH_STEP_LIMIT = 10;
 // What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
 // some 4 of them), but not more than about this part of an element.
 static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
-static const double SNAP =
+static const double SNAP_LIMIT =
     4;   // slip of a node in a step, over that of the rod (up to 1.5 elsewhere)
 enum {
-    PATH_STEPS_MAX = 20000,   // some 20 times what 320 contact nodes need
+    PATH_STEPS_LIMIT = 20000,   // some 20 times what 320 contact nodes need
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
 };
 
@@ -95,7 +95,7 @@ cleanup:
 }
 
 // The path's own steps, from the state of the simulation: tolerance and certificate off, so that
-// every step is PATH_STEP long, and a rod of its own velocity that continues from where
+// every step is PATH_STEP_LIMIT long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
 static bool open_path(StabilityPath *path, Error *err)
 {
@@ -104,7 +104,7 @@ static bool open_path(StabilityPath *path, Error *err)
     const Simulation *before = path->simulation;
     double elements = interface->contact_count;
     double slip = model_friction_slip(model) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
-    double step = PATH_STEP * model->scales.time;
+    double step = PATH_STEP_LIMIT * model->scales.time;
     StepControlDef def = {.tolerance = INFINITY,
                           .step_max = step,
                           .step_min = 1e-12 * step,
@@ -249,22 +249,22 @@ static void note_snap(StabilityPath *path, double mu)
 }
 
 // Steps until the front has reached the end (whose own state is the last point), or is some
-// positions beyond l_c. A node that goes SNAP times as far in one step as the rod has jumped: where
-// a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
-// The path's long steps damp the jump and go on; in time it may be a sliding.
+// positions beyond l_c. A node that goes SNAP_LIMIT times as far in one step as the rod has jumped:
+// where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches
+// mu_S. The path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->model->interface;
     double end = interface->x[interface->contact_count - 1];
     Observation before = {0};
     int32_t most = 0;   // nodes that slipped at a time, so far
-    for (int32_t step = 0; step < PATH_STEPS_MAX; step++) {
+    for (int32_t step = 0; step < PATH_STEPS_LIMIT; step++) {
         if (stop_wanted(path, err)) goto cleanup;
         state_copy(&path->control.now, &path->last);
         TRY(step_control_advance(&path->control, INFINITY, err));
         Observation seen = observe(&path->control, &path->model->scales);
         int32_t slipping = count_slipping(&path->control.now);
-        bool snaps = seen.max_slip_rate > SNAP * path->rod.velocity;
+        bool snaps = seen.max_slip_rate > SNAP_LIMIT * path->rod.velocity;
         if (snaps && step > 0 && isnan(path->mu_snap)) note_snap(path, before.mu);
         if (step > 0 && slipping > most) TRY(add_point(path, &before, err));
         if (slipping > most) most = slipping;

@@ -346,3 +346,26 @@ TEST(a_document_stays_in_memory)
 }
 
 GROUP_BETWEEN(make_folder, remove_folder);
+
+// One line, words without quotes where YAML needs none.
+TEST(test_flow)
+{
+    Error err = {0};
+    JsonWriter *json = json_create_flow(&err);
+    json_begin_object(json, NULL);
+    json_text(json, "group", "top");
+    json_text(json, "along", "1 + x");
+    json_text(json, "empty", "");
+    json_begin_list(json, "list");
+    json_number(json, NULL, 1e6);
+    json_number(json, NULL, 0.1);
+    json_begin_object(json, NULL);
+    json_boolean(json, "yes", true);
+    json_end(json);
+    json_end(json);
+    json_end(json);
+    char *text = json_take(json, &err);
+    assert_string_equal(text, "{group: top, along: \"1 + x\", empty: \"\", list: [1e+06, 0.1, "
+                              "{yes: true}]}");
+    memory_free(text);
+}
