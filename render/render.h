@@ -17,8 +17,11 @@
 #define BLOCK_QUANTITIES(X)                                                                        \
     X(BLOCK_VON_MISES, "von_mises", "von Mises stress", "Pa", "~{E}")                              \
     X(BLOCK_STRESS_XX, "stress_xx", "stress ~{\u03c3}_{xx}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_YY, "stress_yy", "stress ~{\u03c3}_{yy}", "Pa", "~{E}")                         \
     X(BLOCK_STRESS_ZZ, "stress_zz", "stress ~{\u03c3}_{zz}", "Pa", "~{E}")                         \
     X(BLOCK_STRESS_XZ, "stress_xz", "stress ~{\u03c3}_{xz}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_XY, "stress_xy", "stress ~{\u03c3}_{xy}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_YZ, "stress_yz", "stress ~{\u03c3}_{yz}", "Pa", "~{E}")                         \
     X(BLOCK_PRESSURE, "pressure", "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{zz})/2", "Pa",      \
       "~{E}")                                                                                      \
     X(BLOCK_VELOCITY, "velocity", "velocity |~{v}|", "m/s", "(~{L}_{0} / ~{t}_{0})")               \

@@ -66,6 +66,8 @@ typedef struct FieldChoice {
     const char *at;   // "U=0.0117" or "t=120": the nearest time that is stored; NULL: the last one
         // before the last sliding
     bool edges;   // of elements are drawn
+    const char *cut;   // of a block in space: "y=0.25", up to three with commas between: what lies
+        // before all these planes is taken away; NULL: none
 } FieldChoice;
 
 typedef struct PictureRequest {

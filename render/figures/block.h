@@ -6,6 +6,7 @@
 
 #include "amontons_pictures.h"
 #include "io/fields/field_read.h"
+#include "render/figures/camera.h"
 #include "render/figures/result_view.h"
 #include "render/render.h"
 
@@ -19,6 +20,7 @@ typedef struct BlockWords {
     const char *name, *words, *si, *normalised;
 } BlockWords;
 BlockWords block_words(BlockQuantity quantity);
+bool block_quantity_known(const char *name);
 // ERROR_INPUT lists the names. NULL: von_mises.
 bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err);
 
@@ -27,7 +29,10 @@ typedef struct Block {
     double t, U;   // of this time; U by the history
     int64_t row;   // of the history, the nearest step
     double *value;   // [frame.node_count] the quantity
-    double (*place)[2];   // [frame.node_count] (x, z) as drawn, length
+    double (*place)[2];   // [frame.node_count] (x, z) as drawn, in space as seen by the camera; length
+    double (*moved)[3];   // [frame.node_count] (x, y, z) as drawn; NULL in the plane
+    double low[3], high[3];   // in space: extent before anything moved
+    Camera camera;
 } Block;
 
 // The times stored in the result at `folder`, as rows of the history, [*count], rising.

@@ -175,9 +175,10 @@ static void choose_rows(const ResultView *view, const ContactPlane *plane, const
     add_row(moments, fastest_row(plane, rates, moments));
 }
 
-bool contact_moments_find(const ResultView *view, const ContactPlane *plane, const double *rates,
-                          const char *at, bool whole, ContactMoments *moments, Error *err)
+bool contact_moments_find(const ResultView *view, const double *rates, const char *at, bool whole,
+                          ContactMoments *moments, Error *err)
 {
+    const ContactPlane *plane = &view->plane;
     *moments = (ContactMoments){0};
     if (at && !whole) return take_asked(view, at, moments, err);
     TRY(take_event(view, at, moments, err));

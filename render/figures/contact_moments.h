@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_FIGURES_CONTACT_MOMENTS_H
 #define AMONTONS_RENDER_FIGURES_CONTACT_MOMENTS_H
 
-#include "render/figures/contact_plane.h"
+#include "render/figures/result_view.h"
 
 enum { MOMENTS_MAX = 12 };
 
@@ -22,8 +22,8 @@ typedef struct ContactMoments {
 // rates: [rows * nodes] |slip rate|; at: "U=0.01,U=0.02", "t=12", or NULL: of the last
 // sliding, or else the last rapid event: while slow slip grows before it, when rapid slip had come
 // to half and to all that it reached, and the fastest. whole: `at` names an event instead, the nearest. ERROR_INPUT: there is none.
-bool contact_moments_find(const ResultView *view, const ContactPlane *plane, const double *rates,
-                          const char *at, bool whole, ContactMoments *moments, Error *err);
+bool contact_moments_find(const ResultView *view, const double *rates, const char *at, bool whole,
+                          ContactMoments *moments, Error *err);
 void contact_moments_destroy(ContactMoments *moments);   // zeroed is fine
 
 #endif

@@ -170,16 +170,15 @@ static void find_extent(ContactPlane *plane)
 
 // --- reading -------------------------------------------------------------------------------------
 
-static bool read_nodes(const ResultView *view, ContactPlane *plane, Error *err)
+static bool read_nodes(ArrayFile *file, ContactPlane *plane, Error *err)
 {
     struct {
         ResultNodes nodes;
         double **values;
     } arrays[] = {{NODES_X, &plane->x}, {NODES_Y, &plane->y}, {NODES_WEIGHT, &plane->weight}};
-    plane->nodes = view->all_nodes;
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
         int32_t count = 0;
-        TRY(result_file_read_nodes(view->file, arrays[k].nodes, arrays[k].values, &count, err));
+        TRY(result_file_read_nodes(file, arrays[k].nodes, arrays[k].values, &count, err));
         if (count != plane->nodes)
             FAIL(err, ERROR_FILE, "%d of %d contact nodes have a place", count, plane->nodes);
     }
@@ -187,13 +186,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool read_faces(const ResultView *view, Faces *faces, Error *err)
+static bool read_faces(ArrayFile *file, Faces *faces, Error *err)
 {
     int32_t two = 0;
-    TRY(result_file_read_faces(view->file, FACES_NODES, &faces->point, &faces->count,
-                               &faces->width, err));
-    TRY(result_file_read_faces(view->file, FACES_CORNERS, &faces->corner, &faces->corners, &two,
+    TRY(result_file_read_faces(file, FACES_NODES, &faces->point, &faces->count, &faces->width,
                                err));
+    TRY(result_file_read_faces(file, FACES_CORNERS, &faces->corner, &faces->corners, &two, err));
     if (faces->count == 0)
         FAIL(err, ERROR_INPUT,
              "the history does not have the faces of the contact: it was written before they were "
@@ -205,18 +203,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool contact_plane_read(const ResultView *view, ContactPlane *plane, Error *err)
+bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Error *err)
 {
     Faces faces = {0};
     Face face;
     KnownSide *sides = NULL;
     int32_t count = 0;
-    *plane = (ContactPlane){0};
-    if (!view->line)
-        FAIL(err, ERROR_INPUT,
-             "the block is in the plane: slip-map and contact-density show its contact");
-    TRY(read_nodes(view, plane, err));
-    TRY(read_faces(view, &faces, err));
+    *plane = (ContactPlane){.nodes = nodes};
+    TRY(read_nodes(file, plane, err));
+    TRY(read_faces(file, &faces, err));
     TRY(plane->patches = NEW_ARRAY(ContactPatch, (int64_t)FACE_PATCHES_MAX * faces.count, err));
     TRY(plane->sides = NEW_ARRAY(ContactSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
     TRY(sides = NEW_ARRAY(KnownSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The contact of a block in space as it is seen from above: each node with the part of its faces
-// that is nearest, and the outline of each pad. Called by figure_contact_plane and space_page.
+// that is nearest, and the outline of each pad. Called by result_view.
 #ifndef AMONTONS_RENDER_FIGURES_CONTACT_PLANE_H
 #define AMONTONS_RENDER_FIGURES_CONTACT_PLANE_H
 
-#include "render/figures/result_view.h"
+#include "io/hdf5/result_file.h"
 
 enum { PATCH_CORNERS = 4 };
 
@@ -27,8 +27,8 @@ typedef struct ContactPlane {
     double low[2], high[2];   // extent of all patches
 } ContactPlane;
 
-// ERROR_INPUT: the block is in the plane, or the history has no faces.
-bool contact_plane_read(const ResultView *view, ContactPlane *plane, Error *err);
+// nodes: of the contact. ERROR_INPUT: the history has no faces.
+bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Error *err);
 void contact_plane_destroy(ContactPlane *plane);   // zeroed is fine
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "render/canvas/key.h"
+#include "render/figures/contact_map.h"
 #include "render/figures/contact_moments.h"
 #include "render/figures/slip_scale.h"
 #include "render/figures/value_range.h"
@@ -19,7 +20,6 @@ enum { COLUMNS_MAX = 6, WORDS_SIZE = 120, NAMES_SIZE = 200 };
 static const double GAP = 15, WORDS_HEIGHT = 10;   // points: between maps; above each
 static const double WORDS_OVER = 4;   // points: by which words may be longer than their map
 static const double BAR_GAP = 6;   // points
-static const double OUTLINE_WIDTH = 0.4, SEAM = 0.15;   // points
 static const double SHAPE_LIKED = 0.6, EMPTY = 0.2;   // of all maps, in a logarithm; a missing map
 static const double SHAPE_MOST = 0.95;   // height of all maps over the width that they have
 static const Color NOTHING = {0.84f, 0.85f, 0.87f, 1};   // stick, open, not reached
@@ -42,14 +42,13 @@ static const QuantityWords quantities[] = {
 
 typedef struct Maps {
     ResultView *view;
-    ContactPlane plane;   // owned, like all
-    ContactMoments moments;
+    ContactMoments moments;   // owned, like all that follows
     ContactQuantity quantity;
     double *rate;   // [rows * nodes]
     double *values;   // [count * nodes] of the maps, in the bar's numbers
     int32_t count, columns, lines;   // maps
     ValueBar bar;
-    GlCorner *corners;   // [patches * 6] work
+    float *level;   // [nodes] of the map that is drawn
     double scale, width, height;   // points a length; of a map, points
 } Maps;
 
@@ -84,7 +83,7 @@ cleanup:
 static bool take_series(Maps *maps, ResultSeries series, double *values, Error *err)
 {
     double *all = NULL;
-    int32_t nodes = maps->plane.nodes;
+    int32_t nodes = maps->view->plane.nodes;
     TRY(result_view_read_contact(maps->view, series, &all, err));
     for (int32_t k = 0; k < maps->count; ++k)
         memcpy(values + (int64_t)k * nodes, all + maps->moments.row[k] * nodes,
@@ -97,14 +96,14 @@ cleanup:
 // Of slip what each node has done since the first moment; of one alone since the rod's start.
 static void take_from_first(Maps *maps)
 {
-    int32_t nodes = maps->plane.nodes;
+    int32_t nodes = maps->view->plane.nodes;
     for (int32_t k = maps->count - 1; k >= 0 && maps->count > 1; --k)
         for (int32_t i = 0; i < nodes; ++i) maps->values[(int64_t)k * nodes + i] -= maps->values[i];
 }
 
 static bool take_ratio(Maps *maps, Error *err)
 {
-    int64_t count = (int64_t)maps->count * maps->plane.nodes;
+    int64_t count = (int64_t)maps->count * maps->view->plane.nodes;
     double *pressure = NEW_ARRAY(double, count, err);
     TRY(pressure);
     TRY(take_series(maps, SERIES_PRESSURE, pressure, err));
@@ -119,7 +118,7 @@ cleanup:
 // Open: NaN.
 static bool take_density(Maps *maps, Error *err)
 {
-    int64_t count = (int64_t)maps->count * maps->plane.nodes;
+    int64_t count = (int64_t)maps->count * maps->view->plane.nodes;
     double critical = maps->view->number[NUMBER_CRITICAL_VELOCITY];
     double *status = NEW_ARRAY(double, count, err);
     TRY(status);
@@ -137,7 +136,7 @@ cleanup:
 
 static bool take_values(Maps *maps, Error *err)
 {
-    int32_t nodes = maps->plane.nodes;
+    int32_t nodes = maps->view->plane.nodes;
     TRY(maps->values = NEW_ARRAY(double, (int64_t)maps->count * nodes, err));
     switch (maps->quantity) {
     case CONTACT_DENSITY:
@@ -168,12 +167,12 @@ static bool fit_linear(Maps *maps, const PictureStyle *style, Error *err)
 {
     const QuantityWords *own = &quantities[maps->quantity];
     ValueWords words = {own->words, own->si, own->normalised, maps->view->si};
-    int32_t nodes = maps->plane.nodes;
+    int32_t nodes = maps->view->plane.nodes;
     int64_t count = (int64_t)maps->count * nodes;
     WeighedValue *weighed = NEW_ARRAY(WeighedValue, count, err);
     TRY(weighed);
     for (int64_t k = 0; k < count; ++k)
-        weighed[k] = (WeighedValue){maps->values[k], maps->plane.weight[k % nodes]};
+        weighed[k] = (WeighedValue){maps->values[k], maps->view->plane.weight[k % nodes]};
     TRY(value_bar_fit(weighed, count, &words, style, &maps->bar, err));
     if (own->si[0] == '\0') snprintf(maps->bar.label, sizeof maps->bar.label, "%s", own->words);
     if (maps->quantity == CONTACT_SLIP && maps->count == 1)
@@ -188,7 +187,7 @@ static bool fit_rates(Maps *maps, Error *err)
 {
     double V = fabs(maps->view->number[NUMBER_ROD_VELOCITY]), most = 0;
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
-    for (int64_t k = 0; k < (int64_t)maps->count * maps->plane.nodes; ++k)
+    for (int64_t k = 0; k < (int64_t)maps->count * maps->view->plane.nodes; ++k)
         most = fmax(most, maps->values[k]);
     maps->bar.bar = slip_scale_up_to(most, V);
     maps->bar.factor = 1;
@@ -228,54 +227,7 @@ static float level_of(const Maps *maps, double value)
     return (float)(bar->falling ? 1 - part : part);
 }
 
-// --- one map -------------------------------------------------------------------------------------
-
-static GlCorner corner_of(const Axes *axes, const double at[2], float level)
-{
-    Point place = axes_place(axes, at[0], at[1]);
-    return (GlCorner){(float)(place.x - axes->box.left), (float)(place.y - axes->box.top), level};
-}
-
-// Its edge, too: between shapes side by side the paper would shine through.
-static void draw_neutral(const Page *page, const Maps *maps, const Point corner[PATCH_CORNERS])
-{
-    Color color = maps->bar.bar.neutral_color;
-    Stroke stroke = {.color = color, .width = SEAM * page->point};
-    Point round[PATCH_CORNERS + 1];
-    memcpy(round, corner, PATCH_CORNERS * sizeof *corner);
-    round[PATCH_CORNERS] = corner[0];
-    draw_polygon(page->canvas, color, corner, PATCH_CORNERS);
-    draw_line(page->canvas, &stroke, round, PATCH_CORNERS + 1);
-}
-
-// Patches in colours; what has none is filled as a shape.
-static void draw_patches(const Page *page, const Maps *maps, const double *values, const Axes *axes)
-{
-    static const int32_t turn[6] = {0, 1, 2, 0, 2, 3};
-    int64_t count = 0;
-    for (int32_t k = 0; k < maps->plane.patch_count; ++k) {
-        const ContactPatch *patch = &maps->plane.patches[k];
-        float level = level_of(maps, values[patch->node]);
-        Point corner[PATCH_CORNERS];
-        for (int32_t c = 0; c < PATCH_CORNERS; ++c)
-            corner[c] = axes_place(axes, patch->corner[c][0], patch->corner[c][1]);
-        if (level < 0) draw_neutral(page, maps, corner);
-        for (int32_t c = 0; c < 6 && level >= 0; ++c)
-            maps->corners[count++] = corner_of(axes, patch->corner[turn[c]], level);
-    }
-    if (count > 0) canvas_heat_triangles(page->canvas, &axes->box, maps->corners, count);
-}
-
-static void draw_outline_of(const Page *page, const ContactPlane *plane, const Axes *axes)
-{
-    Stroke stroke = {.color = INK, .width = OUTLINE_WIDTH * page->point};
-    for (int32_t k = 0; k < plane->side_count; ++k) {
-        Point line[3];
-        for (int32_t c = 0; c < 3; ++c)
-            line[c] = axes_place(axes, plane->sides[k].point[c][0], plane->sides[k].point[c][1]);
-        draw_line(page->canvas, &stroke, line, 3);
-    }
-}
+// --- words ---------------------------------------------------------------------------------------
 
 // A time in the unit of the scene, three digits: "0.312 t_0", "1.2 ms".
 static void write_time(const ResultView *view, double t, const char *sign, char words[WORDS_SIZE])
@@ -323,21 +275,11 @@ static void write_note(const Maps *maps, char words[WORDS_SIZE])
 
 // --- the page ------------------------------------------------------------------------------------
 
-static Axes axes_of(const Maps *maps)
-{
-    const ContactPlane *plane = &maps->plane;
-    Axes axes = {.x = figure_length_axis(maps->view, "x", plane->low[0], plane->high[0]),
-                 .y = figure_length_axis(maps->view, "y", plane->low[1], plane->high[1]),
-                 .number_size = NUMBER_SIZE,
-                 .color = INK};
-    return axes;
-}
-
 // As many maps in a line as make all of them nearest to a square, but not so that they would be
 // higher than SHAPE_MOST; returns the points that all take in height.
 static double lay_out(Maps *maps, double room)
 {
-    const ContactPlane *plane = &maps->plane;
+    const ContactPlane *plane = &maps->view->plane;
     double size[2] = {plane->high[0] - plane->low[0], plane->high[1] - plane->low[1]};
     double best = INFINITY;
     for (int32_t columns = 1; columns <= COLUMNS_MAX && columns <= maps->count; ++columns) {
@@ -356,10 +298,18 @@ static double lay_out(Maps *maps, double room)
     return maps->lines * (maps->height + WORDS_HEIGHT);
 }
 
-static void draw_maps(const Page *page, const Maps *maps, double left)
+static bool draw_map(const Page *page, const Maps *maps, int32_t k, const Axes *axes, Error *err)
+{
+    const ContactPlane *plane = &maps->view->plane;
+    const double *values = maps->values + (int64_t)k * plane->nodes;
+    for (int32_t i = 0; i < plane->nodes; ++i) maps->level[i] = level_of(maps, values[i]);
+    return contact_map_draw(page, plane, maps->level, maps->bar.bar.neutral_color, axes, err);
+}
+
+static bool draw_maps(const Page *page, const Maps *maps, double left, Error *err)
 {
     double point = page->point;
-    Axes axes = axes_of(maps);
+    Axes axes = contact_map_axes(maps->view);
     Box all = {INFINITY, INFINITY, 0, 0};
     TextStyle style = {.color = INK};
     for (int32_t k = 0; k < maps->count; ++k) {
@@ -372,8 +322,7 @@ static void draw_maps(const Page *page, const Maps *maps, double left)
         axes.box.bottom = axes.box.top + round(maps->height * point);
         axes.bare_y = column > 0;
         axes.bare_x = k + maps->columns < maps->count;
-        draw_patches(page, maps, maps->values + (int64_t)k * maps->plane.nodes, &axes);
-        draw_outline_of(page, &maps->plane, &axes);
+        TRY(draw_map(page, maps, k, &axes, err));
         axes_draw(page, &axes);
         write_words(maps, k, words);
         style.size = SMALL_SIZE * point;
@@ -386,6 +335,8 @@ static void draw_maps(const Page *page, const Maps *maps, double left)
     }
     Box beside = {.left = round(all.right + BAR_GAP * point), .top = all.top, .bottom = all.bottom};
     colorbar_draw(page, &maps->bar.bar, &beside);
+cleanup:
+    return error_is_clean(err);
 }
 
 // The page is begun twice: what numbers and bar take beside the maps is known on a page only.
@@ -394,7 +345,7 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
     PageDef def = input->def;
     uint8_t colors[3 * MAP_SIZE];
     char note[WORDS_SIZE];
-    Axes axes = axes_of(maps);
+    Axes axes = contact_map_axes(maps->view);
     double width = page_width(def.style), left = 0;
     def.height = 1;
     for (int32_t pass = 0; pass < 2; ++pass) {
@@ -410,7 +361,7 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
     color_map_fill(colors);
     canvas_set_map(page->canvas, colors, maps->bar.bar.neutral_color);
     write_note(maps, note);
-    draw_maps(page, maps, round(left * page->point));
+    TRY(draw_maps(page, maps, round(left * page->point), err));
     Page same = *page;   // what is warned of stands below all of its room
     key_draw(&same, &(KeyEntry){.words = note}, 1);
 cleanup:
@@ -423,20 +374,18 @@ bool figure_contact_plane(Page *page, const FigureInput *input, Error *err)
     const FieldChoice *field = input->field;
     TRY(find_quantity(field->of, &maps.quantity, err));
     bool arrival = maps.quantity == CONTACT_ARRIVAL;
-    TRY(contact_plane_read(input->view, &maps.plane, err));
+    TRY(result_view_read_plane(input->view, err));
     TRY(result_view_read_contact(input->view, SERIES_SLIP_RATE, &maps.rate, err));
-    TRY(contact_moments_find(input->view, &maps.plane, maps.rate, field->at, arrival,
-                             &maps.moments, err));
+    TRY(contact_moments_find(input->view, maps.rate, field->at, arrival, &maps.moments, err));
     maps.count = arrival ? 1 : maps.moments.count;
     TRY(take_values(&maps, err));
     TRY(fit_colors(&maps, input->def.style, err));
-    TRY(maps.corners = NEW_ARRAY(GlCorner, 6 * (int64_t)maps.plane.patch_count, err));
+    TRY(maps.level = NEW_ARRAY(float, input->view->plane.nodes, err));
     TRY(draw_page(page, input, &maps, err));
 cleanup:
-    contact_plane_destroy(&maps.plane);
     contact_moments_destroy(&maps.moments);
     memory_free(maps.rate);
     memory_free(maps.values);
-    memory_free(maps.corners);
+    memory_free(maps.level);
     return error_is_clean(err);
 }

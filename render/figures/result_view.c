@@ -235,9 +235,25 @@ bool result_view_read_slip_rate(ResultView *view, Error *err)
     return view->slip_rate || result_view_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
 }
 
+// In space also those beside the line, where the history says what the contact is made of.
 bool result_view_read_status(ResultView *view, Error *err)
 {
+    if (view->line && result_file_has_faces(view->file) && !result_view_read_plane(view, err))
+        return false;
     return view->status || result_view_read(view, SERIES_STATUS, &view->status, err);
+}
+
+bool result_view_read_plane(ResultView *view, Error *err)
+{
+    if (!view->line)
+        FAIL(err, ERROR_INPUT,
+             "the block is in the plane: slip-map and contact-density show its contact");
+    if (view->plane.patch_count == 0)
+        TRY(contact_plane_read(view->file, view->all_nodes, &view->plane, err));
+    if (!view->contact_status)
+        TRY(result_view_read_contact(view, SERIES_STATUS, &view->contact_status, err));
+cleanup:
+    return error_is_clean(err);
 }
 
 bool result_view_read_slip(ResultView *view, Error *err)
@@ -267,6 +283,8 @@ void result_view_close(ResultView *view)
     memory_free(view->slip);
     memory_free(view->front);
     memory_free(view->status);
+    memory_free(view->contact_status);
+    contact_plane_destroy(&view->plane);
     memory_free(view->events);
     memory_free(view->rapid);
     memory_free(view->peaks);

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_FIGURES_RESULT_VIEW_H
 #define AMONTONS_RENDER_FIGURES_RESULT_VIEW_H
 
-#include "io/hdf5/result_file.h"
+#include "render/figures/contact_plane.h"
 
 typedef enum ViewEventKind { VIEW_QUASI_STATIC, VIEW_BOUNDED, VIEW_LEADING } ViewEventKind;
 
@@ -37,6 +37,8 @@ typedef struct ResultView {
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
     double *front;   // [rows] x, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
+    ContactPlane plane;   // in space; patch_count 0: not read yet; owned
+    double *contact_status;   // [rows * all_nodes] in space, or NULL: not read yet; owned
     double number[RESULT_NUMBERS_COUNT];   // NaN: not known
     int32_t event_count, peak_count;   // 0 in a run that did not end
     ViewEvent *events;   // [event_count] owned
@@ -52,6 +54,8 @@ void result_view_close(ResultView *view);   // zeroed is fine
 
 bool result_view_read_slip_rate(ResultView *view, Error *err);
 bool result_view_read_status(ResultView *view, Error *err);
+// The plane, and contact_status. ERROR_INPUT: the block is in the plane.
+bool result_view_read_plane(ResultView *view, Error *err);
 bool result_view_read_slip(ResultView *view, Error *err);
 bool result_view_read_front(ResultView *view, Error *err);
 

@@ -128,6 +128,10 @@ int command_render(int argc, char **argv)
          "When: the stored time nearest to it; or t=TIME. Of contact-plane several, as in "
          "U=0.01,U=0.02",
          .word = &request.field.at},
+        {"cut", 0, "y=Y",
+         "Cut a block in space open: what lies before this plane, or before up to three as in "
+         "x=0.2,y=0.25, is taken away",
+         .word = &request.field.cut},
         {"edges", 0, NULL, "Draw the elements' edges in `field`", .flag = &request.field.edges},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &request.style.dark},
         option_overwrite(&request.style.overwrite),

@@ -15,7 +15,8 @@
 //              the part. At least what steps and reduction leave. Levels whose cells are too long
 //              for slip (`undamped`) have no part in it; where the last nodes of the contact hold
 //              the block they scatter more, and three times what mu rises by meanwhile (`end_wait`)
-//              is added. One level: its own value, nothing known.
+//              is added. One level: its own value, nothing known. A bar is met only where levels
+//              differ by a factor of two in cell size (levels_span_left).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
@@ -64,6 +65,7 @@ typedef struct LevelCut {
 } LevelCut;
 
 typedef struct Levels {
+    bool space;   // meshes of a block in space
     double wanted;   // bar over value
     bool met;
     AnswerKind asked;   // what `wanted` is of

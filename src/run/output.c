@@ -71,13 +71,16 @@ static bool open_history(Simulation *simulation, Error *err)
                     [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
                     [NUMBER_ROD_LOW] = NAN,
                     [NUMBER_ROD_HIGH] = NAN,
+                    [NUMBER_ROD_BREADTH] = NAN,
                     [NUMBER_MU_M] = NAN,
                     [NUMBER_L_C] = NAN}};
     if (scene->rod.kind != ROD_NONE) {
         double middle = 0, width = 0;
         model_rod_strip(scene, simulation->model.height, &middle, &width);
-        head.numbers[NUMBER_ROD_LOW] = middle - 0.5 * width;
-        head.numbers[NUMBER_ROD_HIGH] = middle + 0.5 * width;
+        const double *face = model->interface.rod_face;
+        head.numbers[NUMBER_ROD_LOW] = scene->rod.whole ? face[0] : middle - 0.5 * width;
+        head.numbers[NUMBER_ROD_HIGH] = scene->rod.whole ? face[1] : middle + 0.5 * width;
+        if (scene->rod.breadth > 0) head.numbers[NUMBER_ROD_BREADTH] = scene->rod.breadth;
     }
     ContactFaces faces = {0};
     double *points = NULL;

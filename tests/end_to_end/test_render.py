@@ -42,7 +42,8 @@ class Style(ctypes.Structure):
 
 
 class Field(ctypes.Structure):
-    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool)]
+    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool),
+                ("cut", ctypes.c_char_p)]
 
 
 class Request(ctypes.Structure):
@@ -652,7 +653,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_figure(self):
         fixture.make(self.folder)
-        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, field, field-strip",
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, contact-plane, field, field-strip",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):

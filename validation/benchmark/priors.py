@@ -226,7 +226,7 @@ more than one mesh, and runs are shared out to as many meshes as there are runs.
 
 ### Bars by other constants
 
-Asked for 1, 2 and 3 %: the first meshes by which a bar is met, as the program would end. `now` is what it takes: the shortest bars of which 19 of 20 hold in either family.
+Asked for 1, 2 and 3 %: meshes until the bar is short enough, then one twice as fine as the first (`span`), on which it must still be so, as the program ends. `now` is what it takes: the shortest bars of which 19 of 20 hold in either family.
 
 {tried_text(families)}
 """

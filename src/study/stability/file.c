@@ -20,6 +20,9 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     json_number(json, "l_c_scan_over_L", summary->l_c_scan);
     json_number(json, "l_c_over_L", summary->l_c);
     json_number(json, "l_c_at_V_over_L", summary->l_c_rod);
+    json_number(json, "A_sc_over_A", summary->area_sc);
+    json_number(json, "A_c_over_A", summary->area_c);
+    json_number(json, "A_c_at_V_over_A", summary->area_c_rod);
     json_number(json, "element_over_L", summary->element);
     json_number(json, "mu_l_sc", summary->mu_sc);
     json_number(json, "mu_snap", summary->mu_snap);
@@ -45,6 +48,7 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
         json_begin_object(json, NULL);
         json_number(json, "l_over_L", point->front / length);
         json_integer(json, "slipping", point->slipping);
+        json_number(json, "slipping_over_A", point->area);
         json_number(json, "U", point->U);
         json_number(json, "mu", point->mu);
         json_number(json, "mu_at_V", point->mu_at_V);
@@ -120,6 +124,7 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
     const Interface *interface = &path->model->interface;
     int32_t nodes = interface->contact_count;
     ArraySeries x = {"nodes/x", ARRAY_FLOAT64, 1, "length", "position of the contact nodes"};
+    ArraySeries y = {"nodes/y", ARRAY_FLOAT64, 1, "length", "the same across the drive"};
     ArraySeries critical = {"critical/slip", ARRAY_FLOAT64, 1, "1",
                             "slip of the real growing mode at l_c at the contact nodes, largest 1; "
                             "0 where none was found"};
@@ -131,6 +136,7 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
     ArraySeries rate = {"points/rate", ARRAY_FLOAT64, 2, "1/time",
                         "rightmost lambda of exp(lambda t), real and imaginary part"};
     TRY(add_series(file, &x, interface->x, nodes, err));
+    if (interface->y) TRY(add_series(file, &y, interface->y, nodes, err));
     TRY(add_series(file, &critical, path->critical_mode, nodes, err));
     TRY(add_series(file, &modes, path->modes, path->count, err));
     TRY(array_file_add_series(file, &front, err));

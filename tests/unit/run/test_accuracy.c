@@ -210,10 +210,11 @@ static void expect(Levels levels, const char *wanted)
 TEST(test_what_is_said_of_a_bar)
 {
     Levels levels = {.count = 3};
-    for (int32_t k = 0; k < 3; k++) levels.list[k].slip_cells = 100;
+    for (int32_t k = 0; k < 3; k++) levels.list[k].slip_cells = 100, levels.list[k].refine = 1 + k;
     expect(levels, "mu_M is known to 10.0 %, asked for 1.0 % (no time for more)");
-    levels.list[0].undamped = true;
-    expect(levels, "known to 10.0 % from too few meshes that count, asked for");
+    levels.list[0].undamped = true;   // 2 and 3 times as fine are left
+    expect(levels,
+           "known to 10.0 % by meshes less than twice as fine as one another, asked for 1.0 %");
     levels.list[2].answer[0].parts.mesh = NAN;
     expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
     levels.list[2].undamped = true;

@@ -51,7 +51,9 @@ static Block patch_make(ElementKind kind, Patch *patch)
             patch_place(kind, e, a, patch->place[node]);
             for (int d = 0; d < 2; d++) patch->position[3 * node + d] = patch->place[node][d];
         }
-    patch->frame = (FieldFrame){.node_count = 2 * count,
+    patch->frame = (FieldFrame){.dim = 2,
+                                .stresses = 3,
+                                .node_count = 2 * count,
                                 .position = patch->position,
                                 .displacement = patch->displacement,
                                 .velocity = patch->velocity,
@@ -180,7 +182,9 @@ TEST(the_outline_is_what_one_element_has)
     uint8_t kinds[2] = {ELEMENT_Q4, ELEMENT_Q4}, *pixels = NULL;
     double place[6][2], value[6] = {0};
     memcpy(place, places, sizeof place);
-    Block block = {.frame = {.node_count = 6,
+    Block block = {.frame = {.dim = 2,
+                             .stresses = 3,
+                             .node_count = 6,
                              .element_count = 2,
                              .kind = kinds,
                              .first_node = first,
