@@ -13,17 +13,15 @@ static char path[] = "/tmp/amontons_measured_XXXXXX";
 static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01, 0.05};
 static ResultView view = {.si = true, .rows = 3, .U = U, .mu = mu};
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     view.number[NUMBER_LENGTH] = 0.1;
     int file = mkstemp(path);
     return file < 0 ? -1 : close(file);
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     return unlink(path);
 }
 
@@ -73,7 +71,6 @@ TEST(what_is_wrong_is_said)
                                            {"U (ft),mu\n1,2\n", "no unit \"ft\""},
                                            {"U (mm),y\n1,2\n", "it needs the columns"},
                                            {"U (mm),mu\n1\n", "cells"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;
