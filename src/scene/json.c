@@ -38,13 +38,19 @@ static void write_tractions(const Scene *scene, JsonWriter *json, const char *na
     json_end(json);
 }
 
+static const char *support_direction(const SceneSupport *support)
+{
+    if (support->x && support->z) return support->y ? "all" : "both";
+    return support->x ? "x" : support->y ? "y" : "z";
+}
+
 static void write_supports(const Scene *scene, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
     for (int32_t i = 0; i < scene->load.support_count; i++) {
         json_begin_object(json, NULL);
         json_text(json, "group", scene->load.supports[i].group);
-        json_text(json, "direction", scene_support_direction(&scene->load.supports[i]));
+        json_text(json, "direction", support_direction(&scene->load.supports[i]));
         json_end(json);
     }
     json_end(json);

@@ -6,12 +6,6 @@
 
 #include <string.h>
 
-const char *scene_support_direction(const SceneSupport *support)
-{
-    if (support->x && support->z) return support->y ? "all" : "both";
-    return support->x ? "x" : support->y ? "y" : "z";
-}
-
 // Cut where it does not fit, as `amontons info` shows it. A text stands in quotes, a name does not.
 void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32_t size)
 {
