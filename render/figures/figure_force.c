@@ -28,7 +28,6 @@ static const double PEAK_PITCH = 0.3;   // of the distance of peaks: radius of a
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
 static const Color CURVE_COLOR = {0.05f, 0.27f, 0.55f, 1};
-static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 static const Color LEVEL_COLOR = {0.45f, 0.45f, 0.47f, 1};
 
 // A horizontal line and its name.
@@ -234,21 +233,6 @@ static Axes axes_layout(const Page *page, const ResultView *view, const Window *
     return axes;
 }
 
-// With bars as long as the errors on both sides.
-static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
-{
-    Stroke stroke = {.color = MEASURED_COLOR, .width = 0.5 * page->point};
-    canvas_clip(page->canvas, &axes->box);
-    for (int32_t k = 0; k < measured->count; ++k) {
-        double U = measured->U[k], mu = measured->value[k], error = measured->error[k];
-        if (isfinite(error))
-            draw_segment(page->canvas, &stroke, axes_place(axes, U, mu - error),
-                         axes_place(axes, U, mu + error));
-        draw_disc(page->canvas, MEASURED_COLOR, axes_place(axes, U, mu), KEY_RADIUS * page->point);
-    }
-    canvas_clip(page->canvas, NULL);
-}
-
 static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
                          const Measured *measured)
 {
@@ -277,6 +261,14 @@ static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarge
     inset->box.right = axes->box.right;
 }
 
+bool figure_force_measured(ResultView *view, const char *path, Measured *measured, Error *err)
+{
+    const ComputedCurve curve = {view->rows, view->U, view->mu};
+    if (!measured_read(path, MEASURED_MU, view, measured, err)) return false;
+    measured_compare(measured, view, computed_on_curve, &curve);
+    return true;
+}
+
 bool figure_force(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -286,7 +278,7 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     Level level[LEVELS_MAX];
     double range[2] = {0, 0};
     TRY(window_find(view, &page.style, &window, err));
-    TRY(measured_read(page.style.compare, MEASURED_MU, view, view->mu, &measured, err));
+    TRY(figure_force_measured(view, page.style.compare, &measured, err));
     key_of_peaks(&page, view, &window, &measured);
     bool enlarged = inset_axes(&page, view, &window, &inset);
     double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;

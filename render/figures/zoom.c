@@ -132,6 +132,7 @@ Zoom zoom_choose(const ResultView *view)
     double first = cycle.bounded > 0 ? cycle.U_precursor : cycle.U_slide - CYCLE_SHOWN * length;
     double span = fmax(cycle.U_slide - first, SPAN_MIN * length);
     result_view_range(view, &low, &high);
+    zoom.U_start = cycle.U_start;
     zoom.U_slide = cycle.U_slide;
     zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
     zoom.U_high = fmin(high, cycle.U_slide + PAD * span);

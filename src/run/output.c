@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/files/open_file.h"
 #include "run/pictures.h"
 #include "run/warnings.h"
 #include "scene/window.h"
@@ -111,6 +112,8 @@ bool output_open(Simulation *simulation, Error *err)
     Window *window = &simulation->window;
     WindowDef def = scene_window(scene);
     *window = window_of(&def, &simulation->events);
+    if (scene->output.compare[0])   // not found out when all is computed
+        TRY(scene_blame(scene, "output.compare", open_check(scene->output.compare, err), err));
     if (scene->output.history) {
         TRY(open_history(simulation, err));
         recorders_add(!def.given                     ? &simulation->recorders
@@ -162,6 +165,8 @@ bool output_draw_figures(Simulation *simulation, Error *err)
         if (has_data(simulation, wanted->name[k])) names[count++] = wanted->name[k];
     if (count == 0) return true;
     PictureRequest request = {.figures = names, .figure_count = count};
+    const char *compare = simulation->scene.output.compare;
+    if (compare[0]) request.style.compare = compare;
     double started = clock_seconds();
     if (!pictures_draw(simulation->folder.path, &request, err)) return false;
     simulation->figures = count;

@@ -322,6 +322,10 @@ static const SceneKey keys[] = {
      .sentence = "true: history.h5 has the steps of the window only; else all."},
     {"output.figures", KEY_NAMES, offsetof(Scene, output.figures), "1", RANGE_ANY, "[]",
      .sentence = "The pictures to draw at the end.", .choices = figure_choices},
+    {"output.compare", KEY_TEXT, offsetof(Scene, output.compare), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "A table of measurements (.csv) that these pictures show beside what is computed, "
+                 "with the misfit."},
 };
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };

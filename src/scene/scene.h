@@ -112,6 +112,7 @@ typedef struct Scene {
         SceneWindow window;
         bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of render's RENDER_FIGURES
+        char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file
     } output;
     bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
     int32_t line[SCENE_KEYS_MAX];   // where, in the file `path`, from 1; 0: not in that file

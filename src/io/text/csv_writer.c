@@ -83,6 +83,14 @@ void csv_number(CsvWriter *csv, double value)
     csv_text(csv, digits);
 }
 
+void csv_rounded(CsvWriter *csv, double value, int digits)
+{
+    char text[40] = "";
+    if (isfinite(value)) snprintf(text, sizeof text, "%.*g", digits, value);
+    begin_cell(csv);
+    put(csv, text, strlen(text));
+}
+
 void csv_end_row(CsvWriter *csv)
 {
     put(csv, "\n", 1);
