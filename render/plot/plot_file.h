@@ -23,6 +23,7 @@
 //         line: thin                          # or solid, dashed, none
 //     inset: {place: [0.5, 0.05, 0.97, 0.5], x: ..., y: ..., series: [...]}   # of the frame
 //
+//     x: {column: load.pressure}              # what the column is called in page.compare's table
 //     page: {style: columns, height: 60, legend: none}   # an option of `amontons render`; what the
 //                                             # command is given goes before it
 //

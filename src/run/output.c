@@ -91,9 +91,9 @@ static bool open_fields(Simulation *simulation, Error *err)
                      .at_events = scene->output.fields_at_events};
     if (scene->output.fields_film) {
         double V = fabs(scene->rod.velocity), U = scene->time.until_U;
-        double way = U > 0 ? U : V * scene->time.until_t;
+        double way = U > 0 ? U : V * scene->time.until_t, step = scene->output.film_step;
         def.at_events = true;
-        def.every_U = def.every_slip = way / FILM_PARTS;
+        def.every_U = def.every_slip = step > 0 ? step : way / FILM_PARTS;
     }
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));

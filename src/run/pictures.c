@@ -5,6 +5,7 @@
 #include "base/apart.h"
 #include "base/module.h"
 #include "io/text/picture_options.h"
+#include "run/film_fields.h"
 #include "render/render.h"
 
 #include <errno.h>
@@ -86,7 +87,16 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
                       .stop = request->stop,
                       .read = film_apart,
                       .context = &film};
-    return check_folder(folder, err) && apart_do(&work, err);
+    FilmFields fields = {0};
+    TRY(check_folder(folder, err));
+    if (request->fields) {
+        TRY(film_fields_make(folder, request, &fields, err));
+        film.folder = fields.folder;
+    }
+    TRY(apart_do(&work, err));
+cleanup:
+    film_fields_remove(&fields);
+    return error_is_clean(err);
 }
 
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
@@ -95,11 +105,6 @@ bool amontons_render_plot_file(const char *plot, const char *picture, const Pict
     RenderPlotFunction render =
         (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
     TRY(render);
-    if (style && style->compare)
-        FAIL(err, ERROR_INPUT,
-             "%s: measurements are drawn beside the force or slip-map of a result: compare goes "
-             "with a result's folder",
-             plot);
     TRY(render(plot, picture, style, err));
 cleanup:
     return error_is_clean(err);

@@ -110,6 +110,7 @@ typedef struct Scene {
         double fields_every_U, fields_every_t;
         bool fields_every_step, fields_at_events, fields_film;
         SceneWindow window;
+        double film_step;   // not a key: between two files of a film, length; 0: by time.until
         bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of render's RENDER_FIGURES
         char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file

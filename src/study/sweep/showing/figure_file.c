@@ -22,16 +22,21 @@ cleanup:
 
 bool figure_begin(Figure *figure, Error *err)
 {
-    char path[AMONTONS_PATH_SIZE];
+    char path[AMONTONS_PATH_SIZE], name[AMONTONS_PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
         FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
     TRY(folder_make(path, err));
-    TRY(figure_path(figure, "json", path, err));
-    TRY((figure->json = json_create(path, err)));
+    TRY(figure_path(figure, "json", name, err));
+    TRY((figure->json = json_create(name, err)));
     json_begin_object(figure->json, NULL);
     json_text(figure->json, "title", figure->title);
     json_begin_object(figure->json, "page");   // what it shows is said where it is printed
     json_text(figure->json, "title", "none");
+    if (figure->compare) {
+        char file[AMONTONS_PATH_SIZE];
+        folder_relative(path, figure->compare, file, sizeof file);
+        json_text(figure->json, "compare", file);
+    }
     json_end(figure->json);
 cleanup:
     return error_is_clean(err);
@@ -98,6 +103,7 @@ void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *la
     json_begin_object(figure->json, name);
     json_text(figure->json, "label", label->words);
     if (label->unit) json_text(figure->json, "unit", label->unit);
+    if (label->column) json_text(figure->json, "column", label->column);
     if (scale) json_text(figure->json, "scale", scale);
     json_end(figure->json);
 }

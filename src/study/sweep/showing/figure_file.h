@@ -14,6 +14,7 @@
 typedef struct Figure {
     const char *folder, *name, *title;   // of the sweep; "ranking"; of the study
     const PictureStyle *style;   // NULL: the usual one
+    const char *compare;   // a table of measurements, from the working folder; NULL: none
     JsonWriter *json;
     ArrayFile *arrays;   // owned; NULL: all stands in the text
     int32_t written, stored;   // numbers in the text; arrays in the file

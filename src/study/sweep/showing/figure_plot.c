@@ -38,7 +38,7 @@ static bool folder_of(const char *beside, const char *given, char folder[AMONTON
     int length = slash && given[0] != '/' ? (int)(slash - beside) + 1 : 0;
     if (snprintf(folder, AMONTONS_PATH_SIZE, "%.*s%s", length, length ? beside : "", given) >=
         AMONTONS_PATH_SIZE)
-        FAIL(err, ERROR_INPUT, "with: the path %.60s is too long", given);
+        FAIL(err, ERROR_INPUT, "plot: the path %.60s is too long", given);
 cleanup:
     return error_is_clean(err);
 }
@@ -352,7 +352,9 @@ static bool write_axes(PlotFigure *self, Error *err)
         const Quantity *quantity = source->quantity[key];
         if (self->is_map && !plot->log_given)
             TRY(values_suit_log(quantity->values, source->table.count, &is_log[key], err));
-        figure_write_axis(&self->figure, plot_key_name(key), &quantity->label,
+        QuantityLabel label = quantity->label;
+        label.column = plot->text[key] + strspn(plot->text[key], "= ");
+        figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }
     if (source->quantity[PLOT_COLOR])
@@ -408,10 +410,15 @@ cleanup:
 bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plot,
                     const PictureStyle *style, Error *err)
 {
+    char compare[AMONTONS_PATH_SIZE];
     PlotFigure self = {.figure = {.folder = folder, .name = plot->name, .style = style},
                        .plot = plot,
                        .is_map = plot->text[PLOT_COLOR][0]};
     TRY(open_sources(&self, folder, beside, err));
+    if (plot->compare[0]) {
+        TRY(folder_of(beside, plot->compare, compare, err));
+        self.figure.compare = compare;
+    }
     bool of_study = beside && plot->with_count == 0;   // else its title says something else
     self.figure.title = of_study ? self.sources[0].table.title : "";
     write_figure(&self, err);

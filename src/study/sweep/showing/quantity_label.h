@@ -10,6 +10,7 @@ enum { QUANTITY_LABEL_SIZE = 90 };
 typedef struct QuantityLabel {
     char words[QUANTITY_LABEL_SIZE];
     const char *unit;   // of SI, to be written with the prefix that suits; NULL: none
+    const char *column;   // what tables of measurements call it; NULL: no name of its own
 } QuantityLabel;
 
 const char *label_last_word(const char *key);   // "length" of mesh.set.length
