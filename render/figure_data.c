@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DIGITS = 9, COLUMNS_MAX = 6 };
+enum { COLUMNS_MAX = 6 };
 
 // Names may say " (m)" where the result is in SI.
 typedef struct DataColumn {
@@ -33,7 +33,7 @@ static bool write_columns(const char *path, const DataColumn *columns, int32_t c
     csv_end_row(csv);
     for (int64_t row = 0; row < rows; ++row) {
         for (int32_t k = 0; k < count; ++k)
-            csv_rounded(csv, columns[k].values[row] * columns[k].factor, DIGITS);
+            csv_rounded(csv, columns[k].values[row] * columns[k].factor);
         csv_end_row(csv);
     }
     return csv_finish(csv, err);

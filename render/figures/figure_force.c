@@ -158,7 +158,7 @@ static void peaks_draw(const Page *page, const ResultView *view, const Axes *axe
     }
 }
 
-// What the inset shows, and lines to the corners of it: all in one colour.
+// What the inset shows, and lines from it to below the inset's numbers: all in one colour.
 static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 {
     Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page->point};
@@ -167,9 +167,9 @@ static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
     Box box = {from.x, from.y, to.x, to.y};
     draw_outline(page->canvas, &stroke, &box);
     stroke.width *= 0.6;
-    draw_segment(page->canvas, &stroke, from, (Point){inset->box.left, inset->box.bottom});
-    draw_segment(page->canvas, &stroke, (Point){to.x, from.y},
-                 (Point){inset->box.right, inset->box.bottom});
+    double foot = inset->box.bottom + axes_bottom_margin(inset) * page->point;
+    draw_segment(page->canvas, &stroke, from, (Point){inset->box.left, foot});
+    draw_segment(page->canvas, &stroke, (Point){to.x, from.y}, (Point){inset->box.right, foot});
 }
 
 // Where the zoom lies in what is shown, and the style does not forbid it.
@@ -178,7 +178,8 @@ static bool has_inset(const ResultView *view, const PictureStyle *style, const W
     Zoom zoom = zoom_choose(view);
     bool none = style->inset && strcmp(style->inset, "none") == 0;
     double range[2];
-    return !none && zoom.found && zoom.U_low >= window->low && zoom.U_high <= window->high &&
+    return !none && zoom.found && zoom.precursors > 0 && zoom.U_low >= window->low &&
+           zoom.U_high <= window->high &&
            mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range) && range[1] > range[0];
 }
 

@@ -134,6 +134,7 @@ Zoom zoom_choose(const ResultView *view)
     result_view_range(view, &low, &high);
     zoom.U_start = cycle.U_start;
     zoom.U_slide = cycle.U_slide;
+    zoom.precursors = cycle.bounded;
     zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
     zoom.U_high = fmin(high, cycle.U_slide + PAD * span);
     return zoom;

@@ -54,7 +54,7 @@ typedef struct PlotMap {
     int32_t count;
     double *x, *y, *value;   // [count] owned, as the next two; value NaN: no answer
     double *contour;   // [count] or NULL: lines at equal values of this
-    double *open;   // [count] or NULL: 1 where the point's mark is open
+    double *open;   // [count] or NULL: 1 where the point's mark is open, 2: a square
 } PlotMap;
 
 typedef struct PlotPanel {

@@ -151,19 +151,32 @@ bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
 }
 
 // One entry: one symbol has one meaning, of which there may be several reasons.
-bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err)
+uint32_t figure_no_error(const WordList *names)
 {
-    int32_t all = __builtin_popcount(doubts), shown = 0;
+    for (int32_t k = 0; k < names->count; k++)
+        if (strcmp(names->words[k], DOUBT_NO_ERROR) == 0) return (uint32_t)1 << k;
+    return 0;
+}
+
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
+                         Error *err)
+{
+    uint32_t no_error = figure_no_error(names), warned = doubts & ~no_error;
+    int32_t all = __builtin_popcount(warned), shown = 0;
     char label[LABEL_SIZE] = "open: ";
     for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
         size_t used = strlen(label);
-        if (!(doubts >> k & 1)) continue;
+        if (!(warned >> k & 1)) continue;
         bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
         snprintf(label + used, sizeof label - used, "%s%.70s%s", shown > 1 ? ", or " : "",
                  names->words[k], has_more ? ", others" : "");
     }
     Curve entry = {.label = label, .line = "none", .marker = "circle"};
+    Curve bare = {.label = map ? DOUBT_NO_ERROR : "without a bar: " DOUBT_NO_ERROR,
+                  .line = "none",
+                  .marker = map ? "square" : NULL};
     if (shown > 0) TRY(figure_write_entry(figure, &entry, err));
+    if (doubts & no_error) TRY(figure_write_entry(figure, &bare, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -4,6 +4,7 @@
 #define AMONTONS_STUDY_SWEEP_SHOWING_QUANTITY_LABEL_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 enum { QUANTITY_LABEL_SIZE = 90 };
 
@@ -14,6 +15,8 @@ typedef struct QuantityLabel {
 } QuantityLabel;
 
 const char *label_last_word(const char *key);   // "length" of mesh.set.length
+// "~{P}_{ext}" of load.pressure; a key without symbol is its last word. size: of `symbol`.
+void label_symbol(const char *key, char *symbol, size_t size);
 // The paper's symbol where there is one, with render/canvas/text's marks. name: as `record` has it.
 QuantityLabel label_of_record(const char *name);
 // "pressure" and "Pa", or "pressure / E" in normalised units.
