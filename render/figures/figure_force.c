@@ -178,7 +178,7 @@ static bool has_inset(const ResultView *view, const PictureStyle *style, const W
     Zoom zoom = zoom_choose(view);
     bool none = style->inset && strcmp(style->inset, "none") == 0;
     double range[2];
-    return !none && zoom.found && zoom.precursors > 0 && zoom.U_low >= window->low &&
+    return !none && zoom.found && !zoom.smooth && zoom.U_low >= window->low &&
            zoom.U_high <= window->high &&
            mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range) && range[1] > range[0];
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How fast the front of a sliding runs, over x: between stations a twentieth of the block apart, by
-// the times at which slip there first gets faster than twice the rod, as record/front_path has them.
+// the times at which slip there first gets faster than twice the rod, as in record/front_path.
 // Where slip was slow before the front is one of speeding up, and may run faster than any wave.
 #include "render/figures/figures.h"
 

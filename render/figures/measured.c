@@ -71,16 +71,24 @@ static int32_t find_bare(const CsvTable *table, const char *name)
     return find_column(table, name, &unit, &length);
 }
 
-// How many of the result's units one `unit` is. Normalised results have none.
-static bool unit_factor(const char *name, const char *unit, size_t length, Dimension dimension,
-                        const ResultView *view, double *factor, Error *err)
+// A quantity with a unit behind it, as a heading has it.
+typedef struct Heading {
+    const char *name, *unit;
+    size_t length;   // of the unit
+    Dimension dimension;
+} Heading;
+
+// How many of the result's units one is. Normalised results have none.
+static bool unit_factor(const Heading *heading, const ResultView *view, double *factor, Error *err)
 {
+    const char *name = heading->name, *unit = heading->unit;
+    size_t length = heading->length;
     *factor = 1;
     bool bare = length == 0 || memchr(unit, '_', length);   // L_0, t_0, L_0/t_0
     if (bare && !view->si) return true;
     if (bare) FAIL(err, ERROR_INPUT, "%s needs a unit beside a result in SI, as in U (mm)", name);
     for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k) {
-        if (UNITS[k].dimension != dimension || strlen(UNITS[k].name) != length ||
+        if (UNITS[k].dimension != heading->dimension || strlen(UNITS[k].name) != length ||
             strncmp(UNITS[k].name, unit, length) != 0)
             continue;
         *factor = UNITS[k].factor;
@@ -114,8 +122,9 @@ static bool find_quantity(const CsvTable *table, const char *name, Dimension dim
         return true;
     }
     column->index = find_column(table, name, &unit, &length);
+    const Heading heading = {name, unit, length, dimension};
     return column->index < 0 || dimension == NO_DIMENSION ||
-           unit_factor(name, unit, length, dimension, view, &column->factor, err);
+           unit_factor(&heading, view, &column->factor, err);
 }
 
 static Column find_ratio(const CsvTable *table)

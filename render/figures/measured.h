@@ -3,7 +3,7 @@
 // figures.
 //
 // The first line names the columns, with units behind them; columns of other names are left alone
-// (a `source`, a remark). Which columns there are says what was measured, and which figure shows it:
+// (a `source`, a remark). Which columns there are says what was measured, and which figure has it:
 //
 //     U (mm), F_T/F_N, error          force: the load ratio over the rod's way, or over `t (s)`
 //     U/L, x/L                         slip-map: how far slip has come

@@ -32,8 +32,8 @@
 //
 //     color: {label: "~{\u03bc}_{M}"}             # or with unit and range, as an axis
 //     contours: {label: "~{l}_{c} / ~{L}"}     # lines at handy values
-//     map: {x: [...], y: [...], value: [...], contour: [...], open: [0, 1, 2, ...]}   # 1: a ring, 2:
-//                                             # a square around the point
+//     map: {x: [...], y: [...], value: [...], contour: [...], open: [0, 1, 2, ...]}
+//                                             # open 1: a ring, 2: a square around the point
 //
 // Several panels with the same axes on one page; what stands beside `panels` is drawn in each:
 //

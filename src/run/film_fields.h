@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a film shows of the block between two times that were stored: the run of a result is computed
-// once more, and fields are kept while the rod, or the fastest point of the contact, moves on by as
-// little as the film's frames are apart. Called by run/pictures.
+// What a film shows of the block between two times that were stored: the run of a result is
+// computed once more, and fields are kept while the rod, or the fastest point of the contact, moves
+// on by as little as the film's frames are apart. Called by run/film.
 #ifndef AMONTONS_RUN_FILM_FIELDS_H
 #define AMONTONS_RUN_FILM_FIELDS_H
 
