@@ -219,9 +219,9 @@ static void draw_title(const FilmPage *page)
 {
     double point = page->base.point;
     TextStyle style = {.size = TITLE_SIZE * point, .color = INK};
-    if (page->def.view->title && page->def.view->title[0])
+    if (page->def.title[0])
         text_draw(page->base.text, &style, (Point){2 * MARGIN * point, BASELINE * point},
-                  page->def.view->title);
+                  page->def.title);
 }
 
 static void draw_bar(const FilmPage *page)
