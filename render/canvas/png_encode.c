@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <setjmp.h>
+#include <string.h>
 
 // Large areas of one colour: a low level is five times as fast as the default and 10 % larger.
 // A palette has few bytes to begin with, and is for a page that is sent around.
