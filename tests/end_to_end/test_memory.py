@@ -76,7 +76,7 @@ class Memory(Driven):
         """k = 0.67 k_c, the fourth cycle."""
         for evolution in ("ageing", "slip"):
             scene = self.write(rate_state(slip_distance=0.01, evolution=evolution), 1.7)
-            found = self.run_scene(evolution, "time.tolerance=0.02", scene=scene)
+            found = self.run_scene(evolution, scene=scene)
             law = rigid.RateState(0.01, 0.015, 0.3, V, 0.01, slip_law=evolution == "slip")
             inside = found["time"] > 12500
             T = found["time"][inside]
