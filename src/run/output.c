@@ -58,6 +58,7 @@ static bool open_history(Simulation *simulation, Error *err)
         .units = scene->units == UNITS_SI ? "si" : "normalised",
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
+        .remembers = simulation->contact.state != NULL,
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_TRAILING] = simulation->model.scales.trailing,

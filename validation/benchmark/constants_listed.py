@@ -139,10 +139,13 @@ NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
     "contact/path_bounds.c": {"CONDITIONS": "a node has no more"},
     "contact/path_bounds.h": {"PATH_AT_END": "a name", "PATH_AT_NO_BOUND": "a name"},
+    "contact/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
+    "contact/friction_memory.c": {
+        "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's, from below: all digits",
+        "MANY": "a first guess beyond the weakening, as SPENT"},
     "contact/friction_law.c": {
         "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
                 "tests/property/test_contact_problems.c",
-        "KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name",
         "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
     "contact/friction_look.c": {
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
@@ -200,6 +203,7 @@ NOT_A_CHOICE = {
     "reduction/responses.c": {"FAR": "condition of two equations", "ALL_PRODUCTS": "K, C, M"},
     "reduction/factored_points.c": {"SLOTS_MAX": "factors in memory at once"},
     "reduction/reduction_block.c": {"GRID": "single precision that a cache stores"},
+    "record/observation.c": {"CREEP": "of V: what counts as at rest where nothing ever sticks; no scene of the table has such a law"},
     "record/events.c": {"RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
                         "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},

@@ -40,8 +40,12 @@ static int result_write(void **state)
 {
     static const double x[NODES] = {0, 0.25, 0.5, 0.75, 1}, pad[NODES] = {0, 0, 1, 1, 1};
     const double kind[2] = {1, 2}, U_start[2] = {0.9, 1}, U_stop[2] = {0.91, 1.01};
-    ResultHead head = {
-        .title = "t", .units = "si", .version = "0", .rod_on_spring = true, .contact_count = NODES};
+    ResultHead head = {.title = "t",
+                       .units = "si",
+                       .version = "0",
+                       .rod_on_spring = true,
+                       .remembers = true,
+                       .contact_count = NODES};
     Error err = {0};
     (void)state;
     for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : x;
