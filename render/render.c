@@ -4,7 +4,6 @@
 
 #include "io/files/folder.h"
 #include "render/canvas/foot.h"
-#include "render/figures/block.h"
 #include "render/figures/figures.h"
 #include "render/panels.h"
 
@@ -221,7 +220,9 @@ static bool is_there(FigureId id, const char *folder, const PictureRequest *requ
                      const ResultView *view)
 {
     const char *of = request->field.of;
-    if (id == FIGURE_FIELD) return has_fields(folder) && (!of || block_quantity_known(of) || !figure_contact_plane_shows(of));
+    if (id == FIGURE_FIELD)
+        return has_fields(folder) &&
+               (!of || figure_field_shows(of) || !figure_contact_plane_shows(of));
     if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(of))) return false;
     return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
 }

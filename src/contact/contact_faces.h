@@ -11,7 +11,8 @@ typedef struct ContactFaces {
     int32_t corner_count;
     double *corner;   // [corner_count * 2] x and y of the points that are no contact nodes; owned
     int32_t count, width;   // faces; room for the points of one
-    int32_t *point;   // [count * width] contact node, or behind them the corners; -1: no more; owned
+    int32_t
+        *point;   // [count * width] contact node, or behind them the corners; -1: no more; owned
 } ContactFaces;
 
 // Of a mesh in the plane: none.

@@ -114,9 +114,8 @@ static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error 
 
 bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
 {
-    *files = (FieldFiles){.mesh = mesh,
-                          .contact_count = interface->contact_count,
-                          .tangents = mesh->dim - 1};
+    *files = (FieldFiles){
+        .mesh = mesh, .contact_count = interface->contact_count, .tangents = mesh->dim - 1};
     TRY(contact_faces_build(mesh, interface, &files->faces, err));
     files->line_point_count = interface->contact_count + files->faces.corner_count;
     TRY(nodal_stress_create(mesh, &files->stress, err));
@@ -187,7 +186,8 @@ static void fill_corners(const FieldFiles *files, int32_t components, double *va
         const int32_t *points = faces->point + (int64_t)f * faces->width;
         int32_t corners = contact_face_points(faces, f) / 2;   // of a face with mid-sides
         for (int32_t k = 0; k < corners; k++) {
-            int64_t beside = points[corners + k], before = points[corners + (k + corners - 1) % corners];
+            int64_t beside = points[corners + k],
+                    before = points[corners + (k + corners - 1) % corners];
             if (points[k] < files->contact_count) continue;
             for (int32_t d = 0; d < components; d++)
                 values[components * points[k] + d] =
@@ -203,7 +203,8 @@ static FieldArray line_array(const FieldFiles *files, const char *name, const do
     int32_t components = count > 1 ? 3 : 1;
     for (int64_t i = 0; i < files->contact_count; i++)
         for (int32_t d = 0; d < components; d++)
-            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i] : 0;
+            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i]
+                                                   : 0;
     fill_corners(files, components, values);
     return (FieldArray){.name = name, .components = components, .values = values};
 }

@@ -47,8 +47,8 @@ void field_files_destroy(FieldFiles *files);
 
 bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
                             Error *err);
-// line: [field_line_columns][contact_count]: slip rate, displacement along the floor, gap, pressure,
-// shear stress, contact density.
+// line: [field_line_columns][contact_count]: slip rate, displacement along the floor, gap,
+// pressure, shear stress, contact density.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
                             Error *err);
 

@@ -20,7 +20,7 @@ typedef struct Observation {
     double mu;   // F_T / F_N, F_N the applied load
     double
         front;   // x to which slip reaches without a gap from the trailing edge, along the line of
-        // the contact
+    // the contact
     double trailing;   // x of the block's trailing end: l is front - trailing
     double max_slip_rate;   // velocity
     bool certified;

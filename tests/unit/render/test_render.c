@@ -132,7 +132,8 @@ static void unknown_figures_are_named(void **state)
     assert_false(amontons_render(folder, &request, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
-    assert_non_null(strstr(err.message, "force, slip-map, contact-density, contact-plane, field, field-strip"));
+    assert_non_null(
+        strstr(err.message, "force, slip-map, contact-density, contact-plane, field, field-strip"));
 }
 
 int main(void)
