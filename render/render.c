@@ -5,7 +5,6 @@
 #include "io/files/folder.h"
 #include "render/canvas/foot.h"
 #include "render/figure_data.h"
-#include "render/figures/block.h"
 #include "render/figures/figures.h"
 #include "render/panels.h"
 
@@ -244,7 +243,7 @@ static bool is_there(FigureId id, const char *folder, const PictureRequest *requ
     const char *of = request->field.of;
     if (id == FIGURE_FIELD)
         return has_fields(folder) &&
-               (!of || block_quantity_known(of) || !figure_contact_plane_shows(of));
+               (!of || figure_field_shows(of) || !figure_contact_plane_shows(of));
     if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(of))) return false;
     return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
 }

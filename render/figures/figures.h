@@ -21,6 +21,7 @@ typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error 
 
 // One field of the block at one time.
 bool figure_field(Page *page, const FigureInput *input, Error *err);
+bool figure_field_shows(const char *quantity);
 // The same, the velocity where none is named, in up to six frames of one sliding.
 bool figure_strip(Page *page, const FigureInput *input, Error *err);
 

@@ -5,7 +5,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "contact/contact_faces.h"
 #include "io/files/open_file.h"
 #include "run/pictures.h"
 #include "run/warnings.h"
@@ -27,14 +26,11 @@ static char *join_pad_names(const Interface *interface, Error *err)
     return text;
 }
 
-// faces and *points [faces->count * faces->width] are the caller's. A block whose mesh was not read
-// has none.
-static bool add_faces(const Model *model, ResultHead *head, ContactFaces *faces, double **points,
-                      Error *err)
+// *points: [count * width] of the faces, as numbers; the caller's.
+static bool add_faces(const ContactFaces *faces, ResultHead *head, double **points, Error *err)
 {
-    if (model->mesh.dim < 3) return true;
-    TRY(contact_faces_build(&model->mesh, &model->interface, faces, err));
     int64_t count = (int64_t)faces->count * faces->width;
+    if (count == 0) return true;
     TRY(*points = NEW_ARRAY(double, count, err));
     for (int64_t k = 0; k < count; k++) (*points)[k] = faces->point[k];
     head->faces[FACES_NODES].rows = faces->count;
@@ -84,16 +80,14 @@ static bool open_history(Simulation *simulation, Error *err)
         head.numbers[NUMBER_ROD_HIGH] = scene->rod.whole ? face[1] : middle + 0.5 * width;
         if (scene->rod.breadth > 0) head.numbers[NUMBER_ROD_BREADTH] = scene->rod.breadth;
     }
-    ContactFaces faces = {0};
     double *points = NULL;
     char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));
-    TRY(add_faces(&simulation->model, &head, &faces, &points, err));
+    TRY(add_faces(&model->interface.faces, &head, &points, err));
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->contact, &simulation->history, err));
 cleanup:
-    contact_faces_destroy(&faces);
     memory_free(points);
     memory_free(pads);
     return error_is_clean(err);

@@ -107,7 +107,8 @@ typedef enum ResultColumns {
     X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
       "lowest z of the strip that the rod pushes; absent: none")                                   \
     X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \
-    X(NUMBER_ROD_BREADTH, "rod_breadth", "length", "how broad it is in space; absent: as the face") \
+    X(NUMBER_ROD_BREADTH, "rod_breadth", "length",                                                 \
+      "how broad it is in space; absent: as the face")                                             \
     X(NUMBER_MU_M, "mu_macroscopic", "1", "mu_M; absent until known")                              \
     X(NUMBER_L_C, "critical_length", "length",                                                     \
       "l_c from the dynamics; absent until known, and with several pads")

@@ -84,7 +84,8 @@ static double length_of(const SurfaceParts *lines)
 // Of the cut `words`: area and outline, and the field at every corner. Sides of wedges that are no
 // longer flat are cut into triangles from either side by another diagonal: a crack of 4e-4
 // of area and outline here, none where they are flat.
-static void check_with(double distortion, ElementKind kind, const char *words, double area, double outline)
+static void check_with(double distortion, ElementKind kind, const char *words, double area,
+                       double outline)
 {
     Error err = {0};
     Surface surface;
@@ -93,10 +94,8 @@ static void check_with(double distortion, ElementKind kind, const char *words, d
     bool cracks = kind == ELEMENT_WEDGE6 && distortion > 0;
     assert_true(space_cut_read(words, &cut, &err));
     assert_true(surface_build(&block, &cut, false, &surface, &err));
-    assert_near(element_name(kind), area_of(&surface.triangles), area,
-                cracks ? 2e-3 : 1e-12);
-    assert_near(element_name(kind), length_of(&surface.outline), outline,
-                cracks ? 1e-2 : 1e-12);
+    assert_near(element_name(kind), area_of(&surface.triangles), area, cracks ? 2e-3 : 1e-12);
+    assert_near(element_name(kind), length_of(&surface.outline), outline, cracks ? 1e-2 : 1e-12);
     for (int64_t k = 0; k < 3 * (int64_t)surface.triangles.count; ++k) {
         const SurfacePoint *point = &surface.triangles.points[k];
         assert_near("field", point->value, field_at(point->was), 1e-12);
@@ -195,8 +194,10 @@ static void the_nearer_hides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_has_its_boundary),     cmocka_unit_test(one_plane_leaves_a_box),
-        cmocka_unit_test(three_planes_take_a_corner), cmocka_unit_test(cuts_are_checked),
+        cmocka_unit_test(a_box_has_its_boundary),
+        cmocka_unit_test(one_plane_leaves_a_box),
+        cmocka_unit_test(three_planes_take_a_corner),
+        cmocka_unit_test(cuts_are_checked),
         cmocka_unit_test(the_camera_stands_before_the_block),
         cmocka_unit_test(the_nearer_hides),
     };
