@@ -196,14 +196,23 @@ static void test_shares(void **state)
     mesh_destroy(&mesh);
 }
 
-// As many as there are in the plane, to the bit; of 20 x 20 over a face 20.
+// As many as there are in the plane, to the bit; of 20 x 20 over a square 20, of 20 x 5 over a face
+// four times as long as broad 20.
 static void test_nodes_along(void **state)
 {
     (void)state;
+    enum { ALONG = 20 };
+    double x[ALONG * ALONG], y[ALONG * ALONG];
     for (int32_t count = 1; count < 2000; count++)
         assert_true(interface_nodes_along(&(Interface){.dim = 2, .contact_count = count}) == count);
-    assert_near("in space", interface_nodes_along(&(Interface){.dim = 3, .contact_count = 400}), 20,
-                1e-14);
+    for (int32_t across = 5; across <= ALONG; across += ALONG - 5) {
+        for (int32_t k = 0; k < ALONG * across; k++) {
+            x[k] = k / across / (ALONG - 1.0);
+            y[k] = k % across / (across - 1.0) * across / ALONG;
+        }
+        Interface face = {.dim = 3, .contact_count = ALONG * across, .x = x, .y = y};
+        assert_near("in space", interface_nodes_along(&face), ALONG, 1e-12);
+    }
 }
 
 // The bound at which a soft node feels no force, and the softness of half a share.
