@@ -64,7 +64,7 @@ def answer(study, key, settings, words):
 def compute(words):
     path = words.output / "papers.jsonl"
     rows = {(row["study"], str(row["key"])): row for row in map(json.loads, path.read_text().splitlines())} if path.exists() else {}
-    for study in words.only or STUDIES:
+    for study in () if words.page else words.only or STUDIES:
         for key, settings in STUDIES[study][1].items():
             if (study, str(key)) not in rows:
                 rows[study, str(key)] = answer(study, key, settings, words)
@@ -114,6 +114,7 @@ def main():
     parser.add_argument("--bar", type=float, default=5, help="%% of mu_M")
     parser.add_argument("--within", type=float, default=120, help="s for a point")
     parser.add_argument("--only", nargs="+", choices=STUDIES)
+    parser.add_argument("--page", action="store_true", help="write the page from what was computed, and compute nothing")
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent)
     words = parser.parse_args()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
