@@ -73,6 +73,11 @@ class Optimise(unittest.TestCase):
         self.assertEqual(int(re.search(r"(\d+) points computed", anew)[1]), len(self.table("out")))     # each, and once
         self.assertTrue((self.folder / "out/figures/course.png").stat().st_size > 10000)
         self.assertTrue((self.folder / "out/figures/along_load.pressure.png").exists())
+        done = subprocess.run([PROGRAM, "report", "out", "-o", "page.html"], cwd=self.folder, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "page.html").read_text()     # its answer, the mesh of the best, its course, its command
+        for wanted in ("Report of a search", "the highest of", "src='data:image/png;base64,", "best so far", "optimise STUDY.yaml"):
+            self.assertIn(wanted, page)
 
     def test_over_points_of_vary(self):
         """A design is worth what its worst point is; the table has a row for each."""
