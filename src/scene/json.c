@@ -38,6 +38,7 @@ static void write_tractions(const Scene *scene, JsonWriter *json, const char *na
     json_end(json);
 }
 
+// The word of the scene.
 static const char *support_direction(const SceneSupport *support)
 {
     if (support->x && support->z) return support->y ? "all" : "both";

@@ -159,6 +159,35 @@ TEST(a_block_of_rows_is_the_same_as_single_ones)
     memory_free(times);
 }
 
+// Whole arrays, and members of structs that stand side by side.
+TEST(a_series_is_written_at_once)
+{
+    Error err = {0};
+    double packed[3][4] = {{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 10, 11, 12}}, *found = NULL;
+    const ArraySeries whole = {"whole", ARRAY_FLOAT64, 4, "1", "all"};
+    const ArraySeries part = {"part", ARRAY_FLOAT64, 2, "1", "the middle of each"};
+    ArrayFile *file = array_file_create(path_of("once.h5"), &err);
+    assert_clean(&err);
+    assert_true(array_file_write(file, &whole, packed[0], 0, 3, &err));
+    assert_true(array_file_write(file, &part, &packed[0][1], 4, 3, &err));
+    assert_true(array_file_close(file, &err));
+    file = array_file_open(path_of("once.h5"), &err);
+    assert_clean(&err);
+    for (int32_t columns = 4; columns > 0; columns -= 2) {
+        int64_t rows = 0;
+        int32_t width = 0;
+        array_file_read(file, columns == 4 ? "whole" : "part", &found, &rows, &width, &err);
+        assert_clean(&err);
+        assert_int_equal(rows, 3);
+        assert_int_equal(width, columns);
+        for (int32_t k = 0; k < 3 * columns; k++)
+            assert_true(found[k] == packed[k / columns][k % columns + (columns == 2)]);
+        memory_free(found);
+    }
+    array_file_close(file, &err);
+    unlink(path_of("once.h5"));
+}
+
 // What a reader with nothing but HDF5 sees: types, shapes, chunks, filters, attributes.
 TEST(the_stored_form_is_as_stated)
 {
