@@ -61,6 +61,31 @@ static void numbers_keep_their_bits(void **state)
     assert_string_equal(at, "");
 }
 
+// To half of the ninth digit, whatever their size, and in a form that spreadsheets read.
+static void rounded_numbers_have_nine_digits(void **state)
+{
+    (void)state;
+    static const double values[] = {
+        0,     1,      -0.38,        1.0 / 3,     0.00012345678912, 1e-5,
+        1e300, -1e-80, 123456789.49, 9999999999., 0.99999999999,    1e-300};
+    enum { COUNT = sizeof values / sizeof *values };
+    Error err = {0};
+    char text[400], *at = text;
+    CsvWriter *csv = csv_create(path, &err);
+    for (int32_t k = 0; k < COUNT; k++) csv_rounded(csv, values[k]);
+    csv_rounded(csv, NAN);
+    csv_end_row(csv);
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    assert_null(strstr(text, "inf"));
+    assert_int_equal(strncmp(text, "0.00000000,1.00000000,-0.380000000,0.333333333,", 47), 0);
+    for (int32_t k = 0; k < COUNT; k++, at++) {
+        double value = fabs(values[k]) < 1e-290 ? 0 : values[k];
+        assert_true(fabs(strtod(at, &at) - value) <= 5.01e-9 * fabs(value));
+        assert_int_equal(*at, ',');
+    }
+}
+
 // Far more than is kept back before it is written.
 static void long_files_are_whole(void **state)
 {
@@ -106,6 +131,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cells_are_quoted_where_they_must_be),
                                        cmocka_unit_test(numbers_keep_their_bits),
+                                       cmocka_unit_test(rounded_numbers_have_nine_digits),
                                        cmocka_unit_test(long_files_are_whole),
                                        cmocka_unit_test(nothing_is_left_of_an_abandoned_one)};
     int file = mkstemp(path);

@@ -147,6 +147,25 @@ static void heat_shows_levels_and_holes(void **state)
     memory_free(pixels);
 }
 
+// Every level is the table's, the nearest one; NaN is a hole.
+static void heat_is_exact(void **state)
+{
+    (void)state;
+    enum { COUNT = 100 };
+    uint8_t map[3 * MAP_SIZE];
+    float values[COUNT];
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
+    for (int32_t k = 0; k < COUNT; ++k) values[k] = (float)k / 99;
+    values[7] = NAN;
+    canvas_set_map(canvas, map, BLACK);
+    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, values, COUNT, 1);
+    uint8_t *pixels = pixels_read();
+    for (int32_t k = 0; k < COUNT; ++k)
+        assert_int_equal(pixels[3 * (30 * SIZE + 20 + k)],
+                         k == 7 ? 255 : (int32_t)lround(255.0 * k / 99));
+    memory_free(pixels);
+}
+
 static void a_heat_map_too_large_is_reported(void **state)
 {
     (void)state;
@@ -302,6 +321,7 @@ int main(void)
         CASE(clips_hold),
         CASE(long_lines_are_whole),
         CASE(heat_shows_levels_and_holes),
+        CASE(heat_is_exact),
         CASE(a_heat_map_too_large_is_reported),
         CASE(text_has_width_and_ink),
         CASE(text_turns_and_aligns),
