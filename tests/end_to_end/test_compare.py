@@ -17,7 +17,7 @@ from PIL import Image
 PROGRAM = Path(os.environ["AMONTONS_BIN"]) / "amontons"
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 SCENE = f"""title: A block
-mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 24, nz: 12}}}}
+mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 40, nz: 20}}}}
 material: {{young: 1, poisson: 0.34, density: 1, eta1: 1, eta2: 1}}
 friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
 load: {{pressure: 0.003}}
@@ -112,7 +112,8 @@ class Compared(unittest.TestCase):
         theirs = np.interp(ratios, curve["F_T/F_N"], curve["l/L"])
         away = [np.abs(theirs - self.reached(before["U_stop"], after["U_start"], ratios)).max()
                 for before, after in zip(self.slide, self.slide[1:])]
-        self.assertLess(min(away), 1.1 / 24, "to an element, in one of the cycles")
+        self.assertLess(min(away), 1.1 / 40, "to an element, in one of the cycles")
+        self.assertTrue((np.diff(curve["l/L"]) >= 0).all() and (np.diff(curve["F_T/F_N"]) >= 0).all())
         found, said = self.compare("precursors", "F_T/F_N,l/L,error\n0.2,0.5,0.1\n0.25,0.6,0.1\n")
         self.expect_misfit(said, misfit(found["l"], found["computed"]), misfit(found["l"], found["computed"], 0.1))
         np.testing.assert_allclose(found["computed"], np.interp([0.2, 0.25], curve["F_T/F_N"], curve["l/L"]), atol=1e-6)
@@ -126,7 +127,7 @@ class Compared(unittest.TestCase):
     def test_areas(self):
         """max(0, 1 - |v| / v_c) of the nearest node, linear between steps; what is open has none."""
         row = np.searchsorted(self.U, self.slide[-1]["U_start"])
-        places = [(row, 5), (row + 3, 12), (row + 3, 23), (row - 5, 0)]
+        places = [(row, 5), (row + 3, 12), (row + 3, 39), (row - 5, 0)]
         density = np.where(self.status == 0, 0, np.maximum(0, 1 - np.abs(self.rate) / self.critical))
         expected = np.array([density[r, i] for r, i in places])
         text = "U,x,A/A_0\n" + "".join(f"{self.U[r]:.17g},{self.x[i]},{density[r, i] + 0.01}\n" for r, i in places)
@@ -201,7 +202,7 @@ class Compared(unittest.TestCase):
         self.assertIn("it needs the columns x and y", call(self.folder, "render", "study/hand.yaml", status=2).stderr)
 
     def film(self, name, *words, status=0):
-        done = call(self.folder, "film", "out", "-o", f"{name}/", "--cycle", "--seconds", "4", "--fps", "5", "--size", "640x360",
+        done = call(self.folder, "film", "out", "-o", f"{name}/", "--cycle", "--seconds", "30", "--fps", "5", "--size", "640x360",
                     "--title", "none", *words, status=status)
         return done.stderr if status else [np.asarray(Image.open(path)) for path in sorted((self.folder / name).glob("*.png"))]
 
@@ -211,7 +212,7 @@ class Compared(unittest.TestCase):
         frames = self.film("moving", "--fields")
         self.assertEqual(sorted(path.relative_to(self.folder) for path in (self.folder / "out").rglob("*")), before)
         block = [frame[60:210, 10:300].astype(int) for frame in frames]
-        moved = [np.abs(b - a).max() > 30 for a, b in zip(block, block[1:])]
+        moved = [np.abs(b - a).max() > 0 for a, b in zip(block, block[1:])]
         self.assertGreater(np.mean(moved), 0.8, "every frame but a few shows another state of the block")
         plain = [frame[60:210, 10:300].astype(int) for frame in self.film("plain")]
         self.assertGreater(np.abs(plain[5] - block[5]).max(), 100, "without fields there is none")
