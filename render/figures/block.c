@@ -26,13 +26,6 @@ BlockWords block_words(BlockQuantity quantity)
     return words[quantity];
 }
 
-bool block_quantity_known(const char *name)
-{
-    Error unknown = {0};
-    BlockQuantity quantity = BLOCK_VON_MISES;
-    return block_quantity_find(name, &quantity, &unknown);
-}
-
 bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err)
 {
     char names[200] = "";
@@ -156,8 +149,8 @@ void block_destroy(Block *block)
 // --- quantities ----------------------------------------------------------------------------------
 
 // Which axes a strain or a stress belongs to, in the order of the arrays.
-static const uint8_t strain_axes[2][6][2] = {
-    {{0, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+static const uint8_t strain_axes[2][6][2] = {{{0, 0}, {1, 1}, {0, 1}},
+                                             {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
 // Adds the strain of `vectors` at the nodes of element e to theirs, shear twice.
 static void element_strains(const FieldFrame *frame, int32_t e, const double *vectors,
@@ -179,8 +172,8 @@ static void element_strains(const FieldFrame *frame, int32_t e, const double *ve
                     slope[d][k] += gradient[a][k] * vectors[3 * (int64_t)nodes[a] + d];
         for (int32_t k = 0; k < frame->stresses; ++k) {
             int32_t a = strain_axes[dim - 2][k][0], b = strain_axes[dim - 2][k][1];
-            strain[(int64_t)frame->stresses * nodes[at] + k] +=
-                a == b ? slope[a][a] : slope[a][b] + slope[b][a];
+            strain[(int64_t)frame->stresses * nodes[at] + k] += a == b ? slope[a][a]
+                                                                       : slope[a][b] + slope[b][a];
         }
     }
 }

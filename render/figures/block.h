@@ -20,7 +20,6 @@ typedef struct BlockWords {
     const char *name, *words, *si, *normalised;
 } BlockWords;
 BlockWords block_words(BlockQuantity quantity);
-bool block_quantity_known(const char *name);
 // ERROR_INPUT lists the names. NULL: von_mises.
 bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err);
 
@@ -29,7 +28,8 @@ typedef struct Block {
     double t, U;   // of this time; U by the history
     int64_t row;   // of the history, the nearest step
     double *value;   // [frame.node_count] the quantity
-    double (*place)[2];   // [frame.node_count] (x, z) as drawn, in space as seen by the camera; length
+    double (
+        *place)[2];   // [frame.node_count] (x, z) as drawn, in space as seen by the camera; length
     double (*moved)[3];   // [frame.node_count] (x, y, z) as drawn; NULL in the plane
     double low[3], high[3];   // in space: extent before anything moved
     Camera camera;

@@ -56,9 +56,8 @@ bool contact_map_draw(const Page *page, const ContactPlane *plane, const float *
         if (level[patch->node] < 0) draw_neutral(page, neutral, corner);
         for (int32_t c = 0; c < 6 && level[patch->node] >= 0; ++c) {
             const Point *at = &corner[turn[c]];
-            corners[count++] =
-                (GlCorner){(float)(at->x - axes->box.left), (float)(at->y - axes->box.top),
-                           level[patch->node]};
+            corners[count++] = (GlCorner){(float)(at->x - axes->box.left),
+                                          (float)(at->y - axes->box.top), level[patch->node]};
         }
     }
     if (count > 0) canvas_heat_triangles(page->canvas, &axes->box, corners, count);

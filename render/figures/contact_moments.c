@@ -51,8 +51,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of rapid events the one nearest to `wanted`; without a wish the last that carried the whole block,
-// or else the last.
+// Of rapid events the one nearest to `wanted`; without a wish the last that carried the whole
+// block, or else the last.
 static const ViewEvent *find_event(const ResultView *view, const double *wanted)
 {
     const ViewEvent *best = NULL;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The moments of a history that a row of maps of the contact shows, and when rapid slip came to each
-// node. Numbers only. Called by figure_contact_plane.
+// The moments of a history that maps of the contact show, and when rapid slip came to each node.
+// Numbers only. Called by figure_contact_plane.
 #ifndef AMONTONS_RENDER_FIGURES_CONTACT_MOMENTS_H
 #define AMONTONS_RENDER_FIGURES_CONTACT_MOMENTS_H
 
@@ -19,9 +19,10 @@ typedef struct ContactMoments {
         // were asked for
 } ContactMoments;
 
-// rates: [rows * nodes] |slip rate|; at: "U=0.01,U=0.02", "t=12", or NULL: of the last
-// sliding, or else the last rapid event: while slow slip grows before it, when rapid slip had come
-// to half and to all that it reached, and the fastest. whole: `at` names an event instead, the nearest. ERROR_INPUT: there is none.
+// rates: [rows * nodes] |slip rate|. at: "U=0.01,U=0.02", "t=12", or NULL: six of the last sliding,
+// or else of the last rapid event: two while slow slip grows before it, the step before it, when
+// rapid slip had come to half and to all that it reached, and the fastest. whole: `at` names an
+// event instead, the nearest. ERROR_INPUT: there is none.
 bool contact_moments_find(const ResultView *view, const double *rates, const char *at, bool whole,
                           ContactMoments *moments, Error *err);
 void contact_moments_destroy(ContactMoments *moments);   // zeroed is fine

@@ -37,8 +37,8 @@ static void draw_words(const Page *page, const FieldPage *field, const BlockPage
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
     snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
              block->U * U.factor, field->magnification);
-    style.size *= fmin(1, (axes->box.right - axes->box.left) /
-                              text_width(page->text, style.size, words));
+    style.size *=
+        fmin(1, (axes->box.right - axes->box.left) / text_width(page->text, style.size, words));
     text_draw(page->text, &style, (Point){axes->box.left, axes->box.top - 3.5 * page->point},
               words);
 }

@@ -123,8 +123,9 @@ static bool take_density(Maps *maps, Error *err)
     double *status = NEW_ARRAY(double, count, err);
     TRY(status);
     if (!(critical > 0))
-        FAIL(err, ERROR_INPUT, "the result has no critical velocity, which the contact density is "
-                               "defined by");
+        FAIL(err, ERROR_INPUT,
+             "the result has no critical velocity, which the contact density is "
+             "defined by");
     TRY(take_series(maps, SERIES_STATUS, status, err));
     TRY(take_series(maps, SERIES_SLIP_RATE, maps->values, err));
     for (int64_t k = 0; k < count; ++k)
@@ -137,7 +138,7 @@ cleanup:
 static bool take_values(Maps *maps, Error *err)
 {
     int32_t nodes = maps->view->plane.nodes;
-    TRY(maps->values = NEW_ARRAY(double, (int64_t)maps->count * nodes, err));
+    TRY(maps->values = NEW_ARRAY(double, (int64_t)maps->count *nodes, err));
     switch (maps->quantity) {
     case CONTACT_DENSITY:
         return take_density(maps, err);
@@ -326,8 +327,8 @@ static bool draw_maps(const Page *page, const Maps *maps, double left, Error *er
         axes_draw(page, &axes);
         write_words(maps, k, words);
         style.size = SMALL_SIZE * point;
-        style.size *= fmin(1, (maps->width + WORDS_OVER) * point /
-                                  text_width(page->text, style.size, words));
+        style.size *=
+            fmin(1, (maps->width + WORDS_OVER) * point / text_width(page->text, style.size, words));
         text_draw(page->text, &style, (Point){axes.box.left, axes.box.top - 2.5 * point}, words);
         all.right = fmax(all.right, axes.box.right);
         all.top = fmin(all.top, axes.box.top);

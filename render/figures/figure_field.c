@@ -24,6 +24,13 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool figure_field_shows(const char *quantity)
+{
+    Error unknown = {0};
+    BlockQuantity found = BLOCK_VON_MISES;
+    return block_quantity_find(quantity, &found, &unknown);
+}
+
 bool figure_field(Page *page, const FigureInput *input, Error *err)
 {
     Block block = {0};

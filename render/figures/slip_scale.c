@@ -37,8 +37,9 @@ Colorbar slip_scale_up_to(double largest, double V)
 
 float slip_scale_level(const Colorbar *bar, double V, double rate)
 {
-    double level = (log10(rate / V) - bar->low) / (bar->high - bar->low);
     if (isnan(rate)) return HEAT_MISSING;
+    if (!(rate > 0)) return HEAT_BELOW;   // of most pixels; the logarithm of 0 takes long
+    double level = (log10(rate / V) - bar->low) / (bar->high - bar->low);
     return level < 0 ? HEAT_BELOW : (float)fmin(level, 1);
 }
 

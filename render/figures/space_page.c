@@ -209,7 +209,8 @@ static void draw_rod(const Page *page, const SpacePage *space, const Block *bloc
     if (breadth > 0) low[0] = middle - breadth / 2, high[0] = middle + breadth / 2;
     low[0] = rod_left(space->cut, low[0], (low[1] + high[1]) / 2);
     middle = (low[0] + high[0]) / 2;
-    if (!(low[0] < high[0]) || !isfinite(low[1] + high[1]) || !rod_moved(block, low, high, moved)) return;
+    if (!(low[0] < high[0]) || !isfinite(low[1] + high[1]) || !rod_moved(block, low, high, moved))
+        return;
     Point line[5];
     for (int32_t k = 0; k < 5; ++k)
         line[k] = see_on_page(space, block, block->low[0] + moved[0],
@@ -314,8 +315,8 @@ static void draw_axis(const Page *page, const SpacePage *space, const Block *blo
     Point name = see_on_page(space, block, at[0], at[1], at[2]);
     double away = NAME_GAP * point + (flat ? widest : 0);
     style.size = LABEL_SIZE * point;
-    text_draw(page->text, &style,
-              (Point){name.x + away * aside.x, name.y + away * aside.y}, own.label);
+    text_draw(page->text, &style, (Point){name.x + away * aside.x, name.y + away * aside.y},
+              own.label);
 }
 
 void space_page_axes(const Page *page, const SpacePage *space, const Block *block)
@@ -330,7 +331,7 @@ void space_page_axes(const Page *page, const SpacePage *space, const Block *bloc
 
 bool space_page_draw(const Page *page, const SpacePage *space, const Block *block, Error *err)
 {
-    Surface surface = {{0}, {0}, {0}};
+    Surface surface = {.with_edges = false};
     DepthImage image = {0};
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * space->unit};
     Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * space->unit};

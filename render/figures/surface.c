@@ -104,9 +104,7 @@ static bool add_face(const Block *block, const BoundaryFace *face, const SpaceCu
     SurfacePoint lattice[LATTICE][LATTICE];
     int32_t count = face_nodes(&block->frame, face, &kind, nodes);
     bool triangle = element_corner_count(kind) == 3;
-    int32_t parts = count > element_corner_count(kind) ? PARTS_CURVED
-                    : triangle                         ? 1
-                                                       : PARTS_FLAT;
+    int32_t parts = count > element_corner_count(kind) ? PARTS_CURVED : triangle ? 1 : PARTS_FLAT;
     for (int32_t j = 0; j <= parts; ++j)
         for (int32_t i = 0; i <= (triangle ? parts - j : parts); ++i) {
             double at[2] = {(double)i / parts, (double)j / parts};
@@ -150,8 +148,8 @@ static int32_t add_face_sides(const FieldFrame *frame, const BoundaryFace *face,
     int32_t count = face_nodes(frame, face, &kind, nodes), corners = element_corner_count(kind);
     for (int32_t k = 0; k < corners; ++k) {
         int32_t a = nodes[k], b = nodes[(k + 1) % corners];
-        sides[k] = (FaceSide){a < b ? a : b, a < b ? b : a, count > corners ? nodes[corners + k] : -1,
-                              {0}};
+        sides[k] = (FaceSide){
+            a < b ? a : b, a < b ? b : a, count > corners ? nodes[corners + k] : -1, {0}};
         face_normal(frame, nodes, corners, sides[k].normal);
     }
     return corners;
@@ -176,25 +174,33 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool add_lines(const Block *block, const BoundaryFace *faces, int32_t count,
-                      const SpaceCut *cut, bool edges, Surface *surface, Error *err)
+// Sides of the boundary, those of one face side by side: [*count].
+static bool list_sides(const FieldFrame *frame, const BoundaryFace *faces, int32_t face_count,
+                       FaceSide **sides, int32_t *count, Error *err)
 {
-    int32_t found = 0;
-    FaceSide *sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * count, err);
-    TRY(sides);
-    for (int32_t f = 0; f < count; ++f) found += add_face_sides(&block->frame, &faces[f], sides + found);
-    qsort(sides, (size_t)found, sizeof *sides, compare_sides);
-    for (int32_t k = 0; k < found; ++k) {
+    *count = 0;
+    TRY(*sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * face_count, err));
+    for (int32_t f = 0; f < face_count; ++f)
+        *count += add_face_sides(frame, &faces[f], *sides + *count);
+    qsort(*sides, (size_t)*count, sizeof **sides, compare_sides);
+cleanup:
+    return error_is_clean(err);
+}
+
+// An outline where two faces meet at an angle, or where there is one only; edges: all of them, too.
+static bool add_lines(const Block *block, const FaceSide *sides, int32_t count, const SpaceCut *cut,
+                      Surface *surface, Error *err)
+{
+    for (int32_t k = 0; k < count; ++k) {
         double same = -1;
-        bool pair = k + 1 < found && compare_sides(&sides[k], &sides[k + 1]) == 0;
+        bool pair = k + 1 < count && compare_sides(&sides[k], &sides[k + 1]) == 0;
         if (pair) same = 0;
         for (int32_t d = 0; d < 3 && pair; ++d) same += sides[k].normal[d] * sides[k + 1].normal[d];
         if (same < BEND) TRY(add_side(block, &sides[k], cut, &surface->outline, err));
-        if (edges) TRY(add_side(block, &sides[k], cut, &surface->edges, err));
+        if (surface->with_edges) TRY(add_side(block, &sides[k], cut, &surface->edges, err));
         k += pair;
     }
 cleanup:
-    memory_free(sides);
     return error_is_clean(err);
 }
 
@@ -202,15 +208,18 @@ bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface 
                    Error *err)
 {
     BoundaryFace *faces = NULL;
-    int32_t count = 0;
-    *surface = (Surface){{0}, {0}, {0}};
+    FaceSide *sides = NULL;
+    int32_t count = 0, side_count = 0;
+    *surface = (Surface){.with_edges = edges};
     TRY(list_faces(&block->frame, &faces, &count, err));
     count = keep_boundary(faces, count);
     for (int32_t f = 0; f < count; ++f) TRY(add_face(block, &faces[f], cut, surface, err));
-    TRY(add_lines(block, faces, count, cut, edges, surface, err));
+    TRY(list_sides(&block->frame, faces, count, &sides, &side_count, err));
+    TRY(add_lines(block, sides, side_count, cut, surface, err));
     for (int32_t k = 0; k < cut->count; ++k) TRY(surface_add_section(block, cut, k, surface, err));
 cleanup:
     memory_free(faces);
+    memory_free(sides);
     if (!error_is_clean(err)) surface_destroy(surface);
     return error_is_clean(err);
 }
@@ -220,5 +229,5 @@ void surface_destroy(Surface *surface)
     memory_free(surface->triangles.points);
     memory_free(surface->outline.points);
     memory_free(surface->edges.points);
-    *surface = (Surface){{0}, {0}, {0}};
+    *surface = (Surface){.with_edges = false};
 }

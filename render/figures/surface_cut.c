@@ -53,8 +53,8 @@ SurfacePoint surface_point_at(const Block *block, ElementKind kind, const int32_
 
 static bool add(SurfaceParts *parts, const SurfacePoint *points, int32_t each, Error *err)
 {
-    SurfacePoint *longer = memory_grow(parts->points, parts->count, &parts->room,
-                                       (size_t)each * sizeof *points, err);
+    SurfacePoint *longer =
+        memory_grow(parts->points, parts->count, &parts->room, (size_t)each * sizeof *points, err);
     if (!longer) return false;
     parts->points = longer;
     memcpy(longer + (int64_t)each * parts->count++, points, (size_t)each * sizeof *points);
@@ -117,8 +117,8 @@ static bool add_polygon(const SurfacePoint *points, int32_t count, Surface *surf
 }
 
 // Where plane k goes through a triangle, as far as it is an edge of what is left.
-static bool add_cut_line(const SurfacePoint corner[3], const SpaceCut *cut, int32_t k, int32_t other,
-                         Surface *surface, Error *err)
+static bool add_cut_line(const SurfacePoint corner[3], const SpaceCut *cut, int32_t k,
+                         int32_t other, Surface *surface, Error *err)
 {
     SurfacePoint line[POLYGON_MAX];
     int32_t found = 0;
@@ -209,7 +209,7 @@ static bool add_slice(const SurfacePoint *corner[4], const SpaceCut *cut, int32_
     }
     for (int32_t i = 0; i < ins; ++i)
         for (int32_t o = 0; o < outs; ++o) {
-            int32_t to = out[i % 2 ? outs - 1 - o : o];   // goes round where it is two by two
+            int32_t to = out[i & 1 ? outs - 1 - o : o];   // goes round where it is two by two
             const SurfacePoint *a = corner[in[i]], *b = corner[to];
             double here = taken_by(cut, k, a), there = taken_by(cut, k, b);
             points[count++] = between(a, b, here / (here - there));
@@ -250,8 +250,8 @@ static bool add_element(const Block *block, int32_t e, const SpaceCut *cut, int3
             for (int32_t l = 0; l <= parts; ++l) {
                 double cube[3] = {(double)i / parts, (double)j / parts, (double)l / parts}, at[3];
                 reference_place(kind, cube, at);
-                lattice[i][j][l] = surface_point_at(
-                    block, kind, frame->element_nodes + frame->first_node[e], at);
+                lattice[i][j][l] =
+                    surface_point_at(block, kind, frame->element_nodes + frame->first_node[e], at);
             }
     for (int32_t c = 0; c < parts * parts * parts; ++c) {
         int32_t i = c % parts, j = c / parts % parts, l = c / parts / parts;

@@ -27,6 +27,7 @@ typedef struct SurfaceParts {
 typedef struct Surface {
     SurfaceParts triangles;   // three points each
     SurfaceParts outline;   // two: where faces meet at an angle, and around the cut
+    bool with_edges;
     SurfaceParts edges;   // two: of elements, where they were asked for
 } Surface;
 

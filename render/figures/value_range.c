@@ -63,9 +63,9 @@ bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
     else
         snprintf(axis.label, sizeof axis.label, "%s / %s", words->words, words->normalised);
     for (int32_t end = 0; end < 2; ++end)
-        range[end] =
-            axis.factor *
-            range_end(values, kept, weight, style && style->limits ? style : &none, end, axis.factor);
+        range[end] = axis.factor * range_end(values, kept, weight,
+                                             style && style->limits ? style : &none, end,
+                                             axis.factor);
     bar->factor = axis.factor;
     bar->bar = (Colorbar){.label = bar->label};
     colorbar_fit(&bar->bar, range);

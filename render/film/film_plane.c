@@ -22,8 +22,8 @@ bool film_plane_create(const Page *page, const Box *cell, FilmPlane *plane, Erro
     double beside = (BAR_GAP + colorbar_width(page, &plane->bar)) * point;
     double room[2] = {cell->right - cell->left - left - beside,
                       cell->bottom - cell->top - below - ABOVE * point};
-    double scale = fmin(room[0] / (axes->x.high - axes->x.low),
-                        room[1] / (axes->y.high - axes->y.low));
+    double scale =
+        fmin(room[0] / (axes->x.high - axes->x.low), room[1] / (axes->y.high - axes->y.low));
     if (!(room[0] > 0 && room[1] > BAR_LEAST * point))
         FAIL(err, ERROR_INPUT, "the film is too small for the contact of the block");
     axes->box.left = round(cell->left + left);

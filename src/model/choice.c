@@ -12,8 +12,6 @@
 
 #include <math.h>
 
-static const double NUMBER = 8;   // bytes of one
-
 // s, each for one of what its comment says.
 static const double FULL_FACTOR = 7.6e-9;   // rung and n^1.5
 static const double FULL_STAGE = 1.2e-9;   // stage and n^1.5
@@ -36,9 +34,10 @@ static const double NOT_WORTH_ASKING = 0.05;
 // 320 x 320 and at 800 contact nodes on 60 rows).
 static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36, BYTES_MAX = 6e9;
 
-// In space a sparse factor takes n^2 operations and has n^(4/3) entries; the contact problem and its
-// certificate pass through matrices of m x m and factor those of what slips. What is far is not
-// replaced, so that q = n.
+// In space a sparse factor takes n^2 operations and has n^(4/3) entries; the contact problem and
+// its certificate pass through matrices of m x m and factor those of what slips. What is far is not
+// replaced, so that q = n. Fitted to processor times of cubes of 6, 10, 14 and 20 cells a side and
+// of 20 x 20 x 10, reduced and not.
 static const double SPACE_FACTOR = 1.6e-9;   // rung and n^2
 static const double SPACE_STAGE = 3.7e-8;   // stage and n^(4/3)
 static const double SPACE_CONTACT = 3e-9, SPACE_CONTACT_FACTORS = 1e-11;   // stage and m^2, m^3
@@ -62,8 +61,8 @@ static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
     return (ExpectedCost){.reduction = parts * reduction * (sizes->several ? OF_SEVERAL : 1),
                           .reduced = stages * (contact + REDUCED_STAGE * m * m),
                           .full = full + stages * contact,
-                          .bytes_reduced = NUMBER * fmax(squares, responses),
-                          .bytes_full = NUMBER * (squares + RUNGS * entries)};
+                          .bytes_reduced = sizeof(double) * fmax(squares, responses),
+                          .bytes_full = sizeof(double) * (squares + RUNGS * entries)};
 }
 
 ExpectedCost choice_expect(const ChoiceSizes *sizes)

@@ -423,7 +423,10 @@ bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
     parts[count++] = AGAIN;
     parts[count++] = CITE;
     parts[count] = (SheetPart){0};
-    sheet_begin(html, sweep.title, "Report of a sweep, by amontons", parts);
+    sheet_begin(html, sweep.title,
+                folder_holds(folder, "answer.txt", NULL) ? "Report of a search, by amontons"
+                                                         : "Report of a sweep, by amontons",
+                parts);
     write_lead(html, &sweep);
     TRY(write_answer(html, &sweep, err));
     write_varied(html, &sweep);

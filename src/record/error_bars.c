@@ -11,9 +11,8 @@ const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 // Of mu, over the cells that slip where slow slip turns fast, or over nodes along the contact, if
 // that is more: what a mesh scatters by, and the way to ever smaller cells, before meshes tell.
 // From a tenth to ten times as much was met, on blocks as on pads (validation/benchmark/priors.md):
-// so that is worth no more than one level.
+// so that is worth no more than one level. In space the same holds (validation/space/priors.md).
 static const double USUAL = 0.05, USUAL_LEAST = 0.2;
-static const double USUAL_IN_SPACE = 0.1;
 enum { USUAL_LEVELS = 1 };
 static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh
 static const double SPAN = 2;   // of cell size, of the levels behind a bar that is met
@@ -152,13 +151,6 @@ double levels_cells(const Levels *levels)
     return slipping_part(levels) * levels->list[levels->count - 1].nodes_along;
 }
 
-// Of mu, over nodes along the contact.
-static double usual_scatter(const Levels *levels)
-{
-    if (levels->space) return USUAL_IN_SPACE;
-    return fmax(USUAL / slipping_part(levels), USUAL_LEAST);
-}
-
 // Of a level's value, over `origin`.
 static double scatter_of(const Level *level, double usual, double origin)
 {
@@ -192,7 +184,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 {
     const Level *last = &levels->list[levels->count - 1];
     double origin = level_value(last, kind);   // all in parts of it
-    double usual = usual_scatter(levels);   // over nodes
+    double usual = fmax(USUAL / slipping_part(levels), USUAL_LEAST);   // over nodes
     double S = 0, Sx = 0, Sxx = 1 / (usual * usual), Sv = 0, Sxv = 0, Svv = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {

@@ -74,7 +74,7 @@ static bool fill_face_grid(FieldFiles *files, const Interface *interface, Error 
     static const uint8_t whole[] = {0, 1, 2, 3};
     static const uint8_t six[][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
     static const uint8_t nine[][4] = {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
-    const ContactFaces *faces = &files->faces;
+    const ContactFaces *faces = files->faces;
     TRY(make_line_grid(files, (int64_t)FACE_CELLS_MAX * faces->count, 4, err));
     for (int32_t i = 0; i < files->line_point_count; i++) {
         int32_t k = i - interface->contact_count;
@@ -114,11 +114,10 @@ static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error 
 
 bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
 {
-    *files = (FieldFiles){.mesh = mesh,
-                          .contact_count = interface->contact_count,
-                          .tangents = mesh->dim - 1};
-    TRY(contact_faces_build(mesh, interface, &files->faces, err));
-    files->line_point_count = interface->contact_count + files->faces.corner_count;
+    *files = (FieldFiles){
+        .mesh = mesh, .contact_count = interface->contact_count, .tangents = mesh->dim - 1};
+    files->faces = &interface->faces;
+    files->line_point_count = interface->contact_count + files->faces->corner_count;
     TRY(nodal_stress_create(mesh, &files->stress, err));
     TRY(fill_bulk_grid(files, err));
     TRY(fill_line_grid(files, interface, err));
@@ -134,7 +133,6 @@ void field_files_destroy(FieldFiles *files)
     memory_free(files->offsets);
     memory_free(files->connectivity);
     memory_free(files->cell_types);
-    contact_faces_destroy(&files->faces);
     memory_free(files->line_points);
     memory_free(files->line_values);
     memory_free(files->line_offsets);
@@ -182,12 +180,13 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
 // beside it on its faces. values: [line_point_count * components], known at the contact nodes.
 static void fill_corners(const FieldFiles *files, int32_t components, double *values)
 {
-    const ContactFaces *faces = &files->faces;
+    const ContactFaces *faces = files->faces;
     for (int32_t f = 0; f < faces->count; f++) {
         const int32_t *points = faces->point + (int64_t)f * faces->width;
         int32_t corners = contact_face_points(faces, f) / 2;   // of a face with mid-sides
         for (int32_t k = 0; k < corners; k++) {
-            int64_t beside = points[corners + k], before = points[corners + (k + corners - 1) % corners];
+            int64_t beside = points[corners + k],
+                    before = points[corners + (k + corners - 1) % corners];
             if (points[k] < files->contact_count) continue;
             for (int32_t d = 0; d < components; d++)
                 values[components * points[k] + d] =
@@ -203,7 +202,8 @@ static FieldArray line_array(const FieldFiles *files, const char *name, const do
     int32_t components = count > 1 ? 3 : 1;
     for (int64_t i = 0; i < files->contact_count; i++)
         for (int32_t d = 0; d < components; d++)
-            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i] : 0;
+            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i]
+                                                   : 0;
     fill_corners(files, components, values);
     return (FieldArray){.name = name, .components = components, .values = values};
 }

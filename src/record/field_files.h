@@ -5,7 +5,7 @@
 #define AMONTONS_RECORD_FIELD_FILES_H
 
 #include "fem/recovery.h"
-#include "contact/contact_faces.h"
+#include "contact/interface.h"
 #include "io/fields/field_file.h"
 
 enum { FIELD_LINE_ARRAYS = 6 };
@@ -25,7 +25,7 @@ typedef struct FieldFiles {
     double *vectors;   // [stress.point_count * 6] displacement, velocity
     int64_t *offsets, *connectivity;
     uint8_t *cell_types;
-    ContactFaces faces;   // none in the plane
+    const ContactFaces *faces;   // none in the plane; not owned
     int32_t contact_count, tangents;   // tangents: 1 in the plane, 2 in space
     double *line_points;   // [line_point_count * 3] contact nodes, and behind them corners of faces
         // that touch nothing
@@ -47,8 +47,8 @@ void field_files_destroy(FieldFiles *files);
 
 bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
                             Error *err);
-// line: [field_line_columns][contact_count]: slip rate, displacement along the floor, gap, pressure,
-// shear stress, contact density.
+// line: [field_line_columns][contact_count]: slip rate, displacement along the floor, gap,
+// pressure, shear stress, contact density.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
                             Error *err);
 

@@ -190,9 +190,9 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
         gap[i] = state->displacement[dofs[n]] + interface_gap(interface, i);
         pressure[i] = state->reaction[n] / interface->weight[i];
         density[i] = state->status[i] == CONTACT_OPEN
-                            ? 0
-                            : friction_contact_density(friction_at(fields->law, i),
-                                                       slip_size(interface, i, state->slip_rate));
+                         ? 0
+                         : friction_contact_density(friction_at(fields->law, i),
+                                                    slip_size(interface, i, state->slip_rate));
     }
 }
 

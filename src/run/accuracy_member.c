@@ -19,6 +19,7 @@ enum {
     SPACE_NODES_MIN = 36,   // likewise in space: 6 x 6, and 3 x 3
     SPACE_PAD_NODES_MIN = 9,
     PEAKS_MIN = 8,   // that count in a run, before its answer can be known
+    SPACE_PEAKS_MIN = 4,   // where each takes seconds to minutes
 };
 static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
 static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known; and
@@ -82,7 +83,8 @@ bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
     double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
     if (answers->steady) return true;
     if (answers->regime.run_in != RUN_IN_OVER) return false;
-    if (answers->peaks_counted >= PEAKS_MIN) return mu_M->error <= allowed * mu_M->value;
+    int32_t least = accuracy->levels.space ? SPACE_PEAKS_MIN : PEAKS_MIN;
+    if (answers->peaks_counted >= least) return mu_M->error <= allowed * mu_M->value;
     return answers->peaks_counted == 0 && answers->enough;
 }
 

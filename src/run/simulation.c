@@ -44,7 +44,8 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(&simulation->recorders, &simulation->events, events_record);
     TRY(drops_create(&simulation->model.interface, &simulation->events,
                      simulation->scene.time.periodic_tolerance, &simulation->drops, err));
-    simulation->drops.mu_static = simulation->model.law.mu_static;
+    bool remembers = simulation->control.scheme.memory.laws != NULL;
+    simulation->drops.mu_static = remembers ? NAN : simulation->model.law.mu_static;
     recorders_add(&simulation->recorders, &simulation->drops, drops_record);
     simulation->steady =
         steady_of(&simulation->events, model_friction_slip(&simulation->model) +

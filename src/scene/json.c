@@ -110,6 +110,15 @@ static void write_file(const char *path, JsonWriter *json, const char *name, con
     json_text(json, name, file);
 }
 
+static bool is_file(const char *key)
+{
+    static const char *const files[] = {"mesh.file", "friction.file", "contact.profile",
+                                        "output.compare"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++)
+        if (strcmp(key, files[k]) == 0) return true;
+    return false;
+}
+
 // Of an output.fields that is a map the keys follow by themselves.
 void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
@@ -187,12 +196,8 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
             json_begin_object(json, open[depth++]);
             rest = dot + 1;
         }
-        if (strcmp(keys[k].name, "mesh.file") == 0)
-            write_file(scene->mesh.file, json, rest, folder);
-        else if (strcmp(keys[k].name, "friction.file") == 0)
-            write_file(scene->own_friction.file, json, rest, folder);
-        else if (strcmp(keys[k].name, "contact.profile") == 0)
-            write_file(scene->contact.profile, json, rest, folder);
+        if (is_file(keys[k].name))
+            write_file((const char *)scene + keys[k].offset, json, rest, folder);
         else
             scene_write_value(&keys[k], scene, json, rest);
     }

@@ -71,6 +71,7 @@ typedef struct SceneMaterials {
 } SceneMaterials;
 
 typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
+typedef enum SceneEvolution { EVOLUTION_AGEING, EVOLUTION_SLIP } SceneEvolution;
 
 // What the map `friction` has beside the kind of law and its three numbers.
 typedef struct SceneOwnFriction {
@@ -79,6 +80,11 @@ typedef struct SceneOwnFriction {
     char formula[SCENE_TEXT_SIZE];
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
+    // Of laws with memory (contact/friction_memory).
+    double slip_distance, healing_time, healing;
+    double direct_effect, evolution_effect, mu_reference, reference_velocity;
+    SceneEvolution evolution;
+    double rest;   // of the contacts before the rod moves, time; 0: not given
     char along[SCENE_TEXT_SIZE];   // factor on mu, a formula of x; empty: 1
 } SceneOwnFriction;
 

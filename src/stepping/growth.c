@@ -163,7 +163,7 @@ static bool factor_moving(Growth *growth, int32_t k)
     moving_set_couple(moving, schur, growth->matrix);
     moving_set_turn(moving, false, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
-    moving_set_subtract_weakening(moving, growth->matrix);
+    moving_set_subtract_weakening(moving, 0, growth->matrix);
     return dense_lu(growth->matrix, moving->count, growth->pivots);
 }
 

@@ -137,6 +137,20 @@ class Space(OwnCache):
         self.assertFalse(third["model"]["from_cache"])
         self.assertLess(third["model"]["rod_nodes"], second["model"]["rod_nodes"])
 
+    def test_error_bar(self):
+        """Meshes are refined by a part of their cells: the bar is met, and holds mu_M of 14 x 14 x 14 cells, 0.3655
+        (0.3646 on 10 x 10 x 10; explicit steps of that mesh 0.3647)."""
+        run = self.call("run", "accuracy.mu=6%", "time.until.U=0.006", "output.figures=[force]")
+        accuracy, results = run["accuracy"], run["results"]
+        self.assertTrue(accuracy["met"])
+        self.assertLess(results["mu_M_error"], 0.06 * results["mu_M"])
+        self.assertLess(abs(results["mu_M"] - 0.3655), results["mu_M_error"])
+        nodes = [level["contact_nodes"] for level in accuracy["levels"]]
+        self.assertGreaterEqual(len(nodes), 3)
+        self.assertEqual(nodes[:2], [25, 36])
+        self.assertEqual([level["end_wait"] for level in accuracy["levels"]], [0] * len(nodes))
+        self.assertTrue((self.folder / "result/figures/accuracy.png").exists())
+
     def test_forecast(self):
         """Time and memory are told before, and what does not fit is refused before anything is factored."""
         path = self.folder / "scene.yaml"

@@ -139,10 +139,13 @@ NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
     "contact/path_bounds.c": {"CONDITIONS": "a node has no more"},
     "contact/path_bounds.h": {"PATH_AT_END": "a name", "PATH_AT_NO_BOUND": "a name"},
+    "contact/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
+    "contact/friction_memory.c": {
+        "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's, from below: all digits",
+        "MANY": "a first guess beyond the weakening, as SPENT"},
     "contact/friction_law.c": {
         "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
                 "tests/property/test_contact_problems.c",
-        "KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name",
         "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
     "contact/friction_look.c": {
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
@@ -200,6 +203,7 @@ NOT_A_CHOICE = {
     "reduction/responses.c": {"FAR": "condition of two equations", "ALL_PRODUCTS": "K, C, M"},
     "reduction/factored_points.c": {"SLOTS_MAX": "factors in memory at once"},
     "reduction/reduction_block.c": {"GRID": "single precision that a cache stores"},
+    "record/observation.c": {"CREEP": "of V: what counts as at rest where nothing ever sticks; no scene of the table has such a law"},
     "record/events.c": {"RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
                         "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
@@ -208,6 +212,8 @@ NOT_A_CHOICE = {
                         "LIST_EVERY": "times in a list that is late"},
     "record/fields.h": {"FIELD_SLOTS": SIZE},
     "record/field_files.h": {"FIELD_LINE_ARRAYS": "of the interface's file"},
+    "record/field_files.c": {"VTK_LINE_CELL": "VTK's", "VTK_TRIANGLE_CELL": "VTK's", "VTK_QUAD_CELL": "VTK's",
+                             "FACE_CELLS_MAX": "of a face", "whole": "of a face", "six": "of a face", "nine": "of a face"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
     "record/regime.c": {"LAG": "of run-in: above", "TREND_DROPS": "of run-in: above"},
@@ -256,9 +262,19 @@ NOT_A_CHOICE = {
         "REDUCTION_PRODUCTS": "the same", "REDUCED_STAGE": "the same", "ANY_STAGE": "s, validation/strangers/forecasts.py", "OF_SEVERAL": "forecasts.py",
         "RUNGS": "counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
-        "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory"},
+        "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory",
+        "SPACE_FACTOR": "s, by processor times of five blocks in space, reduced and not",
+        "SPACE_STAGE": "the same",
+        "SPACE_CONTACT": "the same",
+        "SPACE_CONTACT_FACTORS": "the same",
+        "SPACE_REDUCTION": "the same",
+        "SPACE_PRODUCTS": "the same",
+        "SPACE_SQUARES": "numbers, by the memory of six runs in space",
+        "SPACE_ENTRIES": "the same",
+        "SPACE_COLUMNS": "counted"},
     "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
+    "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
 }
 

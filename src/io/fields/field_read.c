@@ -141,10 +141,10 @@ static bool take_part(void *context, const FieldPart *part, Error *err)
         const char *name;
         int32_t components;
         double **values;
-    } arrays[] = {{"points", 3, &frame->position},   {"displacement", 3, &frame->displacement},
-                  {"velocity", 3, &frame->velocity},
-                  {"stress_elastic", stresses, &frame->stress_elastic},
-                  {"stress", stresses, &frame->stress}, {"von_mises", 1, &frame->von_mises}};
+    } arrays[] = {
+        {"points", 3, &frame->position},      {"displacement", 3, &frame->displacement},
+        {"velocity", 3, &frame->velocity},    {"stress_elastic", stresses, &frame->stress_elastic},
+        {"stress", stresses, &frame->stress}, {"von_mises", 1, &frame->von_mises}};
     if (part->count > COUNT_MAX) FAIL(err, ERROR_FILE, "it has more than %d nodes", COUNT_MAX);
     if (strcmp(part->name, "points") == 0) frame->node_count = (int32_t)part->count;
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)

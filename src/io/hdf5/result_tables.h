@@ -41,6 +41,9 @@ typedef enum ResultColumns {
       "tau: friction stress on the block, positive against the drive (towards -x)")                \
     X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
       "0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not")                  \
+    X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
+      "theta of friction that remembers (`slip-weakening`: the part of strength that is there, "   \
+      "1); absent where nothing is remembered")                                                    \
     X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
@@ -104,7 +107,8 @@ typedef enum ResultColumns {
     X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
       "lowest z of the strip that the rod pushes; absent: none")                                   \
     X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \
-    X(NUMBER_ROD_BREADTH, "rod_breadth", "length", "how broad it is in space; absent: as the face") \
+    X(NUMBER_ROD_BREADTH, "rod_breadth", "length",                                                 \
+      "how broad it is in space; absent: as the face")                                             \
     X(NUMBER_MU_M, "mu_macroscopic", "1", "mu_M; absent until known")                              \
     X(NUMBER_L_C, "critical_length", "length",                                                     \
       "l_c from the dynamics; absent until known, and with several pads")

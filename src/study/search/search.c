@@ -19,7 +19,7 @@ enum {
     TRIES_MAX = 1000,   // choices that limits refuse, one after the other
     REFUSED_MAX = 20,   // scenes that are refused before there is any design: the study is wrong
 };
-// Steps of a key's range: designs that are nearer are one, as no bar tells them apart. Not of a fit.
+// Steps of a key's range: designs that are nearer are one, as no bar tells them apart. Of no fit.
 enum { LATTICE = 40 };
 static const double REFUSED = 0.5;   // below the worst, in parts of what values differ by
 
@@ -270,7 +270,8 @@ static bool open_chooser(Search *search, Error *err)
     }
     for (int32_t d = 0; d < count; d++) {
         const Design *one = &search->designs.list[d];
-        for (int32_t k = 0; k < n; k++) places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
+        for (int32_t k = 0; k < n; k++)
+            places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
         values[d] = told_of(search, one->value);
     }
     ChooserSpace space = {n, least, most, whole, keys->seed, count, places, values};

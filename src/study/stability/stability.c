@@ -13,6 +13,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 #include "run/result_folder.h"
 
@@ -47,6 +48,12 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
+    if (friction_remembers(&scene->friction, 0))
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: friction.law: growth rates are those of friction that depends on slip rate alone; "
+            "`%s` remembers (`amontons run` takes it)",
+            scene->path, friction_law_name(&scene->friction));
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
@@ -217,7 +224,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
                          .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
                          .real_rate = rates.real.re,
                          .load = growth_scan(path->growth, &path->last).ratio,
-                         .certified = certificate_holds(&path->control.certificate, &path->last),
+                         .certified = certificate_holds(&path->control.certificate, &path->last, 0),
                          .area = slipping_area(interface, &path->last)};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);

@@ -191,13 +191,20 @@ TEST(test_shares)
     mesh_destroy(&mesh);
 }
 
-// As many as there are in the plane, to the bit; of 20 x 20 over a face 20.
+// As many as there are in the plane; in space by cells as long along the drive as across it: 40 rows
+// of 10 on a contact four times as long as it is wide.
 TEST(test_nodes_along)
 {
+    enum { ALONG = 40, ACROSS = 10, ALL = ALONG * ACROSS };
+    double x[ALL], y[ALL];
     for (int32_t count = 1; count < 2000; count++)
         assert_true(interface_nodes_along(&(Interface){.dim = 2, .contact_count = count}) == count);
-    assert_near("in space", interface_nodes_along(&(Interface){.dim = 3, .contact_count = 400}), 20,
-                1e-14);
+    for (int32_t i = 0; i < ALL; i++) {
+        x[i] = 4.0 * (i / ACROSS) / (ALONG - 1);
+        y[i] = 1.0 * (i % ACROSS) / (ACROSS - 1);
+    }
+    Interface space = {.dim = 3, .contact_count = ALL, .x = x, .y = y};
+    assert_near("in space", interface_nodes_along(&space), ALONG, 1e-13);
 }
 
 // The bound at which a soft node feels no force, and the softness of half a share.

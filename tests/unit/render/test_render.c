@@ -40,8 +40,12 @@ FIXTURE(result_write)
 {
     static const double x[NODES] = {0, 0.25, 0.5, 0.75, 1}, pad[NODES] = {0, 0, 1, 1, 1};
     const double kind[2] = {1, 2}, U_start[2] = {0.9, 1}, U_stop[2] = {0.91, 1.01};
-    ResultHead head = {
-        .title = "t", .units = "si", .version = "0", .rod_on_spring = true, .contact_count = NODES};
+    ResultHead head = {.title = "t",
+                       .units = "si",
+                       .version = "0",
+                       .rod_on_spring = true,
+                       .remembers = true,
+                       .contact_count = NODES};
     Error err = {0};
     for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : x;
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k) head.numbers[k] = 0.01 * (k + 1);
@@ -122,7 +126,9 @@ TEST(unknown_figures_are_named)
     assert_false(amontons_render(folder, &request, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
-    assert_non_null(strstr(err.message, "force, slip-map, contact-density, contact-plane, field, field-strip"));
+    assert_non_null(strstr(err.message,
+                           "force, slip-map, contact-density, contact-plane, precursors, "
+                           "front-speed, field, field-strip"));
 }
 
 GROUP_BETWEEN(result_write, result_remove);

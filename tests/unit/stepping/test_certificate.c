@@ -89,7 +89,7 @@ static void check_random_states(const RigDef *def, double scale)
         random_state(&random, scale * random_between(&random, 0.1, 3), &fixture);
         bool weakens;
         double least = least_eigenvalue(&fixture, fixture.schur, &weakens);
-        bool holds = certificate_holds(&fixture.built.certificate, &fixture.built.seen);
+        bool holds = certificate_holds(&fixture.built.certificate, &fixture.built.seen, 0);
         assert_int_equal(holds, !weakens || least > 0);
         held += weakens && holds;
         cases += weakens;
@@ -153,14 +153,14 @@ TEST(test_one_node)
         seen->status[i] = CONTACT_SLIP_BACKWARD;
         seen->slip_rate[t] = -0.5 * def.law.critical_velocity;
         seen->reaction[t + 1] = limit * (1 - 1e-9);
-        assert_true(certificate_holds(&fixture.built.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen, 0));
         seen->reaction[t + 1] = limit * (1 + 1e-9);
-        assert_false(certificate_holds(&fixture.built.certificate, seen));
+        assert_false(certificate_holds(&fixture.built.certificate, seen, 0));
         seen->slip_rate[t] = -1.1 * def.law.critical_velocity;   // past the weakening branch
-        assert_true(certificate_holds(&fixture.built.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen, 0));
         seen->slip_rate[t] = 0;
         seen->status[i] = CONTACT_STICK;
-        assert_true(certificate_holds(&fixture.built.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen, 0));
     }
     fixture_destroy(&fixture);
 }
@@ -172,11 +172,12 @@ TEST(test_no_viscosity)
     def.material.eta1 = def.material.eta2 = 0;
     CertificateRig on;
     certificate_rig_build(&def, 0.1, 0.05, &on);
-    assert_true(certificate_holds(&on.certificate, &on.seen));   // all stick
+    assert_true(certificate_holds(&on.certificate, &on.seen, 0));   // all stick
     on.seen.status[2] = CONTACT_SLIP_FORWARD;
     on.seen.slip_rate[plane_tangent(2)] = 1e-6;
     on.seen.reaction[plane_normal(2)] = 1e-9;
-    assert_false(certificate_holds(&on.certificate, &on.seen));
-    assert_true(certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_rung(&on, 0)));
+    assert_false(certificate_holds(&on.certificate, &on.seen, 0));
+    assert_true(
+        certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_rung(&on, 0), 0));
     certificate_rig_destroy(&on);
 }

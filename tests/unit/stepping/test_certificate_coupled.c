@@ -139,7 +139,7 @@ TEST(test_random_states)
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, rung);
+        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, rung, 0);
         int sign = sign_by_differences(&slip);
         if (resolves != (sign > 0)) fail_msg("trial %d: the sign is %d", trial, sign);
         bool positive = is_definite(&slip);

@@ -139,13 +139,13 @@ TEST(test_differences)
         moving_set_couple(&set, fixture.schur, matrix);
         moving_set_turn(&set, false, matrix);
         moving_set_add_dampers(&set, 0, matrix);
-        moving_set_subtract_weakening(&set, matrix);
+        moving_set_subtract_weakening(&set, 0, matrix);
         double scale = dense_max_abs(expected, count * count);
         assert_all_near("derivative", matrix, expected, count * count, 1e-6 * scale);
         moving_set_gather_symmetric(&set, fixture.schur, lower);
         moving_set_turn(&set, true, lower);
         moving_set_add_dampers(&set, 0, lower);
-        moving_set_subtract_weakening(&set, lower);
+        moving_set_subtract_weakening(&set, 0, lower);
         for (int32_t q = 0; q < count; q++)
             for (int32_t p = q; p < count; p++)
                 assert_near("symmetric part", lower[q * count + p],
@@ -180,8 +180,8 @@ TEST(test_certificate)
         if (fabs(values[0]) < 1e-6 * values[count - 1]) continue;   // of differences
         // From one random state to the next sweeps of S_C may pass one that nothing holds, which
         // counts as a no; the second time they begin anew.
-        bool holds = certificate_holds(&certificate, &fixture.seen) ||
-                     certificate_holds(&certificate, &fixture.seen);
+        bool holds = certificate_holds(&certificate, &fixture.seen, 0) ||
+                     certificate_holds(&certificate, &fixture.seen, 0);
         if (certificate.moving.weakens) assert_int_equal(holds, values[0] > 0);
         held += holds && certificate.moving.weakens;
         cases += certificate.moving.weakens;

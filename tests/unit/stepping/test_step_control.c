@@ -33,12 +33,12 @@ static void check_rules(double wave_step, double tolerance)
         assert_true(step <= 2 * last);
         if (retried) assert_true(step < last * 2);
         assert_int_equal(control->certified,
-                         certificate_holds(&control->certificate, &control->now));
+                         certificate_holds(&control->certificate, &control->now, 0));
         if (!control->certified) {
             uncertified++;
             assert_true(step <= steps.wave_step);
             assert_true(certificate_step_resolves(&control->certificate, &control->now,
-                                                  ladder_contact(&control->ladder, k)));
+                                                  ladder_contact(&control->ladder, k), 0));
         }
         longest += step == steps.step_max;
         last = step;

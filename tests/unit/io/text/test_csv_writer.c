@@ -55,6 +55,30 @@ TEST(numbers_keep_their_bits)
     assert_string_equal(at, "");
 }
 
+// To half of the ninth digit, whatever their size, and in a form that spreadsheets read.
+TEST(rounded_numbers_have_nine_digits)
+{
+    static const double values[] = {
+        0,     1,      -0.38,        1.0 / 3,     0.00012345678912, 1e-5,
+        1e300, -1e-80, 123456789.49, 9999999999., 0.99999999999,    1e-300};
+    enum { COUNT = sizeof values / sizeof *values };
+    Error err = {0};
+    char text[400], *at = text;
+    CsvWriter *csv = csv_create(path, &err);
+    for (int32_t k = 0; k < COUNT; k++) csv_rounded(csv, values[k]);
+    csv_rounded(csv, NAN);
+    csv_end_row(csv);
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    assert_null(strstr(text, "inf"));
+    assert_int_equal(strncmp(text, "0.00000000,1.00000000,-0.380000000,0.333333333,", 47), 0);
+    for (int32_t k = 0; k < COUNT; k++, at++) {
+        double value = fabs(values[k]) < 1e-290 ? 0 : values[k];
+        assert_true(fabs(strtod(at, &at) - value) <= 5.01e-9 * fabs(value));
+        assert_int_equal(*at, ',');
+    }
+}
+
 // Far more than is kept back before it is written.
 TEST(long_files_are_whole)
 {

@@ -133,6 +133,24 @@ TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
     memory_free(pixels);
 }
 
+// Every level is the table's, the nearest one; NaN is a hole.
+TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
+{
+    enum { COUNT = 100 };
+    uint8_t map[3 * MAP_SIZE];
+    float values[COUNT];
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
+    for (int32_t k = 0; k < COUNT; ++k) values[k] = (float)k / 99;
+    values[7] = NAN;
+    canvas_set_map(canvas, map, BLACK);
+    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, values, COUNT, 1);
+    uint8_t *pixels = pixels_read();
+    for (int32_t k = 0; k < COUNT; ++k)
+        assert_int_equal(pixels[3 * (30 * SIZE + 20 + k)],
+                         k == 7 ? 255 : (int32_t)lround(255.0 * k / 99));
+    memory_free(pixels);
+}
+
 TEST_BETWEEN(a_heat_map_too_large_is_reported, canvas_begin, canvas_end)
 {
     Error err = {0};

@@ -21,10 +21,10 @@ static ResultView saw_tooth(void)
     return (ResultView){.rows = STEPS, .U = saw_U, .mu = saw_mu};
 }
 
-static const ViewEvent three_cycles[] = {{VIEW_BOUNDED, 0.8, 0.81},      {VIEW_LEADING, 1.0, 1.01},
-                                         {VIEW_QUASI_STATIC, 1.02, 1.9}, {VIEW_BOUNDED, 1.7, 1.71},
-                                         {VIEW_BOUNDED, 1.9, 1.91},      {VIEW_LEADING, 2.0, 2.01},
-                                         {VIEW_LEADING, 3.0, 3.01},      {VIEW_BOUNDED, 3.5, 3.51}};
+static const ViewEvent three_cycles[] = {
+    {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_QUASI_STATIC, 1.02, 1.9, 0},
+    {VIEW_BOUNDED, 1.7, 1.71, 0}, {VIEW_BOUNDED, 1.9, 1.91, 0}, {VIEW_LEADING, 2.0, 2.01, 0},
+    {VIEW_LEADING, 3.0, 3.01, 0}, {VIEW_BOUNDED, 3.5, 3.51, 0}};
 static const ViewPeak periodic[] = {{1.0, 0.3, false}, {2.0, 0.3, true}, {3.0, 0.3, true}};
 
 static ResultView with_events(int32_t events, int32_t peaks)
@@ -50,7 +50,7 @@ TEST(periodic_with_precursors_comes_first)
 TEST(periodic_comes_before_precursors)
 {
     const ViewEvent events[] = {
-        {VIEW_BOUNDED, 0.8, 0.81}, {VIEW_LEADING, 1.0, 1.01}, {VIEW_LEADING, 3.0, 3.01}};
+        {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_LEADING, 3.0, 3.01, 0}};
     ResultView view = with_events(3, 3);
     view.events = (ViewEvent *)events;
     assert_true(fabs(zoom_choose(&view).U_slide - 3.0) < 1e-12);   // the peak at 1.0 does not count
@@ -76,8 +76,8 @@ TEST(without_precursors_the_last_of_the_cycle)
 TEST(many_precursors_are_cut)
 {
     ViewEvent events[41];
-    for (int32_t k = 0; k < 40; ++k) events[k] = (ViewEvent){VIEW_BOUNDED, 0.02 * k, 0.02 * k};
-    events[40] = (ViewEvent){VIEW_LEADING, 0.8, 0.81};
+    for (int32_t k = 0; k < 40; ++k) events[k] = (ViewEvent){VIEW_BOUNDED, 0.02 * k, 0.02 * k, 0};
+    events[40] = (ViewEvent){VIEW_LEADING, 0.8, 0.81, 0};
     ResultView view = saw_tooth();
     view.events = events;
     view.event_count = 41;
@@ -109,10 +109,10 @@ TEST(no_sliding_no_zoom)
 
 TEST(bad_tables_do_no_harm)
 {
-    const ViewEvent events[] = {{-1, 0.5, 0.6},
-                                {VIEW_LEADING, NAN, NAN},
-                                {VIEW_BOUNDED, NAN, 0.9},
-                                {VIEW_LEADING, 1.0, NAN}};
+    const ViewEvent events[] = {{-1, 0.5, 0.6, 0},
+                                {VIEW_LEADING, NAN, NAN, 0},
+                                {VIEW_BOUNDED, NAN, 0.9, 0},
+                                {VIEW_LEADING, 1.0, NAN, 0}};
     const ViewPeak peaks[] = {{NAN, NAN, true}};
     ResultView view = saw_tooth();
     view.events = (ViewEvent *)events;

@@ -8,7 +8,7 @@
 static double t[] = {0, 10, 12, 20, 40}, U[] = {0, 1, 1.2, 2, 4};
 static double mu[] = {0, 0.3, 0.1, 0.2, 0.4}, rate[] = {0, 1, 2, 3, 50, 60, 4, 4, 0, 0};
 static ViewEvent events[] = {
-    {VIEW_LEADING, 1, 1.2}, {VIEW_BOUNDED, 1.5, 1.6}, {VIEW_LEADING, 2, 2.2}};
+    {VIEW_LEADING, 1, 1.2, 0}, {VIEW_BOUNDED, 1.5, 1.6, 0}, {VIEW_LEADING, 2, 2.2, 0}};
 
 static ResultView history(int32_t event_count)
 {
