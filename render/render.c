@@ -235,6 +235,7 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     int32_t count = request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
     TRY(request_check(folder, request, err));
     TRY(result_view_open(folder, &view, err));
+    if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
     TRY(make_figures_folder(folder, err));
     if (request->panels) {
         TRY(figure_make(folder, request, NULL, &view, err));
