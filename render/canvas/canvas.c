@@ -168,8 +168,8 @@ void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-// An image of its own that Cairo places, so that PDF and SVG hold the same pixels: [height * stride]
-// of them, which are 0. NULL: the failure is kept.
+// An image that Cairo places, so that PDF and SVG hold the same pixels: [height * stride], all 0.
+// NULL: the failure is kept.
 static cairo_surface_t *image_begin(Canvas *canvas, int32_t width, int32_t height,
                                     uint32_t **pixels, int32_t *stride)
 {
