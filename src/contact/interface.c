@@ -11,8 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
@@ -124,6 +122,7 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
         interface->pad[i] = contact.pad_of[i];
     }
     TRY(interface_find_line(interface, err));
+    TRY(contact_faces_build(mesh, &contact, &interface->faces, err));
     if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
         for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
 cleanup:
@@ -371,6 +370,7 @@ void interface_destroy(Interface *interface)
     memory_free(interface->gap);
     memory_free(interface->pad);
     memory_free(interface->pad_name);
+    contact_faces_destroy(&interface->faces);
     memory_free(interface->rod_node);
     memory_free(interface->y);
     memory_free(interface->line);

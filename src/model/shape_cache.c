@@ -9,6 +9,7 @@
 
 #include "base/computation.h"
 #include "base/memory.h"
+#include "io/mesh/element_faces.h"
 #include "io/mesh/mesh_source.h"
 #include "model/basis_cache.h"
 #include "scene/materials.h"
@@ -119,6 +120,18 @@ static void archive_across(Interface *interface, Archive *archive)
                         interface->contact_count);
 }
 
+static void archive_faces(ContactFaces *faces, int32_t contact_count, Archive *archive)
+{
+    archive_length(archive, &faces->count);
+    archive_length(archive, &faces->width);
+    archive_length(archive, &faces->corner_count);
+    archive_require(archive, faces->width <= FACE_NODES_MAX);
+    if (archive->failed) return;
+    archive_new_indices(archive, &faces->point, faces->count * faces->width, -1,
+                        contact_count + faces->corner_count);
+    archive_new_numbers(archive, &faces->corner, 2 * (int64_t)faces->corner_count);
+}
+
 // dofs: of the mesh.
 static void archive_interface(Interface *interface, int32_t dofs, Archive *archive)
 {
@@ -149,6 +162,7 @@ static void archive_interface(Interface *interface, int32_t dofs, Archive *archi
     if (interface->dim > 2) archive_across(interface, archive);
     archive_numbers(archive, interface->rod_face, 2);
     archive_new_indices(archive, &interface->dofs, interface->count, 0, dofs);
+    if (interface->dim > 2) archive_faces(&interface->faces, contact, archive);
 }
 
 static void archive_shape(void *self, Archive *archive)

@@ -13,22 +13,22 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 #include "run/result_folder.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 // A step of the path in units of crossing time + viscous time: long against all that can grow.
-static const double PATH_STEP = 10;
+static const double PATH_STEP_LIMIT = 10;
 // What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
 // some 4 of them), but not more than about this part of an element.
 static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
-static const double SNAP =
+static const double SNAP_LIMIT =
     4;   // slip of a node in a step, over that of the rod (up to 1.5 elsewhere)
 enum {
-    PATH_STEPS_MAX = 20000,   // some 20 times what 320 contact nodes need
+    PATH_STEPS_LIMIT = 20000,   // some 20 times what 320 contact nodes need
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
 };
 
@@ -48,6 +48,12 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
+    if (friction_remembers(&scene->friction, 0))
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: friction.law: growth rates are those of friction that depends on slip rate alone; "
+            "`%s` remembers (`amontons run` takes it)",
+            scene->path, friction_law_name(&scene->friction));
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
@@ -97,7 +103,7 @@ cleanup:
 }
 
 // The path's own steps, from the state of the simulation: tolerance and certificate off, so that
-// every step is PATH_STEP long, and a rod of its own velocity that continues from where
+// every step is PATH_STEP_LIMIT long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
 static bool open_path(StabilityPath *path, Error *err)
 {
@@ -106,7 +112,7 @@ static bool open_path(StabilityPath *path, Error *err)
     const Simulation *before = path->simulation;
     double elements = interface_nodes_along(interface);
     double slip = model_friction_slip(model) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
-    double step = PATH_STEP * model->scales.time;
+    double step = PATH_STEP_LIMIT * model->scales.time;
     StepControlDef def = {.tolerance = INFINITY,
                           .step_max = step,
                           .step_min = 1e-12 * step,
@@ -218,7 +224,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
                          .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
                          .real_rate = rates.real.re,
                          .load = growth_scan(path->growth, &path->last).ratio,
-                         .certified = certificate_holds(&path->control.certificate, &path->last),
+                         .certified = certificate_holds(&path->control.certificate, &path->last, 0),
                          .area = slipping_area(interface, &path->last)};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);
@@ -272,9 +278,9 @@ static void note_snap(StabilityPath *path, double mu)
 }
 
 // Steps until the front has reached the end (whose own state is the last point), or is some
-// positions beyond l_c. A node that goes SNAP times as far in one step as the rod has jumped: where
-// a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
-// The path's long steps damp the jump and go on; in time it may be a sliding.
+// positions beyond l_c. A node that goes SNAP_LIMIT times as far in one step as the rod has jumped:
+// where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches
+// mu_S. The path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->model->interface;
@@ -282,13 +288,13 @@ static bool follow_path(StabilityPath *path, Error *err)
     Observation before = {0};
     int32_t most = 0;   // nodes that slipped at a time, so far
     int32_t more = between_points(interface);
-    for (int32_t step = 0; step < PATH_STEPS_MAX; step++) {
+    for (int32_t step = 0; step < PATH_STEPS_LIMIT; step++) {
         if (stop_wanted(path, err)) goto cleanup;
         state_copy(&path->control.now, &path->last);
         TRY(step_control_advance(&path->control, INFINITY, err));
         Observation seen = observe(&path->control, &path->model->scales);
         int32_t slipping = count_slipping(&path->control.now);
-        bool snaps = seen.max_slip_rate > SNAP * path->rod.velocity;
+        bool snaps = seen.max_slip_rate > SNAP_LIMIT * path->rod.velocity;
         if (snaps && step > 0 && isnan(path->mu_snap)) note_snap(path, before.mu);
         bool next = slipping >= most + more;
         if (step > 0 && next) TRY(add_point(path, &before, err));

@@ -3,10 +3,8 @@
 // so alone, what would hold it, and why a run of the same scene may differ.
 #include "study/stability/stability.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double TAKES_PART = 0.1;   // in the mode, over the pad that does most
 static const double EARLIER = 1e-3;   // mu, relative: less is the same moment

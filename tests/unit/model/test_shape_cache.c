@@ -8,7 +8,6 @@
 #include "scene_of_text.h"
 #include "random_numbers.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { FOLDER_SIZE = 64, PATH_SIZE = 256, TEXT_SIZE = 4000 };
@@ -77,9 +76,8 @@ typedef struct Change {
     const char *text;
 } Change;
 
-static void test_what_changes_the_key(void **state)
+TEST(test_what_changes_the_key)
 {
-    (void)state;
     static const Change changes[] = {
         {1, "mesh: {file: block.geo, set: {nx: 5, nz: 6, shape: quad}}"},
         {1, "mesh: {file: block.geo, set: {nx: 6, nz: 4, shape: quad}}"},
@@ -129,9 +127,8 @@ static void test_what_changes_the_key(void **state)
             if (strcmp(keys[j], keys[k]) == 0) fail_msg("%d and %d share a key", j - 3, k - 3);
 }
 
-static void test_what_does_not(void **state)
+TEST(test_what_does_not)
 {
-    (void)state;
     static const Change changes[] = {
         {0, "title: Another name"},
         {0, "units: si"},
@@ -158,9 +155,8 @@ static void test_what_does_not(void **state)
     }
 }
 
-static void test_no_key(void **state)
+TEST(test_no_key)
 {
-    (void)state;
     char key[HASH_TEXT_SIZE];
     const char *const draws[] = {"Include \"parts.geo\";\n",
                                  "Merge 'mesh.msh';\n",
@@ -281,9 +277,8 @@ static void store(const char *key, uint64_t seed, char note[CACHE_NOTE_SIZE])
 }
 
 // One in space has more of each node, and the line along its middle.
-static void test_space(void **state)
+TEST(test_space)
 {
-    (void)state;
     Shape made, read;
     char note[CACHE_NOTE_SIZE];
     static const char SPACE_KEY[] = "10112233445566778899aabbccddeeff";
@@ -315,9 +310,8 @@ static void test_space(void **state)
     shape_destroy(&read);
 }
 
-static void test_round_trip(void **state)
+TEST(test_round_trip)
 {
-    (void)state;
     Shape made, read;
     char note[CACHE_NOTE_SIZE];
     int64_t live = memory_counters().live;
@@ -335,9 +329,8 @@ static void test_round_trip(void **state)
 }
 
 // A spoilt file, or another shape's: not used, and a reason given.
-static void test_not_trusted(void **state)
+TEST(test_not_trusted)
 {
-    (void)state;
     Shape read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE], other[PATH_SIZE];
     static const char OTHER[] = "00112233445566778899aabbccddeef0";
@@ -357,9 +350,8 @@ static void test_not_trusted(void **state)
 
 // A sum that holds says nothing about who wrote the file: what would be read beyond an array's end
 // is not used.
-static void test_impossible(void **state)
+TEST(test_impossible)
 {
-    (void)state;
     Shape made, read;
     char note[CACHE_NOTE_SIZE];
     make_shape(5, &made);
@@ -381,9 +373,8 @@ static void test_impossible(void **state)
 }
 
 // No folder, an empty name, no key: no cache, and never an error.
-static void test_nowhere(void **state)
+TEST(test_nowhere)
 {
-    (void)state;
     Shape read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
     store("", 5, note);
@@ -414,9 +405,8 @@ static void test_nowhere(void **state)
     setenv("AMONTONS_CACHE", cache, 1);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char note[CACHE_NOTE_SIZE];
     Shape read;
     store(KEY, 5, note);
@@ -447,18 +437,4 @@ static void test_memory_faults(void **state)
     shape_destroy(&made);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_changes_the_key),
-        cmocka_unit_test(test_what_does_not),
-        cmocka_unit_test(test_no_key),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_space),
-        cmocka_unit_test(test_not_trusted),
-        cmocka_unit_test(test_impossible),
-        cmocka_unit_test(test_nowhere),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

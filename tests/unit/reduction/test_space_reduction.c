@@ -80,9 +80,8 @@ static void build(const SpaceCase *one, ReducedBlock *block)
     for (int32_t axis = 0; axis < 2; axis++) memory_free(image[axis]);
 }
 
-static void test_response(void **state)
+TEST(test_response)
 {
-    (void)state;
     static const OperatorTerms ASKED[] = {
         {.stiffness = 1, .mass = 1e-2}, {.stiffness = 1, .damping = 1, .mass = 1e-1},
         {.stiffness = 1, .mass = 3},    {.damping = 1, .mass = 50},
@@ -106,9 +105,8 @@ static void test_response(void **state)
     }
 }
 
-static void test_operator(void **state)
+TEST(test_operator)
 {
-    (void)state;
     for (int32_t s = 0; s < CASE_COUNT; s++) {
         ReducedBlock block;
         build(&CASES[s], &block);
@@ -118,9 +116,8 @@ static void test_operator(void **state)
 }
 
 // Translations move every node alike, rotations turn it: K u = 0, and u x is normal to its axis.
-static void test_rigid_motions(void **state)
+TEST(test_rigid_motions)
 {
-    (void)state;
     for (int32_t s = 0; s < CASE_COUNT; s++) {
         ReducedBlock block;
         BulkOperator system;
@@ -141,14 +138,4 @@ static void test_rigid_motions(void **state)
         free(full), free(force);
         reduced_block_destroy(&block);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_response),
-        cmocka_unit_test(test_operator),
-        cmocka_unit_test(test_rigid_motions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
