@@ -66,6 +66,8 @@ typedef struct FieldChoice {
     const char *at;   // "U=0.0117" or "t=120": the nearest time that is stored; NULL: the last one
         // before the last sliding
     bool edges;   // of elements are drawn
+    const char *cut;   // of a block in space: "y=0.25", up to three with commas between: what lies
+        // before all these planes is taken away; NULL: none
 } FieldChoice;
 
 typedef struct PictureRequest {
@@ -111,6 +113,9 @@ typedef struct FilmRequest {
     bool last_cycle;   // from the end of a bulk sliding to a little after the next, the last
     const char *of;   // field of the block, as FieldChoice has it; without fields not asked
     double magnification;   // of the deformation; 0: chosen
+    bool
+        fields;   // the run is computed once more for as many fields of the block as the film shows
+    const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
     bool overwrite;   // a file that is there and is not ours goes; else it is refused
     FrameCallback on_frame;   // NULL: none

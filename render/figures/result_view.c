@@ -87,6 +87,18 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    TRY(nodes_series_read(view, series, values, err));
+    TRY(range_check(view, err));
+cleanup:
+    if (!error_is_clean(err)) {
+        memory_free(*values);
+        *values = NULL;
+    }
+    return error_is_clean(err);
+}
+
 // The same of the nodes that are shown against U.
 bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err)
 {
@@ -166,15 +178,16 @@ cleanup:
 // As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
 static bool events_read(ResultView *view, Error *err)
 {
-    static const ResultTable tables[3] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP};
-    double *column[3] = {0};
+    static const ResultTable tables[4] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP, EVENTS_REACH};
+    double *column[4] = {0};
     int32_t count = 0;
-    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
+    TRY(result_file_read_tables(view->file, tables, 4, column, &count, err));
     TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
     for (int32_t k = 0; k < count; ++k) {
         double kind = column[0][k];
         bool known = kind >= 0 && kind <= VIEW_LEADING;
-        view->events[k] = (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k]};
+        view->events[k] =
+            (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k], column[3][k]};
     }
     view->event_count = count;
     TRY(view->rapid = memory_array(count, sizeof *view->rapid, err));
@@ -185,7 +198,7 @@ static bool events_read(ResultView *view, Error *err)
         view->rapid[view->rapid_count++][1] = event->U_stop;
     }
 cleanup:
-    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    for (int32_t k = 0; k < 4; ++k) memory_free(column[k]);
     return error_is_clean(err);
 }
 
@@ -223,9 +236,25 @@ bool result_view_read_slip_rate(ResultView *view, Error *err)
     return view->slip_rate || result_view_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
 }
 
+// In space also those beside the line, where the history says what the contact is made of.
 bool result_view_read_status(ResultView *view, Error *err)
 {
+    if (view->line && result_file_has_faces(view->file) && !result_view_read_plane(view, err))
+        return false;
     return view->status || result_view_read(view, SERIES_STATUS, &view->status, err);
+}
+
+bool result_view_read_plane(ResultView *view, Error *err)
+{
+    if (!view->line)
+        FAIL(err, ERROR_INPUT,
+             "the block is in the plane: slip-map and contact-density show its contact");
+    if (view->plane.patch_count == 0)
+        TRY(contact_plane_read(view->file, view->all_nodes, &view->plane, err));
+    if (!view->contact_status)
+        TRY(result_view_read_contact(view, SERIES_STATUS, &view->contact_status, err));
+cleanup:
+    return error_is_clean(err);
 }
 
 bool result_view_read_slip(ResultView *view, Error *err)
@@ -255,6 +284,8 @@ void result_view_close(ResultView *view)
     memory_free(view->slip);
     memory_free(view->front);
     memory_free(view->status);
+    memory_free(view->contact_status);
+    contact_plane_destroy(&view->plane);
     memory_free(view->events);
     memory_free(view->rapid);
     memory_free(view->peaks);

@@ -7,8 +7,6 @@
 #include "contact/friction_state.h"
 #include "contact/slip.h"
 
-#include <math.h>
-
 // law must outlive the arrays.
 bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
                            ContactArrays *arrays, Error *err)

@@ -19,8 +19,6 @@
 #include "scene/programs.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 // Static balance of moments is asked of frames in which inertia has no part: the longest step was
 // taken there, and the last rapid event, the last state that was not certified and the rod's start

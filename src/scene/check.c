@@ -320,6 +320,8 @@ static bool check_output(const Check *check)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need "
                      "output.history: true");
+    if (scene->output.compare[0] && scene->output.figures.count == 0)
+        return blame(check, "output.compare", "output.figures names no picture to draw it in");
     for (int32_t k = 0; k < scene->output.figures.count; k++) {
         if (strcmp(scene->output.figures.name[k], "field") == 0 && !scene->output.fields)
             return blame(check, "output.figures",

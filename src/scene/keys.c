@@ -323,8 +323,7 @@ static const SceneKey keys[] = {
     {"output.fields", KEY_FIELDS, offsetof(Scene, output.fields), "1", RANGE_ANY, "none",
      .sentence = "Fields of the block for ParaView (fields.pvd): `none`, or when to write them."},
     {"output.fields.every_U", KEY_NUMBER, offsetof(Scene, output.fields_every_U), "length",
-     RANGE_NOT_NEGATIVE, "0",
-     .sentence = "A file each time the rod has moved this far; 0: not by U."},
+     RANGE_NOT_NEGATIVE, "0", .sentence = "A file each time the rod has moved this far; 0: none."},
     {"output.fields.every_t", KEY_NUMBER, offsetof(Scene, output.fields_every_t), "time",
      RANGE_NOT_NEGATIVE, "0",
      .sentence = "A file each time this much time has passed; 0: not by time."},
@@ -356,6 +355,8 @@ static const SceneKey keys[] = {
      .sentence = "true: history.h5 has the steps of the window only; else all."},
     {"output.figures", KEY_NAMES, offsetof(Scene, output.figures), "1", RANGE_ANY, "[]",
      .sentence = "The pictures to draw at the end.", .choices = figure_choices},
+    {"output.compare", KEY_TEXT, offsetof(Scene, output.compare), "1", RANGE_ANY, NULL,
+     .may_lack = true, .sentence = "Measurements (.csv) to be drawn beside it, with the misfit."},
 };
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };

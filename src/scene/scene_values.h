@@ -47,8 +47,6 @@ typedef struct SceneSupport {
     char group[GROUP_NAME_SIZE];
     bool x, y, z;
 } SceneSupport;
-// The word of the scene: "x", "y", "z", "both" (x and z) or "all".
-const char *scene_support_direction(const SceneSupport *support);
 
 // The numbers of a material, in the order of scene/materials.
 enum {

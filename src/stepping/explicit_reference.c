@@ -9,7 +9,6 @@
 #include "contact/slip.h"
 
 #include <math.h>
-#include <string.h>
 
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err)
 {

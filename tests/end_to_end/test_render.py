@@ -42,7 +42,8 @@ class Style(ctypes.Structure):
 
 
 class Field(ctypes.Structure):
-    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool)]
+    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool),
+                ("cut", ctypes.c_char_p)]
 
 
 class Request(ctypes.Structure):
@@ -161,7 +162,7 @@ class Pictures(unittest.TestCase):
     def test_all_figures_in_time(self):
         self.assertEqual(self.result, (0, ""))
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "figures"))),
-                         sorted(name + ".png" for name in FIGURES))
+                         sorted([name + ".png" for name in FIGURES] + ["force.csv", "slip-map.csv"]))
         self.assertLess(self.seconds, 3)   # of processor time: a second each
 
     def test_size_and_metadata(self):
@@ -652,7 +653,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_figure(self):
         fixture.make(self.folder)
-        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, field, field-strip",
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, contact-plane, precursors, front-speed, field, field-strip",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):

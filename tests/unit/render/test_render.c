@@ -3,19 +3,15 @@
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "io/hdf5/result_file.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { NODES = 5, STEPS = 200, PATH_SIZE = 400, FAULTS_MAX = 2000 };
 
@@ -82,9 +78,8 @@ static bool picture_exists(const char *name)
     return access(path, F_OK) == 0;
 }
 
-static void draws_all_and_frees_all(void **state)
+TEST(draws_all_and_frees_all)
 {
-    (void)state;
     Error err = {0};
     PictureRequest request = {0};
     int64_t live = memory_counters().live;
@@ -96,9 +91,8 @@ static void draws_all_and_frees_all(void **state)
     assert_false(picture_exists("force.png.part"));
 }
 
-static void memory_runs_out_everywhere(void **state)
+TEST(memory_runs_out_everywhere)
 {
-    (void)state;
     PictureRequest request = {.style = {.dpi = 120}};
     int64_t live = memory_counters().live, k = 0;
     for (; k < FAULTS_MAX; ++k) {
@@ -113,9 +107,8 @@ static void memory_runs_out_everywhere(void **state)
     assert_in_range(k, 20, FAULTS_MAX - 1);
 }
 
-static void figures_can_be_chosen(void **state)
+TEST(figures_can_be_chosen)
 {
-    (void)state;
     Error err = {0};
     const char *const names[] = {"contact-density"};
     char command[PATH_SIZE + 20];
@@ -127,22 +120,17 @@ static void figures_can_be_chosen(void **state)
     assert_false(picture_exists("force.png"));
 }
 
-static void unknown_figures_are_named(void **state)
+TEST(unknown_figures_are_named)
 {
-    (void)state;
     Error err = {0};
     const char *const names[] = {"force", "colour"};
     PictureRequest request = {.figures = names, .figure_count = 2};
     assert_false(amontons_render(folder, &request, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
-    assert_non_null(strstr(err.message, "force, slip-map, contact-density, field, field-strip"));
+    assert_non_null(strstr(err.message,
+                           "force, slip-map, contact-density, contact-plane, precursors, "
+                           "front-speed, field, field-strip"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_all_and_frees_all), cmocka_unit_test(memory_runs_out_everywhere),
-        cmocka_unit_test(figures_can_be_chosen), cmocka_unit_test(unknown_figures_are_named)};
-    return cmocka_run_group_tests(tests, result_write, result_remove);
-}
+GROUP_BETWEEN(result_write, result_remove);

@@ -115,9 +115,8 @@ static void turn_by_hand(const Fixture *fixture, const int32_t *moving, int32_t 
     }
 }
 
-static void test_differences(void **state)
+TEST(test_differences)
 {
-    (void)state;
     Random random = {.state = 3};
     Error err = {0};
     Fixture fixture;
@@ -158,9 +157,8 @@ static void test_differences(void **state)
 
 // The least eigenvalue of S_C with friction's derivative on what moves says what the certificate
 // says. Damping across slip decides some: without it a third more would be refused.
-static void test_certificate(void **state)
+TEST(test_certificate)
 {
-    (void)state;
     Random random = {.state = 4};
     Error err = {0};
     Fixture fixture;
@@ -253,9 +251,8 @@ static void rates_by_hand(const Fixture *fixture, double *largest, double *real)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) free(all[k]);
 }
 
-static void test_growth(void **state)
+TEST(test_growth)
 {
-    (void)state;
     Random random = {.state = 5};
     Error err = {0};
     Fixture fixture;
@@ -283,14 +280,4 @@ static void test_growth(void **state)
     assert_true(grows > 5 && runs_away > 5);
     growth_destroy(growth);
     fixture_destroy(&fixture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_differences),
-        cmocka_unit_test(test_certificate),
-        cmocka_unit_test(test_growth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,18 +4,14 @@
 #include "io/hdf5/result_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { NODES = 5, PADS = 3, STEPS = 300 };
 
@@ -70,9 +66,8 @@ static void assert_clean(const Error *err)
     if (!error_is_clean(err)) fail_msg("%s", err->message);
 }
 
-static void a_result_comes_back(void **state)
+TEST(a_result_comes_back)
 {
-    (void)state;
     Error err = {0};
     ResultHead head = head_of_a_run();
     ArrayFile *file = result_file_create(folder, &head, &err);
@@ -132,9 +127,8 @@ static void a_result_comes_back(void **state)
     assert_true(array_file_close(file, &err));
 }
 
-static void what_is_missing_is_named(void **state)
+TEST(what_is_missing_is_named)
 {
-    (void)state;
     Error err = {0};
     ResultHead head = head_of_a_run();
     assert_null(result_file_open("/nonexistent", &err));
@@ -150,9 +144,8 @@ static void what_is_missing_is_named(void **state)
     assert_non_null(strstr(err.message, "contact nodes"));
 }
 
-static void every_path_frees_when_memory_is_short(void **state)
+TEST(every_path_frees_when_memory_is_short)
 {
-    (void)state;
     ResultHead head = head_of_a_run();
     char place[280], path[300];
     snprintf(place, sizeof place, "%s/short", folder);
@@ -190,12 +183,4 @@ static void every_path_frees_when_memory_is_short(void **state)
     assert_int_equal(rmdir(place), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_result_comes_back),
-        cmocka_unit_test(what_is_missing_is_named),
-        cmocka_unit_test(every_path_frees_when_memory_is_short),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

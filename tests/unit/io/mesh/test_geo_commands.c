@@ -15,7 +15,7 @@ static void expect_refused(const char *place, const char *wanted)
 }
 
 // Opening a pipe that nobody writes to would wait.
-static void test_pipe(void **state)
+TEST(test_pipe)
 {
     char place[PLACE_SIZE];
     (void)state;
@@ -30,7 +30,7 @@ static void test_pipe(void **state)
 }
 
 // Seven files, each of which includes the next one ten times: 10^7 readings.
-static void test_tenfold(void **state)
+TEST(test_tenfold)
 {
     char place[PLACE_SIZE], text[400];
     (void)state;
@@ -48,7 +48,7 @@ static void test_tenfold(void **state)
 }
 
 // Itself: as deep as files may include each other.
-static void test_itself(void **state)
+TEST(test_itself)
 {
     char place[PLACE_SIZE];
     (void)state;
@@ -59,7 +59,7 @@ static void test_itself(void **state)
 }
 
 // Words that only look like commands are let through, commands in any of the files are not.
-static void test_words(void **state)
+TEST(test_words)
 {
     static const struct {
         const char *text, *wanted;   // NULL: it is let through
@@ -90,11 +90,4 @@ static void test_words(void **state)
     fclose(file);
     expect_refused(place, "is no text");
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pipe), cmocka_unit_test(test_tenfold),
-                                       cmocka_unit_test(test_itself), cmocka_unit_test(test_words)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,17 +2,12 @@
 // What csv_writer writes comes back; and tables of others, by RFC 4180.
 #include "io/text/csv_reader.h"
 
+#include "cases.h"
 #include "io/text/csv_writer.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static const char PATH[] = "csv_reader_test.csv";
 
@@ -27,7 +22,7 @@ static bool read_text(const char *text, CsvTable *table, Error *err)
     return done;
 }
 
-static void what_was_written_is_read(void **state)
+TEST(what_was_written_is_read)
 {
     static const char *const words[] = {"a", "b,c", "say \"x\"", "two\nlines", "", "\""};
     enum { COUNT = sizeof words / sizeof *words };
@@ -57,7 +52,7 @@ static void what_was_written_is_read(void **state)
     csv_destroy(&table);
 }
 
-static void other_line_ends_are_read(void **state)
+TEST(other_line_ends_are_read)
 {
     Error err = {0};
     CsvTable table;
@@ -74,7 +69,7 @@ static void other_line_ends_are_read(void **state)
     csv_destroy(&table);
 }
 
-static void wrong_tables_are_told(void **state)
+TEST(wrong_tables_are_told)
 {
     static const char *const wrong[] = {"", "a,b\n1\n", "a\n1,2\n", "a,b\n1,", "a,b\n\"1,2\n3,4\n"};
     (void)state;
@@ -86,12 +81,4 @@ static void wrong_tables_are_told(void **state)
         assert_null(table.cells);
         csv_destroy(&table);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_was_written_is_read),
-                                       cmocka_unit_test(other_line_ends_are_read),
-                                       cmocka_unit_test(wrong_tables_are_told)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
