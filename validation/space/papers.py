@@ -40,6 +40,9 @@ STUDIES = {
     "pressure": ("P/E, at L/H = 1 and W/H = 2", {pressure: block(1, 2, pressure) for pressure in (0.001, 0.002, 0.003, 0.006, 0.012)}),
     "length": ("L/H, at W/H = 1 and P/E = 0.006", {length: block(length, 1) for length in (0.5, 1, 2, 3)}),
     "breadth": ("W/H, at L/H = 1 and P/E = 0.006", {breadth: block(1, breadth) for breadth in (0.5, 1, 2, 3)}),
+    "rod": ("W/H where the rod is elsewhere, at L/H = 1 and P/E = 0.006: all of the trailing face, or a strip at a tenth of the height",
+            {f"{name}, W/H {breadth}": block(1, breadth) | {key: value} for name, key, value in (("whole face", "rod.whole", "true"), ("low", "rod.height", 0.1))
+             for breadth in (0.5, 2)}),
     "grooves": ("two grooves 0.2 H deep, along or across and how wide over H, at L/H = W/H = 1 and P/E = 0.006",
                 {f"{direction} {width}": grooved(direction, width) for width in (0.1, 0.2) for direction in ("along", "across")}),
 }
@@ -117,7 +120,7 @@ answer has its bar. Their figures were not at hand: statements of their abstract
                           with_bar(row, "mu_M"), with_bar(row, "mu_hold"), ", ".join(map(str, row.get("nodes", []))), f"{row.get('cpu_s', 0):.0f}"])
         parts.append(f"## {study.capitalize()}: {title}\n\n" + markdown_table(
             [study, "mu_M", "A_c/A", "l_c/L", "cells that slip", "contact nodes", "s", "mu_M with bar", "mu_hold with bar", "contact nodes", "s"], table)
-            + ("" if study == "grooves" or len(ones) < 2 else f"\n\n{falls(have, ones)}"))
+            + ("" if study in ("grooves", "rod") or len(ones) < 2 else f"\n\n{falls(have, ones)}"))
     if areas:
         parts.append("## mu_M against A_c/A\n\nOn one mesh each, in order of the area that slips before bulk sliding.\n\n"
                      + markdown_table(["A_c/A", "mu_M", "point"], [[f"{area:.2f}", f"{mu:.3f}", point] for area, mu, point in sorted(areas)]))
