@@ -50,6 +50,7 @@ typedef struct ContactView {
     const double *pressure;   // [count] stress
     const double *shear;   // [count][tangents] positive where the floor drags the block back
     const uint8_t *status;   // [count] NODE_...
+    const double *state;   // [count] of friction that remembers, as in history.h5; NULL: it does not
 } ContactView;
 
 // One accepted step, as shown to the caller.
