@@ -103,11 +103,11 @@ int command_render(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density, precursors (length of slip "
-         "over "
-         "F_T/F_N), front-speed, field or field-strip (up to six frames of one sliding). May be "
-         "given "
-         "several times; without it all but the last four, with those that --compare has data for",
+         "Draw only this picture: force, slip-map, contact-density, precursors (length of slip), "
+         "front-speed, field or field-strip (up to six frames of one sliding). May be given "
+         "several "
+         "times; without it the first three, field where fields are stored, and what shows the "
+         "measurements of --compare",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
          "Draw these of force, slip-map and contact-density below each other, as panels.png",
