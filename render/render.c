@@ -55,6 +55,9 @@ static Figure figure_get(FigureId id)
         figure.height_over_width = 0.62;
         figure.draw = figure_contact_density;
         break;
+    case FIGURE_CONTACT_PLANE:
+        figure.draw_whole = figure_contact_plane;
+        break;
     case FIGURE_PRECURSORS:
     case FIGURE_FRONT_SPEED:
         figure.height_over_width = 0.62;
@@ -225,7 +228,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Who asks for all figures gets those that there are.
 static bool has_fields(const char *folder)
 {
     char path[PATH_MAX];
@@ -233,16 +235,28 @@ static bool has_fields(const char *folder)
     return access(path, R_OK) == 0;
 }
 
+// Who asks for all figures gets those that there are. field-strip needs a sliding with several
+// times: for who asks. Likewise contact-plane without an event.
+static bool is_there(FigureId id, const char *folder, const PictureRequest *request,
+                     const ResultView *view)
+{
+    const char *of = request->field.of;
+    if (id == FIGURE_FIELD)
+        return has_fields(folder) &&
+               (!of || figure_field_shows(of) || !figure_contact_plane_shows(of));
+    if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(of))) return false;
+    return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
+}
+
 // Where no figure is named: a strip needs a sliding with several times, and figures with axes of
 // their own are of interest beside measurements.
-static bool is_drawn(const char *folder, const Figure *figure, const PictureStyle *style,
+static bool is_drawn(const char *folder, FigureId id, const PictureRequest *request,
                      ResultView *view, bool *drawn, Error *err)
 {
+    Figure figure = figure_get(id);
     bool measured = false;
-    TRY(figure_data_measured(figure->name, style->compare, view, &measured, err));
-    *drawn = figure->draw_whole
-                 ? figure->draw_whole == figure_field && !view->line && has_fields(folder)
-                 : measured || !figure->own_axes;
+    TRY(figure_data_measured(figure.name, request->style.compare, view, &measured, err));
+    *drawn = figure.draw_whole ? is_there(id, folder, request, view) : measured || !figure.own_axes;
 cleanup:
     return error_is_clean(err);
 }
@@ -280,6 +294,7 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     TRY(request_check(folder, request, err));
     TRY(result_view_open(folder, &view, err));
     TRY(check_compare(request, &view, err));
+    if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
     TRY(make_figures_folder(folder, err));
     if (request->panels) {
         TRY(figure_make(folder, request, NULL, &view, err));
@@ -289,7 +304,7 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
         if (request->figure_count == 0)
-            TRY(is_drawn(folder, &figure, &request->style, &view, &drawn, err));
+            TRY(is_drawn(folder, (FigureId)k, request, &view, &drawn, err));
         if (!drawn) continue;
         TRY(figure_make(folder, request, &figure, &view, err));
     }

@@ -14,7 +14,6 @@
 #include <string.h>
 
 enum { POINTS_AN_INCH = 72 };
-static const float MISSING_ABOVE = -1.5F;   // between HEAT_MISSING and HEAT_BELOW
 
 struct Canvas {
     CanvasDef def;
@@ -168,25 +167,24 @@ void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-// An image that Cairo places, so that PDF and SVG hold the same pixels: [height * stride], all 0.
-// NULL: the failure is kept.
-static cairo_surface_t *image_begin(Canvas *canvas, int32_t width, int32_t height,
-                                    uint32_t **pixels, int32_t *stride)
+// Cairo places what OpenGL draws: an image of its own, so that PDF and SVG hold the same pixels.
+static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
 {
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
-    *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
-    *stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
-    if (!cairo_surface_status(image)) return image;
-    error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__, "a map of %d by %d values: %s",
-              width, height, cairo_status_to_string(cairo_surface_status(image)));
-    cairo_surface_destroy(image);
-    return NULL;
-}
-
-static void image_end(Canvas *canvas, const Box *box, cairo_surface_t *image)
-{
-    cairo_surface_mark_dirty(image);
-    canvas_image(canvas, box, image);
+    GlImageDef def = *wanted;
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, def.width, def.height);
+    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+    def.colors = canvas->map;
+    def.color_count = MAP_SIZE;
+    def.below = canvas->below;
+    uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
+    if (cairo_surface_status(image)) {
+        error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "a map of %d by %d values: %s", def.width, def.height,
+                  cairo_status_to_string(cairo_surface_status(image)));
+    } else if (gl_image_draw(GL_OSMESA, &def, pixels, &canvas->failure)) {
+        cairo_surface_mark_dirty(image);
+        canvas_image(canvas, box, image);
+    }
     cairo_surface_destroy(image);
 }
 
@@ -194,36 +192,16 @@ static void image_end(Canvas *canvas, const Box *box, cairo_surface_t *image)
 // never a mixture.
 void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns, int32_t rows)
 {
-    uint32_t *pixels = NULL;
-    int32_t stride = 0;
-    cairo_surface_t *image = image_begin(canvas, columns, rows, &pixels, &stride);
-    if (!image) return;
-    for (int32_t row = 0; row < rows; ++row) {
-        uint32_t *line = pixels + (int64_t)row * stride;
-        const float *value = values + (int64_t)row * columns;
-        for (int32_t k = 0; k < columns; ++k) {
-            if (value[k] >= 0)
-                line[k] = canvas->map[(int32_t)(fminf(value[k], 1) * (MAP_SIZE - 1) + 0.5F)];
-            else if (value[k] >= MISSING_ABOVE)   // neither missing nor NaN
-                line[k] = canvas->below;
-        }
-    }
-    image_end(canvas, box, image);
+    draw_pixels(canvas, box, &(GlImageDef){.width = columns, .height = rows, .values = values});
 }
 
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count)
 {
-    GlImageDef def = {.width = (int32_t)lround(box->right - box->left),
-                      .height = (int32_t)lround(box->bottom - box->top),
-                      .colors = canvas->map,
-                      .color_count = MAP_SIZE,
-                      .corners = corners,
-                      .corner_count = count};
-    uint32_t *pixels = NULL;
-    cairo_surface_t *image = image_begin(canvas, def.width, def.height, &pixels, &def.stride);
-    if (!image) return;
-    gl_image_draw(GL_OSMESA, &def, pixels, &canvas->failure);
-    image_end(canvas, box, image);
+    draw_pixels(canvas, box,
+                &(GlImageDef){.width = (int32_t)lround(box->right - box->left),
+                              .height = (int32_t)lround(box->bottom - box->top),
+                              .corners = corners,
+                              .corner_count = count});
 }
 
 bool canvas_is_vector(const Canvas *canvas)

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 enum { TOKEN_SIZE = 16 };   // pixels a side of the buffer OSMesa insists on, never drawn into
-enum { UNIT_COLORS, UNIT_TARGET, UNITS };   // textures
+enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
 
 // clang-format off
 // All of OpenGL that is used: return type, name, arguments.
@@ -54,6 +54,7 @@ enum { UNIT_COLORS, UNIT_TARGET, UNITS };   // textures
       (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *)) \
     X(void, TexParameteri, (GLenum, GLenum, GLint)) \
     X(void, Uniform1i, (GLint, GLint)) \
+    X(void, Uniform1ui, (GLint, GLuint)) \
     X(void, Uniform2f, (GLint, GLfloat, GLfloat)) \
     X(void, UseProgram, (GLuint)) \
     X(void, VertexAttribPointer, (GLuint, GLint, GLenum, GLboolean, GLsizei, const void *)) \
@@ -191,13 +192,19 @@ static const char VERTEX_SOURCE[] =
 
 static const char FRAGMENT_SOURCE[] =
     "#version 330 core\n"
+    "uniform int per_pixel;\n"
+    "uniform uint below;\n"
     "uniform usampler2D colors;\n"
+    "uniform sampler2D values;\n"
     "in float at;\n"
     "out uint color;\n"
     "void main() {\n"
+    "    float value = per_pixel != 0 ? texelFetch(values, ivec2(gl_FragCoord.xy), 0).r\n"
+    "                                 : max(at, 0.0);\n"
+    "    if (!(value >= -1.5)) discard;\n"
     "    float last = float(textureSize(colors, 0).x - 1);\n"
-    "    int place = int(floor(clamp(at, 0.0, 1.0) * last + 0.5));\n"
-    "    color = texelFetch(colors, ivec2(place, 0), 0).r;\n"
+    "    int place = int(floor(clamp(value, 0.0, 1.0) * last + 0.5));\n"
+    "    color = value < 0.0 ? below : texelFetch(colors, ivec2(place, 0), 0).r;\n"
     "}\n";
 
 static void shader_add(const Gl *gl, GLenum stage, const char *source)
@@ -222,6 +229,7 @@ static bool program_create(Gl *gl, Error *err)
     if (!done) FAIL(err, ERROR_LIBRARY, "OpenGL does not take the shaders: %s", said);
     gl->UseProgram(gl->program);
     gl->Uniform1i(gl->GetUniformLocation(gl->program, "colors"), UNIT_COLORS);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "values"), UNIT_VALUES);
 cleanup:
     return error_is_clean(err);
 }
@@ -304,18 +312,28 @@ static void corners_draw(const Gl *gl, const GlCorner *corners, int64_t count)
     gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)count);
 }
 
+// Values that are a texture fill the image by one triangle that is larger than it.
 static bool image_draw(const Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *err)
 {
     static const GLuint empty[4] = {0};
+    float width = (float)def->width, height = (float)def->height;
     GLenum status = GL_NO_ERROR;
+    const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
     TRY(target_size(gl, def, err));
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
                    GL_UNSIGNED_INT, def->colors);
-    gl->Uniform2f(gl->GetUniformLocation(gl->program, "size"), (float)def->width,
-                  (float)def->height);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->values ? def->width : 1,
+                   def->values ? def->height : 1, 0, GL_RED, GL_FLOAT, def->values);
+    gl->Uniform2f(gl->GetUniformLocation(gl->program, "size"), width, height);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "per_pixel"), def->values != NULL);
+    gl->Uniform1ui(gl->GetUniformLocation(gl->program, "below"), def->below);
     gl->ClearBufferuiv(GL_COLOR, 0, empty);
-    corners_draw(gl, def->corners, def->corner_count);
+    if (def->values)
+        corners_draw(gl, all, 3);
+    else
+        corners_draw(gl, def->corners, def->corner_count);
     gl->PixelStorei(GL_PACK_ROW_LENGTH, def->stride);
     gl->ReadPixels(0, 0, def->width, def->height, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels);
     status = gl->GetError();

@@ -21,8 +21,14 @@ typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error 
 
 // One field of the block at one time.
 bool figure_field(Page *page, const FigureInput *input, Error *err);
+bool figure_field_shows(const char *quantity);
 // The same, the velocity where none is named, in up to six frames of one sliding.
 bool figure_strip(Page *page, const FigureInput *input, Error *err);
+
+// The contact of a block in space: slip rates, or what is named, at moments of one sliding or those
+// that are asked for; or when slip arrived.
+bool figure_contact_plane(Page *page, const FigureInput *input, Error *err);
+bool figure_contact_plane_shows(const char *quantity);
 
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and above it an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);

@@ -2,6 +2,7 @@
 #include "render/film/film_page.h"
 
 #include "base/memory.h"
+#include "render/film/film_plane.h"
 #include "render/figures/slip_scale.h"
 
 #include <limits.h>
@@ -32,6 +33,8 @@ struct FilmPage {
     FilmBand band;
     FilmForce force;
     FilmProfile profile;
+    bool in_space;   // the contact as a plane, in the place of its profile
+    FilmPlane plane;
     BlockTimes times;   // owned
     int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
     int32_t shown;   // the one that stands on the base; -1: none, or a mixture
@@ -39,6 +42,7 @@ struct FilmPage {
     int32_t pair_index[2];   // of `times`; -1: none
     BlockPage map;
     Axes block;
+    Block block_shown;   // its field; owned
     BlockQuantity quantity;
     double magnification;
     int32_t U_decimals, t_decimals;
@@ -150,6 +154,14 @@ static void place_block(FilmPage *page, const Box *cell, const double extent[4])
     page->block.box.bottom = page->block.box.top + round(needed * point);
 }
 
+// The contact, now: its slip rates along x, in space all of it.
+static bool place_contact(FilmPage *page, const Box *cell, Error *err)
+{
+    if (page->in_space) return film_plane_create(&page->base, cell, &page->plane, err);
+    film_profile_place(&page->base, cell, &page->profile);
+    return true;
+}
+
 static bool lay_out(FilmPage *page, Error *err)
 {
     double point = page->base.point, extent[4] = {0};
@@ -170,12 +182,12 @@ static bool lay_out(FilmPage *page, Error *err)
         lower.top = right.bottom = (right.top + right.bottom) / 2;
         TRY(fit_fields(page, extent, err));
         place_block(page, &left, extent);
-        film_profile_place(&page->base, &lower, &page->profile);
+        TRY(place_contact(page, &lower, err));
     } else {
-        film_profile_place(&page->base, &left, &page->profile);
+        TRY(place_contact(page, &left, err));
     }
     film_force_place(&page->base, &right, t, &page->force);
-    if (page->stored)   // one above the other: frames begin at one line
+    if (page->stored && !page->in_space)   // one above the other: frames begin at one line
         page->force.axes.box.left = page->profile.axes.box.left =
             fmax(page->force.axes.box.left, page->profile.axes.box.left);
     TRY(film_band_create(&page->base, &foot, &page->band, err));
@@ -238,7 +250,10 @@ static bool draw_standing(FilmPage *page, Error *err)
 {
     draw_title(page);
     film_band_draw(&page->base, &page->band);
-    film_profile_draw(&page->base, &page->profile);
+    if (page->in_space)
+        film_plane_draw(&page->base, &page->plane);
+    else
+        film_profile_draw(&page->base, &page->profile);
     TRY(film_force_draw(&page->base, &page->force, err));
     if (page->stored) {
         set_block_map(page);
@@ -281,13 +296,13 @@ static bool put_block(FilmPage *page, const Block *block, bool mixed, Error *err
 // Only where a frame shows another stored field than the one before.
 static bool draw_stored(FilmPage *page, int32_t index, Error *err)
 {
-    Block block = {0};
+    Block *block = &page->block_shown;
     if (index == page->shown) return true;
-    TRY(read_stored(page, index, &block, err));
-    TRY(put_block(page, &block, false, err));
+    block_destroy(block);
+    TRY(read_stored(page, index, block, err));
+    TRY(put_block(page, block, false, err));
     page->shown = index;
 cleanup:
-    block_destroy(&block);
     return error_is_clean(err);
 }
 
@@ -371,9 +386,13 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
     draw_clock(page, &now);
     film_band_now(&page->frame, &page->band, k);
     film_force_now(&page->frame, &page->force, &now);
-    TRY(film_profile_now(&page->frame, &page->profile, &now, err));
+    if (page->in_space)
+        TRY(film_plane_now(&page->frame, &page->plane, &now, err));
+    else
+        TRY(film_profile_now(&page->frame, &page->profile, &now, err));
     if (page->stored)
-        block_page_contact(&page->frame, &page->map, film_nearest_row(&now), &page->block);
+        block_page_contact(&page->frame, &page->map, &page->block_shown, film_nearest_row(&now),
+                           &page->block);
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
 cleanup:
     return error_is_clean(err);
@@ -389,9 +408,10 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     page->def = *def;
     page->shown = page->pair_index[0] = page->pair_index[1] = -1;
     page->map = (BlockPage){.view = def->view, .share = 1};
-    page->force.view = page->profile.view = page->band.view = def->view;
+    page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
+    page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;
-    page->band.map.bar = page->profile.bar = slip_scale(def->view, V);
+    page->band.map.bar = page->profile.bar = page->plane.bar = slip_scale(def->view, V);
     TRY(block_quantity_find(def->of, &page->quantity, err));
     TRY(page_open(page, &page->base, err));
     TRY(page_open(page, &page->frame, err));
@@ -412,6 +432,8 @@ void film_page_destroy(FilmPage *page)
     page_destroy(&page->frame);
     film_band_destroy(&page->band);
     block_times_destroy(&page->times);
+    block_destroy(&page->block_shown);
+    film_plane_destroy(&page->plane);
     for (int32_t k = 0; k < 2; ++k) block_destroy(&page->pair[k]);
     memory_free(page->stored);
     memory_free(page);

@@ -88,47 +88,22 @@ static void edges_place(const Axis *axis, const double *edges, int32_t count, do
         placed[k] = (float)(length * (edges[k] - low) / (high - low));
 }
 
-// Which cell the middle of each of [count] pixels lies in, of `cells` between edges that rise; -1:
-// in none.
-static void cells_of_pixels(const float *edges, int32_t cells, int32_t count, int32_t *cell)
+// Two triangles a cell, all corners of its value. x, y: of the edges.
+static int64_t grid_corners(const MapDrawing *drawing, const float *x, const float *y,
+                            GlCorner *corners)
 {
-    int32_t at = 0;
-    for (int32_t k = 0; k < count; k++) {
-        float middle = (float)k + 0.5F;
-        while (at < cells && edges[at + 1] <= middle) at++;
-        cell[k] = at < cells && edges[at] <= middle ? at : -1;
-    }
-}
-
-// Pixel by pixel what the cell has in which its middle lies. x, y: of the edges, y upwards.
-static bool cells_paint(const MapDrawing *drawing, const float *x, const float *y, Error *err)
-{
+    static const uint8_t order[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     const MapGrid *grid = &drawing->grid;
-    const Box *box = &drawing->axes->box;
-    int32_t width = (int32_t)lround(box->right - box->left);
-    int32_t height = (int32_t)lround(box->bottom - box->top);
-    int32_t *column = NULL;
-    float *values = NULL;
-    TRY(column = NEW_ARRAY(int32_t, (int64_t)width + height, err));
-    TRY(values = NEW_ARRAY(float, (int64_t)width *height, err));
-    int32_t *row = column + width;
-    cells_of_pixels(x, grid->columns, width, column);
-    cells_of_pixels(y, grid->rows, height, row);
-    for (int32_t i = 0; i < height; i++) {
-        float *line = values + (int64_t)i * width;
-        for (int32_t k = 0; k < width; k++) {
-            int32_t cell = row[height - 1 - i] * grid->columns + column[k];
-            bool inside = row[height - 1 - i] >= 0 && column[k] >= 0;
-            int32_t point = inside ? grid->point[cell] : -1;
-            bool known = point >= 0 && isfinite(drawing->map->value[point]);
-            line[k] = known ? color_value(drawing, point) : HEAT_MISSING;
-        }
+    int64_t count = 0;
+    for (int64_t k = 0; k < (int64_t)grid->rows * grid->columns; k++) {
+        int32_t point = grid->point[k], column = (int32_t)(k % grid->columns);
+        int32_t row = (int32_t)(k / grid->columns);
+        if (point < 0 || !isfinite(drawing->map->value[point])) continue;
+        float value = color_value(drawing, point);
+        for (int32_t i = 0; i < 6; i++)
+            corners[count++] = (GlCorner){x[column + order[i][0]], y[row + order[i][1]], value};
     }
-    canvas_heat(drawing->page->canvas, box, values, width, height);
-cleanup:
-    memory_free(column);
-    memory_free(values);
-    return error_is_clean(err);
+    return count;
 }
 
 // Each cell a shape of its own, in a file of shapes.
@@ -150,19 +125,23 @@ static bool grid_draw(const MapDrawing *drawing, Error *err)
     const MapGrid *grid = &drawing->grid;
     const Box *box = &drawing->axes->box;
     float *edges = NULL;
+    GlCorner *corners = NULL;
     TRY(edges = NEW_ARRAY(float, (int64_t)grid->columns + grid->rows + 2, err));
+    TRY(corners = NEW_ARRAY(GlCorner, 6 * (int64_t)grid->rows * grid->columns, err));
     float *y = edges + grid->columns + 1;
     double height = box->bottom - box->top;
     edges_place(&drawing->axes->x, grid->x, grid->columns + 1, box->right - box->left, edges);
     edges_place(&drawing->axes->y, grid->y, grid->rows + 1, height, y);
+    for (int32_t k = 0; k <= grid->rows; k++) y[k] = (float)height - y[k];
     if (canvas_is_vector(drawing->page->canvas) && grid->rows * grid->columns <= VECTOR_MOST) {
-        for (int32_t k = 0; k <= grid->rows; k++) y[k] = (float)height - y[k];
         cells_draw(drawing, edges, y);
     } else {
-        TRY(cells_paint(drawing, edges, y, err));
+        int64_t count = grid_corners(drawing, edges, y, corners);
+        canvas_heat_triangles(drawing->page->canvas, box, corners, count);
     }
 cleanup:
     memory_free(edges);
+    memory_free(corners);
     return error_is_clean(err);
 }
 

@@ -4,6 +4,7 @@
 #include "scene/check.h"
 
 #include "amontons.h"
+#include "contact/friction_make.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
 #include "scene/window.h"
@@ -132,7 +133,8 @@ static bool check_friction(const Check *check)
     if (weakens && mu_kinetic > mu_static)
         return blame(check, "friction.mu_kinetic", "%g is more than mu_static (%g)", mu_kinetic,
                      mu_static);
-    if (weakens && !(scene->friction.critical_velocity > 0))
+    bool fades = friction_use(&scene->friction, "critical_velocity") == FRICTION_MUST;
+    if (fades && !(scene->friction.critical_velocity > 0))
         return blame(check, "friction.critical_velocity",
                      "a weakening law needs it; allowed: a number > 0");
     return true;

@@ -37,12 +37,13 @@ class Error(ctypes.Structure):
 class Style(ctypes.Structure):
     _fields_ = [("format", ctypes.c_char_p), ("width", ctypes.c_double), ("dpi", ctypes.c_double),
                 ("dark", ctypes.c_bool), ("overwrite", ctypes.c_bool), ("height", ctypes.c_double),
-                *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "pixels",
+                *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "pixels", "line",
                                                        "compare", "warnings"))]
 
 
 class Field(ctypes.Structure):
-    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool)]
+    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool),
+                ("cut", ctypes.c_char_p)]
 
 
 class Request(ctypes.Structure):
@@ -652,7 +653,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_figure(self):
         fixture.make(self.folder)
-        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, precursors, front-speed, field, field-strip",
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, contact-plane, precursors, front-speed, field, field-strip",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):

@@ -2,6 +2,7 @@
 #include "study/sweep/showing/figure_data.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "study/sweep/showing/figure_file.h"
 
 #include <math.h>
@@ -113,12 +114,6 @@ void values_label(const Values *values, int32_t which, const char *name,
 
 // --- scale --------------------------------------------------------------------------------------
 
-static int compare_numbers(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return a < b ? -1 : a > b;
-}
-
 // Standard deviation over mean of the differences of [count] rising values, or of the logarithms of
 // their ratios.
 static double step_scatter(const double *values, int32_t count, bool of_ratios)
@@ -141,7 +136,7 @@ bool values_suit_log(const double *values, int32_t count, bool *suits, Error *er
     if (!sorted) return false;
     for (int32_t k = 0; k < count; k++)
         if (isfinite(values[k])) sorted[kept++] = values[k];
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
+    qsort(sorted, (size_t)kept, sizeof *sorted, order_doubles);
     int32_t found = kept > 0;
     for (int32_t k = 1; k < kept; k++)
         if (sorted[k] > sorted[found - 1]) sorted[found++] = sorted[k];

@@ -77,8 +77,7 @@ static bool store_numbers(Figure *figure, const char *key, const double *values,
         TRY(figure_path(figure, "h5", path, err));
         TRY(figure->arrays = array_file_create(path, err));
     }
-    TRY(array_file_add_series(figure->arrays, &series, err));
-    TRY(array_file_append(figure->arrays, name, values, count, err));
+    TRY(array_file_write(figure->arrays, &series, values, 0, count, err));
     snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
     json_text(figure->json, key, place);
 cleanup:

@@ -6,6 +6,7 @@
 #include "study/sweep/showing/figure_plot.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -138,12 +139,6 @@ typedef struct PlotPoint {
     uint32_t doubts;
 } PlotPoint;
 
-static int compare_x(const void *left, const void *right)
-{
-    double a = ((const PlotPoint *)left)->x, b = ((const PlotPoint *)right)->x;
-    return a < b ? -1 : a > b;
-}
-
 // Those of one curve in one panel, along x. points: [count of the table]. Returns how many.
 static int32_t gather_points(const Source *source, int32_t curve, int32_t panel, PlotPoint *points)
 {
@@ -158,7 +153,7 @@ static int32_t gather_points(const Source *source, int32_t curve, int32_t panel,
                                       .error = y->errors ? y->errors[k] : (double)NAN,
                                       .doubts = source->doubts[k]};
     }
-    qsort(points, (size_t)count, sizeof *points, compare_x);
+    qsort(points, (size_t)count, sizeof *points, order_doubles);
     return count;
 }
 

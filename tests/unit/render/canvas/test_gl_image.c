@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Triangles through a table of colours, by OSMesa and by EGL where it is.
+// Values a pixel and triangles through a table of colours, by OSMesa and by EGL where it is.
 #include "render/canvas/gl_image.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 40, HEIGHT = 30, STRIDE = 48, COLORS = 101, FIRST = 1000 };
+enum { WIDTH = 40, HEIGHT = 30, STRIDE = 48, COLORS = 101, BELOW = 7, FIRST = 1000 };
 
 static uint32_t colors[COLORS], pixels[HEIGHT * STRIDE];
 
@@ -24,7 +24,8 @@ static GlImageDef image_def(void)
                         .height = HEIGHT,
                         .stride = STRIDE,
                         .colors = colors,
-                        .color_count = COLORS};
+                        .color_count = COLORS,
+                        .below = BELOW};
 }
 
 // A driver for EGL may be missing: then there is nothing to test.
@@ -38,6 +39,31 @@ static void skip_without(GlSource source)
     if (source == GL_OSMESA || gl_image_draw(source, &def, pixels, &err)) return;
     print_message("skipped: %s\n", err.message);
     skip();
+}
+
+// Every bit is the table's; what a row has beyond the image is left alone.
+static void draw_values(GlSource source)
+{
+    Error err = {0};
+    GlImageDef def = image_def();
+    float values[HEIGHT * WIDTH];
+    for (int32_t k = 0; k < HEIGHT * WIDTH; ++k) values[k] = (float)(k % COLORS) / (COLORS - 1);
+    values[0] = 5;
+    values[1] = -1;
+    values[2] = -2;
+    values[3] = NAN;
+    values[WIDTH] = 0.126F;
+    def.values = values;
+    assert_true(gl_image_draw(source, &def, pixels, &err));
+    assert_int_equal(pixels[0], FIRST + COLORS - 1);
+    assert_int_equal(pixels[1], BELOW);
+    assert_int_equal(pixels[2], 0);
+    assert_int_equal(pixels[3], 0);
+    assert_int_equal(pixels[STRIDE], FIRST + 13);
+    for (int32_t k = 4; k < HEIGHT * WIDTH; ++k)
+        if (k != WIDTH)
+            assert_int_equal(pixels[k / WIDTH * STRIDE + k % WIDTH], FIRST + k % COLORS);
+    for (int32_t k = WIDTH; k < STRIDE; ++k) assert_int_equal(pixels[k], 0xeeeeeeee);
 }
 
 // value = x / 40 + y / 60 - 0.2 over the half of the image left of its diagonal: from -0.2, drawn
@@ -58,12 +84,12 @@ static void draw_triangle(GlSource source)
             if (side < 1 - 1e-3) assert_true(fabs(pixel - FIRST - place) < 0.501);
             if (side > 1 + 1e-3) assert_true(pixel == 0);
         }
-    for (int32_t k = WIDTH; k < STRIDE; ++k) assert_int_equal(pixels[k], 0xeeeeeeee);
 }
 
 static void osmesa_draws(void **state)
 {
     (void)state;
+    draw_values(GL_OSMESA);
     draw_triangle(GL_OSMESA);
 }
 
@@ -72,6 +98,7 @@ static void egl_draws_without_a_surface(void **state)
     (void)state;
     skip_without(GL_EGL);
     draw_triangle(GL_EGL);
+    draw_values(GL_EGL);
 }
 
 // A process that is forked after images does not wait for ever for threads that are not there: it

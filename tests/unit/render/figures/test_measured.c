@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/figures/measured.h"
 
+#include "cases.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char path[] = "/tmp/amontons_measured_XXXXXX";
 static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01, 0.05};
 static double t[3] = {0, 2, 6};   // s: V is 0.5 mm/s
 static ResultView view = {.si = true, .rows = 3, .t = t, .U = U, .mu = mu};
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     view.number[NUMBER_LENGTH] = 0.1;
     view.number[NUMBER_C_RAYLEIGH] = 900;
     view.number[NUMBER_ROD_VELOCITY] = -5e-4;
@@ -27,9 +23,8 @@ static int begin(void **state)
     return file < 0 ? -1 : close(file);
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     return unlink(path);
 }
 
@@ -46,9 +41,8 @@ static bool take(const char *text, MeasuredKind kind, Measured *measured, Error 
 }
 
 // 0.03 more than 0.1 and 0.04 less than 0.3; the third point lies beyond the history.
-static void the_misfit_is_a_root_mean_square(void **state)
+TEST(the_misfit_is_a_root_mean_square)
 {
-    (void)state;
     Error err = {0};
     Measured measured;
     assert_true(take("U (mm),F_T/F_N,error,source\n0.5,0.13,0.01,me\n2,0.26,0.02,me\n9,1,0.1,me\n",
@@ -60,9 +54,8 @@ static void the_misfit_is_a_root_mean_square(void **state)
     // sqrt((0.03^2 + 0.04^2) / 2) and sqrt((3^2 + 2^2) / 2)
 }
 
-static void units_and_quotients(void **state)
+TEST(units_and_quotients)
 {
-    (void)state;
     Error err = {0};
     Measured measured;
     assert_true(take("F_N (kN), F_T (kN), U/L\n2,0.4,0.01\n", MEASURED_MU, &measured, &err));
@@ -80,7 +73,7 @@ static void units_and_quotients(void **state)
 
 // What there is in the file says what was measured: U by time, lengths over the load ratio, speeds
 // over a wave's.
-static void columns_say_what_was_measured(void **state)
+TEST(columns_say_what_was_measured)
 {
     static const struct {
         const char *text;
@@ -93,7 +86,6 @@ static void columns_say_what_was_measured(void **state)
                  {"x (cm),v/c_R\n5,0.5\n", MEASURED_SPEED, 0.05, 450, NAN},
                  {"x (cm),v/V\n5,4\n", MEASURED_SPEED, 0.05, 2e-3, NAN},
                  {"x (cm),v (km/s)\n5,0.5\n", MEASURED_SPEED, 0.05, 500, NAN}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;
@@ -115,11 +107,10 @@ static void columns_say_what_was_measured(void **state)
 }
 
 // By hand: between rows half-way, at both ends, beyond them; where a curve stands still its end.
-static void a_curve_is_linear_between_its_points(void **state)
+TEST(a_curve_is_linear_between_its_points)
 {
     const double at[5] = {0, 1, 1, 1, 3}, value[5] = {0, 2, 5, 6, 10};
     const ComputedCurve curve = {5, at, value};
-    (void)state;
     assert_float_equal(curve_value(&curve, 0), 0, 1e-15);
     assert_float_equal(curve_value(&curve, 0.5), 1, 1e-15);
     assert_float_equal(curve_value(&curve, 1), 6, 1e-15);
@@ -128,13 +119,12 @@ static void a_curve_is_linear_between_its_points(void **state)
     assert_true(isnan(curve_value(&curve, 3.1)) && isnan(curve_value(&curve, -0.1)));
 }
 
-static void what_is_wrong_is_said(void **state)
+TEST(what_is_wrong_is_said)
 {
     static const char *const cases[][2] = {{"U,mu\n1,2\n", "U needs a unit"},
                                            {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
                                            {"U (mm),y\n1,2\n", "it needs the columns"},
                                            {"U (mm),mu\n1\n", "cells"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;
@@ -149,14 +139,4 @@ static void what_is_wrong_is_said(void **state)
     view.si = true;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_misfit_is_a_root_mean_square),
-        cmocka_unit_test(units_and_quotients),
-        cmocka_unit_test(columns_say_what_was_measured),
-        cmocka_unit_test(a_curve_is_linear_between_its_points),
-        cmocka_unit_test(what_is_wrong_is_said),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+GROUP_BETWEEN(begin, end);
