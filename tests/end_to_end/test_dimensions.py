@@ -31,7 +31,6 @@ REASONS = {
     "render/figures/block_mesh.c": ("a picture is flat", r".*"),
     "render/figures/mesh_picture.c": ("a picture is flat", r".*"),
     "render/figures/contact_plane.c": ("a floor is flat", r".*"),
-    "render/figures/contact_map.c": ("a floor is flat", r".*"),
     "render/figures/surface.c": ("a face is flat", r".*"),
     "render/figures/space_page.c": ("a picture is flat", r".*"),
     "src/contact/contact_faces.c": ("a floor is flat", r"corner"),
