@@ -45,6 +45,8 @@
     X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
     X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")    \
     X(FIGURE_CONTACT_PLANE, "contact-plane", "the contact of a block in space at chosen moments")  \
+    X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
+    X(FIGURE_FRONT_SPEED, "front-speed", "how fast the front of a sliding runs, against x")        \
     X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
     X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
 

@@ -117,6 +117,9 @@ typedef struct FilmRequest {
     bool last_cycle;   // from the end of a bulk sliding to a little after the next, the last
     const char *of;   // field of the block, as FieldChoice has it; without fields not asked
     double magnification;   // of the deformation; 0: chosen
+    bool
+        fields;   // the run is computed once more for as many fields of the block as the film shows
+    const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
     bool overwrite;   // a file that is there and is not ours goes; else it is refused
     FrameCallback on_frame;   // NULL: none

@@ -181,15 +181,16 @@ cleanup:
 // As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
 static bool events_read(ResultView *view, Error *err)
 {
-    static const ResultTable tables[3] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP};
-    double *column[3] = {0};
+    static const ResultTable tables[4] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP, EVENTS_REACH};
+    double *column[4] = {0};
     int32_t count = 0;
-    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
+    TRY(result_file_read_tables(view->file, tables, 4, column, &count, err));
     TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
     for (int32_t k = 0; k < count; ++k) {
         double kind = column[0][k];
         bool known = kind >= 0 && kind <= VIEW_LEADING;
-        view->events[k] = (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k]};
+        view->events[k] =
+            (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k], column[3][k]};
     }
     view->event_count = count;
     TRY(view->rapid = memory_array(count, sizeof *view->rapid, err));
@@ -200,7 +201,7 @@ static bool events_read(ResultView *view, Error *err)
         view->rapid[view->rapid_count++][1] = event->U_stop;
     }
 cleanup:
-    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    for (int32_t k = 0; k < 4; ++k) memory_free(column[k]);
     return error_is_clean(err);
 }
 

@@ -11,6 +11,7 @@ typedef enum ViewEventKind { VIEW_QUASI_STATIC, VIEW_BOUNDED, VIEW_LEADING } Vie
 typedef struct ViewEvent {
     int32_t kind;   // ViewEventKind
     double U_start, U_stop;   // length
+    double reach;   // x, length; NaN: not known
 } ViewEvent;
 
 typedef struct ViewPeak {

@@ -6,7 +6,8 @@
 static const double DECADE_LOW = -2;   // quasi-static slip is about V or a tenth of it
 static const double DECADE_HIGH_MIN = 1;   // at least this range is shown
 static const double DECADE_HIGH_MAX = 8;
-static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
+static const Color STICK = {0.976f, 0.980f, 0.984f,
+                            1};   // lighter than any slip, in grey print too
 
 Colorbar slip_scale(const ResultView *view, double V)
 {
@@ -37,8 +38,9 @@ Colorbar slip_scale_up_to(double largest, double V)
 
 float slip_scale_level(const Colorbar *bar, double V, double rate)
 {
-    double level = (log10(rate / V) - bar->low) / (bar->high - bar->low);
     if (isnan(rate)) return HEAT_MISSING;
+    if (!(rate > 0)) return HEAT_BELOW;   // of most pixels; the logarithm of 0 takes long
+    double level = (log10(rate / V) - bar->low) / (bar->high - bar->low);
     return level < 0 ? HEAT_BELOW : (float)fmin(level, 1);
 }
 

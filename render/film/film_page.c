@@ -37,7 +37,9 @@ struct FilmPage {
     FilmPlane plane;
     BlockTimes times;   // owned
     int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
-    int32_t shown;   // the one that stands on the base; -1: none
+    int32_t shown;   // the one that stands on the base; -1: none, or a mixture
+    Block pair[2];   // of neighbouring steps, to be mixed; owned
+    int32_t pair_index[2];   // of `times`; -1: none
     BlockPage map;
     Axes block;
     Block block_shown;   // its field; owned
@@ -219,9 +221,9 @@ static void draw_title(const FilmPage *page)
 {
     double point = page->base.point;
     TextStyle style = {.size = TITLE_SIZE * point, .color = INK};
-    if (page->def.view->title && page->def.view->title[0])
+    if (page->def.title[0])
         text_draw(page->base.text, &style, (Point){2 * MARGIN * point, BASELINE * point},
-                  page->def.view->title);
+                  page->def.title);
 }
 
 static void draw_bar(const FilmPage *page)
@@ -262,7 +264,7 @@ cleanup:
 }
 
 // Over the block: when its field was stored, and how much the deformation is enlarged.
-static void draw_block_words(const FilmPage *page, const Block *block)
+static void draw_block_words(const FilmPage *page, const Block *block, bool mixed)
 {
     char words[WORDS_SIZE];
     double point = page->base.point;
@@ -271,28 +273,88 @@ static void draw_block_words(const FilmPage *page, const Block *block)
     Box line = {page->block.box.left, page->block.box.top - WORDS_HEIGHT * point,
                 page->block.box.right, page->block.box.top};
     draw_fill(page->base.canvas, PAPER, &line);
-    snprintf(words, sizeof words, "stored at %s = %.*f,  deformation \u00d7 %g", U.label,
-             page->U_decimals, block->U * U.factor, page->magnification);
+    int length = mixed ? 0
+                       : snprintf(words, sizeof words, "stored at %s = %.*f,  ", U.label,
+                                  page->U_decimals, block->U * U.factor);
+    snprintf(words + length, sizeof words - (size_t)length, "deformation \u00d7 %g",
+             page->magnification);
     style.size *= fmin(1, (line.right - line.left - LEGEND_LEFT * point) /
                               text_width(page->base.text, style.size, words));
     text_draw(page->base.text, &style,
               (Point){line.left + LEGEND_LEFT * point, line.bottom - 3 * point}, words);
 }
 
+static bool put_block(FilmPage *page, const Block *block, bool mixed, Error *err)
+{
+    set_block_map(page);
+    draw_fill(page->base.canvas, PAPER, &page->block.box);
+    if (!block_page_draw(&page->base, &page->map, block, &page->block, err)) return false;
+    draw_block_words(page, block, mixed);
+    return true;
+}
+
 // Only where a frame shows another stored field than the one before.
-static bool draw_block(FilmPage *page, int32_t index, Error *err)
+static bool draw_stored(FilmPage *page, int32_t index, Error *err)
 {
     Block *block = &page->block_shown;
     if (index == page->shown) return true;
     block_destroy(block);
     TRY(read_stored(page, index, block, err));
-    set_block_map(page);
-    draw_fill(page->base.canvas, PAPER, &page->block.box);
-    TRY(block_page_draw(&page->base, &page->map, block, &page->block, err));
-    draw_block_words(page, block);
+    TRY(put_block(page, block, false, err));
     page->shown = index;
 cleanup:
     return error_is_clean(err);
+}
+
+// Both of a pair, the one that is there already kept.
+static bool read_pair(FilmPage *page, int32_t first, Error *err)
+{
+    if (page->pair_index[1] == first) {
+        Block kept = page->pair[1];
+        page->pair[1] = page->pair[0];
+        page->pair[0] = kept;
+        page->pair_index[1] = page->pair_index[0];
+        page->pair_index[0] = first;
+    }
+    for (int32_t k = 0; k < 2; ++k) {
+        if (page->pair_index[k] == first + k) continue;
+        block_destroy(&page->pair[k]);
+        page->pair_index[k] = -1;
+        TRY(read_stored(page, first + k, &page->pair[k], err));
+        page->pair_index[k] = first + k;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What is drawn of two stored fields, linear in time, in the place of the first: its own is read
+// again where it is wanted.
+static bool draw_mixture(FilmPage *page, int32_t first, double t, Error *err)
+{
+    TRY(read_pair(page, first, err));
+    Block *a = &page->pair[0], *b = &page->pair[1];
+    double part = (t - a->t) / (b->t - a->t);
+    if (a->frame.node_count != b->frame.node_count)
+        FAIL(err, ERROR_FILE, "two fields of the film have %d and %d nodes", a->frame.node_count,
+             b->frame.node_count);
+    block_mix(a, b, part);
+    a->t = t;   // from here on to the second
+    page->shown = -1;
+    TRY(put_block(page, a, true, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// From one step to the next the block is linear in time, as all else is in the film; where steps
+// between two stored fields are not known it shows the nearer one, and says when that was stored.
+static bool draw_block(FilmPage *page, int32_t k, double t, Error *err)
+{
+    const BlockTimes *times = &page->times;
+    int32_t first = page->stored[k];
+    if (times->times[first].t > t && first > 0) --first;
+    bool neighbours = first + 1 < times->count && times->times[first].t <= t &&
+                      times->row[first + 1] == times->row[first] + 1;
+    return neighbours ? draw_mixture(page, first, t, err) : draw_stored(page, page->stored[k], err);
 }
 
 // --- what moves ----------------------------------------------------------------------------------
@@ -315,7 +377,7 @@ static void draw_clock(const FilmPage *page, const FilmMoment *now)
 bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err)
 {
     FilmMoment now = film_moment(page->def.view, page->def.clock->t[k]);
-    if (page->stored) TRY(draw_block(page, page->stored[k], err));
+    if (page->stored) TRY(draw_block(page, k, now.t, err));
     film_force_pass(&page->base, &page->force, &now);
     canvas_copy(page->frame.canvas, page->base.canvas);
     draw_clock(page, &now);
@@ -326,8 +388,9 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
     else
         TRY(film_profile_now(&page->frame, &page->profile, &now, err));
     if (page->stored)
-        block_page_contact(&page->frame, &page->map, &page->block_shown, film_nearest_row(&now),
-                           &page->block);
+        block_page_contact(&page->frame, &page->map,
+                           page->shown >= 0 ? &page->block_shown : &page->pair[0],
+                           film_nearest_row(&now), &page->block);
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
 cleanup:
     return error_is_clean(err);
@@ -341,7 +404,7 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
     TRY(page);
     page->def = *def;
-    page->shown = -1;
+    page->shown = page->pair_index[0] = page->pair_index[1] = -1;
     page->map = (BlockPage){.view = def->view, .share = 1};
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
@@ -369,6 +432,7 @@ void film_page_destroy(FilmPage *page)
     block_times_destroy(&page->times);
     block_destroy(&page->block_shown);
     film_plane_destroy(&page->plane);
+    for (int32_t k = 0; k < 2; ++k) block_destroy(&page->pair[k]);
     memory_free(page->stored);
     memory_free(page);
 }

@@ -11,8 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
@@ -349,9 +347,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+// In space as many as the root of its mean cell would go along the contact.
 double interface_nodes_along(const Interface *interface)
 {
-    return pow(interface->contact_count, 1.0 / (interface->dim - 1));
+    double from[2] = {INFINITY, INFINITY}, to[2] = {-INFINITY, -INFINITY};
+    if (interface->dim == 2) return interface->contact_count;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        const double place[] = {interface->x[i], interface->y[i]};
+        for (int d = 0; d < 2; d++) {
+            from[d] = fmin(from[d], place[d]);
+            to[d] = fmax(to[d], place[d]);
+        }
+    }
+    return sqrt(interface->contact_count * (to[0] - from[0]) / (to[1] - from[1]));
 }
 
 void interface_destroy(Interface *interface)

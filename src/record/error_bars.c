@@ -11,9 +11,11 @@ const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 // Of mu, over the cells that slip where slow slip turns fast, or over nodes along the contact, if
 // that is more: what a mesh scatters by, and the way to ever smaller cells, before meshes tell.
 // From a tenth to ten times as much was met, on blocks as on pads (validation/benchmark/priors.md):
-// so that is worth no more than one level.
+// so that is worth no more than one level. In space the same holds (validation/space/priors.md).
 static const double USUAL = 0.05, USUAL_LEAST = 0.2;
 enum { USUAL_LEVELS = 1 };
+static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh
+static const double SPAN = 2;   // of cell size, of the levels behind a bar that is met
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
@@ -66,12 +68,12 @@ int32_t levels_known(const Levels *levels, AnswerKind kind)
     return known;
 }
 
-bool levels_enough(const Levels *levels, AnswerKind kind)
+double levels_span_left(const Levels *levels, AnswerKind kind)
 {
-    int32_t runs = 0;
-    for (int32_t l = 0; l < levels->count; l++)
-        if (counts(levels, &levels->list[l], kind)) runs += levels->list[l].run_count;
-    return levels_known(levels, kind) >= LEVELS_LEAST && runs >= RUNS_LEAST;
+    const Level *first = levels->list, *last = &first[levels->count - 1];
+    while (first < last && !counts(levels, first, kind)) first++;
+    double left = SPAN * first->refine / last->refine;
+    return left < 1 + ROUNDING ? 1 : left;
 }
 
 // Of single runs about their level's mean, from all levels together; NaN: one run on each.

@@ -15,7 +15,8 @@
 //              the part. At least what steps and reduction leave. Levels whose cells are too long
 //              for slip (`undamped`) have no part in it; where the last nodes of the contact hold
 //              the block they scatter more, and three times what mu rises by meanwhile (`end_wait`)
-//              is added. One level: its own value, nothing known.
+//              is added. One level: its own value, nothing known. A bar is met only where levels
+//              differ by a factor of two in cell size (levels_span_left).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
@@ -24,7 +25,6 @@
 #include "record/answers.h"
 
 enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
-enum { LEVELS_LEAST = 3, RUNS_LEAST = 5 };   // fewer agree by chance
 
 typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
 
@@ -65,6 +65,7 @@ typedef struct LevelCut {
 } LevelCut;
 
 typedef struct Levels {
+    bool space;   // meshes of a block in space
     double wanted;   // bar over value
     bool met;
     AnswerKind asked;   // what `wanted` is of
@@ -89,8 +90,9 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of th
 // Damped levels whose runs all have such an answer, and whose last nodes do not hold the
 // block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
-// These, and their runs, are enough for a bar that is met.
-bool levels_enough(const Levels *levels, AnswerKind kind);
+// Of cell size from the last level to one that is twice as fine as the coarsest of these. A bar is
+// met by no less: neighbours agree by chance, and on what only coarse meshes do.
+double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left
 
 // Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);

@@ -20,7 +20,8 @@ enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
 static const double STEP = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
 // A run's time goes with a power of the cells along the contact: this before levels tell, and
 // between those whatever they tell, as times of short runs on a busy machine are noise.
-static const double GROWTH = 2.6, GROWTH_LEAST = 1.2, GROWTH_MOST = 4;
+static const double GROWTH[] = {2.6, 5}, GROWTH_LEAST[] = {1.2, 2},   // in the plane, in space
+    GROWTH_MOST[] = {4, 6.5};
 // A mesh may take so many times less than is expected: nine of ten runs are off by less
 // (validation/strangers/forecasts.py). One that time then cuts short costs time that nothing else
 // could use.
@@ -73,13 +74,59 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of cell size to the next level: from the third on one that resolves slip, by what all tell.
+static const ErrorBar *asked(const Accuracy *accuracy)
+{
+    return levels_answer(&accuracy->levels, accuracy->levels.asked);
+}
+
+// A bar that is not known, as where slip is not resolved, is NaN, and met by nothing.
+static bool is_short(const Accuracy *accuracy)
+{
+    const ErrorBar *answer = asked(accuracy);
+    return answer->bar <= accuracy->levels.wanted * answer->value;
+}
+
+static double span_left(const Accuracy *accuracy)
+{
+    return levels_span_left(&accuracy->levels, accuracy->levels.asked);
+}
+
+// By what a run takes longer where cells are so many times smaller, as its power was so far.
+static double growth_ahead(const Accuracy *accuracy, double step)
+{
+    const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
+    double finer = log(last->nodes_along / first->nodes_along);
+    bool space = accuracy->levels.space;
+    double power = GROWTH[space];
+    if (finer > 0) power = log(seconds_of_run(last) / seconds_of_run(first)) / finer;
+    return pow(step, fmin(fmax(power, GROWTH_LEAST[space]), GROWTH_MOST[space]));
+}
+
+// Wall time that the next level will take, s.
+static double level_seconds(const Accuracy *accuracy, double step)
+{
+    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
+    return seconds_of_run(level) * growth_ahead(accuracy, step) * accuracy_runs_first(accuracy);
+}
+
+// With the run in full on it, if it takes as little as it may.
+static bool has_time_for_level(const Accuracy *accuracy, double step)
+{
+    double more = accuracy_full(accuracy, growth_ahead(accuracy, step)) -
+                  accuracy_full(accuracy, 1);
+    return level_seconds(accuracy, step) + more <= FORECAST_OFF * accuracy_seconds_left(accuracy);
+}
+
+// Of cell size to the next level: from the third on one that resolves slip, by what all tell, or
+// that puts a bar to the test which is short enough.
 static double next_step(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;
-    if (levels->count < LEVELS_LEAST - 1) return accuracy->step;
-    double lacks = SLIP_CELLS_ENOUGH / levels_cells(levels);
-    return fmin(fmax(accuracy->step, 1.1 * lacks), STEP_SPLIT);
+    if (levels->count < 2) return accuracy->step;
+    double lacks = SLIP_CELLS_ENOUGH / levels_cells(levels), span = span_left(accuracy);
+    double step = fmin(fmax(accuracy->step, 1.1 * lacks), STEP_SPLIT);
+    bool far = is_short(accuracy) && span > step && has_time_for_level(accuracy, span);
+    return far ? span : step;
 }
 
 // The first run of a new level. A mesh that can only be split refuses the first step (ERROR_INPUT),
@@ -107,7 +154,7 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = pow(accuracy->step, GROWTH) *
+        accuracy->out_of_time = pow(accuracy->step, GROWTH[accuracy->levels.space]) *
                                     accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;
@@ -120,40 +167,9 @@ cleanup:
 
 // --- what next ----------------------------------------------------------------------------------
 
-static const ErrorBar *asked(const Accuracy *accuracy)
-{
-    return levels_answer(&accuracy->levels, accuracy->levels.asked);
-}
-
-// A bar that is not known, as where slip is not resolved, is NaN, and met by nothing.
 static bool is_met(const Accuracy *accuracy)
 {
-    const ErrorBar *answer = asked(accuracy);
-    return levels_enough(&accuracy->levels, accuracy->levels.asked) &&
-           answer->bar <= accuracy->levels.wanted * answer->value;
-}
-
-// By what a run on the next level takes longer than on the last, as its power was so far.
-static double growth_ahead(const Accuracy *accuracy)
-{
-    const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
-    double finer = log(last->nodes_along / first->nodes_along);
-    double power = finer > 0 ? log(seconds_of_run(last) / seconds_of_run(first)) / finer : GROWTH;
-    return pow(next_step(accuracy), fmin(fmax(power, GROWTH_LEAST), GROWTH_MOST));
-}
-
-// Wall time that the next level will take, s.
-static double next_seconds(const Accuracy *accuracy)
-{
-    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
-    return seconds_of_run(level) * growth_ahead(accuracy) * accuracy_runs_first(accuracy);
-}
-
-// With the run in full on it, if it takes as little as it may.
-static bool has_time_for_level(const Accuracy *accuracy)
-{
-    double more = accuracy_full(accuracy, growth_ahead(accuracy)) - accuracy_full(accuracy, 1);
-    return next_seconds(accuracy) + more <= FORECAST_OFF * accuracy_seconds_left(accuracy);
+    return is_short(accuracy) && span_left(accuracy) <= 1;
 }
 
 static void show_level(const Accuracy *accuracy)
@@ -170,7 +186,7 @@ static void show_level(const Accuracy *accuracy)
                       .known_to = levels_known_to(&accuracy->levels, accuracy->levels.asked),
                       .mesh = answer->parts.mesh,
                       .seconds = level->seconds,
-                      .seconds_next = next_seconds(accuracy)};
+                      .seconds_next = level_seconds(accuracy, next_step(accuracy))};
     if (options->on_level) options->on_level(&view, options->context);
 }
 
@@ -197,21 +213,21 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     const ErrorBar *answer = asked(accuracy);
     Level *level = accuracy_last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
-    bool enough = levels_enough(&accuracy->levels, accuracy->levels.asked);
     if (isnan(answer->value))
         return *ended = end_here(accuracy, levels_run_in(&accuracy->levels)
                                                ? "the run-in of a run was not over"
                                                : "no load drop in any run");
     accuracy->levels.met = is_met(accuracy);
     if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
-    if (enough && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
+    if (between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
         if (!has_time_for(accuracy, 2)) return *ended = end_here(accuracy, NO_TIME);
         TRY(add_runs(accuracy, 2, err));
         goto cleanup;
     }
     if (accuracy->levels.count == LEVELS_MAX)
         return *ended = end_here(accuracy, "the finest mesh that is tried");
-    if (!has_time_for_level(accuracy)) return *ended = end_here(accuracy, NO_TIME);
+    if (!has_time_for_level(accuracy, next_step(accuracy)))
+        return *ended = end_here(accuracy, NO_TIME);
     TRY(add_level(accuracy, level->refine, err));
     if (accuracy->out_of_time) *ended = end_here(accuracy, NO_TIME);
 cleanup:

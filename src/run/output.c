@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/files/open_file.h"
 #include "run/pictures.h"
 #include "run/warnings.h"
 #include "scene/window.h"
@@ -53,6 +54,7 @@ static bool open_history(Simulation *simulation, Error *err)
         .units = scene->units == UNITS_SI ? "si" : "normalised",
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
+        .remembers = simulation->contact.state != NULL,
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_TRAILING] = simulation->model.scales.trailing,
@@ -113,9 +115,9 @@ static bool open_fields(Simulation *simulation, Error *err)
                      .at_events = scene->output.fields_at_events};
     if (scene->output.fields_film) {
         double V = fabs(scene->rod.velocity), U = scene->time.until_U;
-        double way = U > 0 ? U : V * scene->time.until_t;
+        double way = U > 0 ? U : V * scene->time.until_t, step = scene->output.film_step;
         def.at_events = true;
-        def.every_U = def.every_slip = way / FILM_PARTS;
+        def.every_U = def.every_slip = step > 0 ? step : way / FILM_PARTS;
     }
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
@@ -134,6 +136,8 @@ bool output_open(Simulation *simulation, Error *err)
     Window *window = &simulation->window;
     WindowDef def = scene_window(scene);
     *window = window_of(&def, &simulation->events);
+    if (scene->output.compare[0])   // not found out when all is computed
+        TRY(scene_blame(scene, "output.compare", open_check(scene->output.compare, err), err));
     if (scene->output.history) {
         TRY(open_history(simulation, err));
         recorders_add(!def.given                     ? &simulation->recorders
@@ -185,6 +189,8 @@ bool output_draw_figures(Simulation *simulation, Error *err)
         if (has_data(simulation, wanted->name[k])) names[count++] = wanted->name[k];
     if (count == 0) return true;
     PictureRequest request = {.figures = names, .figure_count = count};
+    const char *compare = simulation->scene.output.compare;
+    if (compare[0]) request.style.compare = compare;
     double started = clock_seconds();
     if (!pictures_draw(simulation->folder.path, &request, err)) return false;
     simulation->figures = count;

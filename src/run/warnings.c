@@ -171,7 +171,8 @@ static const char *why_unknown(const Levels *levels)
 
 static const char *why_not_sure(const Levels *levels)
 {
-    return levels_enough(levels, levels->asked) ? "" : " from too few meshes that count";
+    bool alike = levels_span_left(levels, levels->asked) > 1;
+    return alike ? " by meshes less than twice as fine as one another" : "";
 }
 
 void warnings_of_bar(const Levels *levels, RunWarnings *warnings)

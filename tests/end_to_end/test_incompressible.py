@@ -79,12 +79,14 @@ class Incompressible(OwnCache):
     def test_units(self):
         out = self.call("static", "rod.displacement=0.001")
         self.assertRegex(out, r"load ratio +F_T/F_N -?\d")
+        self.assertRegex(out, r"rod +-?\d\S* on \d+ nodes, resultant at z = \d")
         self.assertIn("those of the scene (normalised), per width", out)
         out = self.call("static", "units=si", "material={young: 20, poisson: 0.3, plane: strain, density: 1, eta1: 1, eta2: 1}",
                         "rod.displacement=0.001")
         force, floor = float(re.search(r"rod +(\S+) N/m on", out)[1]), float(re.search(r"F_z (\S+) N/m", out)[1])
         self.assertAlmostEqual(float(re.search(r"F_T/F_N (\S+),", out)[1]), force / floor, places=4)
         self.assertRegex(out, r"elastic \S+ J/m, .*loads \S+ J/m")
+        self.assertRegex(self.call("static", "rod.kind=push", "rod.displacement=-0.01"), r"rod +0 on \d+ nodes\n")      # it has left
 
 
 if __name__ == "__main__":

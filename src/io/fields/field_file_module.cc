@@ -199,7 +199,7 @@ bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
     if (output.format == FIELD_VTP) {
         vtkNew<vtkPolyData> contact;
         fill(contact, grid);
-        const bool lines = grid.cell_count == 0 || grid.cell_types[0] == VTK_LINE;
+        const bool lines = !grid.cell_types || grid.cell_types[0] == VTK_LINE;
         if (lines)
             contact->SetLines(make_cells(grid));
         else

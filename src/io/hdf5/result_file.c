@@ -178,6 +178,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         if (k == SERIES_ROD_WAY && !head->rod_on_spring) continue;
+        if (k == SERIES_STATE && !head->remembers) continue;
         TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head->tangents,
                     err));
     }
@@ -210,7 +211,8 @@ cleanup:
 bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
 {
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        if (k == SERIES_ROD_WAY && !array_file_has(file, series_rows[k].name)) continue;
+        bool may_lack = k == SERIES_ROD_WAY || k == SERIES_STATE;
+        if (may_lack && !array_file_has(file, series_rows[k].name)) continue;
         TRY(array_file_cut(file, series_rows[k].name, rows, err));
     }
 cleanup:

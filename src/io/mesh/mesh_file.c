@@ -5,7 +5,6 @@
 #include "base/text.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut

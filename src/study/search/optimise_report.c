@@ -2,15 +2,17 @@
 #include "study/search/optimise_report.h"
 
 #include "base/memory.h"
+#include "io/text/json_reader.h"
+#include "study/search/front.h"
 #include "study/search/search_answer.h"
 #include "study/search/search_figure.h"
+#include "study/sweep/computing/point.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { OTHERS_SHOWN = 5 };
+enum { COST_LEAST = 2, COST_MOST = 4 };   // what half an error costs, over what it cost
 
 static const char *quantity(const Search *search)
 {
@@ -52,15 +54,36 @@ static void print_gain(const Search *search, const OptimiseSummary *summary, int
     design_words(search->study, &search->designs.list[search->start], words);
     fprintf(out, "  the scene as it is, %s: ", words);
     print_estimate(&search->designs.list[search->start], out);
-    fprintf(out, "; the best differs by %+.1f %% +- %.1f %%\n", 100 * (ratio - 1), 100 * error);
+    fprintf(out, "; the best differs by %+.1f %%", 100 * (ratio - 1));
+    if (isnan(error))
+        fprintf(out, ", whose error is not known\n");
+    else
+        fprintf(out, " +- %.1f %%\n", 100 * error);
+}
+
+// Time of a design's points, s.
+static double design_seconds(const Search *search, int32_t d)
+{
+    double sum = 0;
+    for (int32_t c = 0; c < search->designs.conditions; c++) {
+        Error ignored = {0};
+        double seconds = 0;
+        char *report = point_report(search->sweep, search->designs.list[d].point + c, &ignored);
+        if (report && json_find_number(report, "timing_s.total", &seconds)) sum += seconds;
+        memory_free(report);
+    }
+    return sum;
 }
 
 static void print_open(const Search *search, int32_t best, FILE *out)
 {
     int32_t open = 0;
+    double seconds = design_seconds(search, best);
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
-        if (!designs_may_equal(&search->designs, best, d) || open++ >= OTHERS_SHOWN) continue;
+        if (!designs_may_equal(&search->designs, best, d)) continue;
+        seconds += design_seconds(search, d);
+        if (open++ >= OTHERS_SHOWN) continue;
         design_words(search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
                 words);
@@ -72,9 +95,9 @@ static void print_open(const Search *search, int32_t best, FILE *out)
     if (open == 0) return;
     if (search->study->rank.refine > 0)
         fprintf(out,
-                "  telling them apart needs a smaller `refine` than %g %% (half the error "
-                "takes two to four times as long), or does not matter\n",
-                100 * search->study->rank.refine);
+                "  telling them apart needs a smaller `refine` than %g %% (half the error of all "
+                "takes some %.0f to %.0f s of one processor), or does not matter\n",
+                100 * search->study->rank.refine, COST_LEAST * seconds, COST_MOST * seconds);
     else
         fprintf(out, "  `rank: {refine: 1%%}` with `set: {accuracy.mu: 4%%}` computes them again "
                      "until they are told apart\n");
@@ -109,15 +132,21 @@ typedef struct Answer {
 
 static void print_answer(const void *context, FILE *out)
 {
+    static const char *const over[] = {[OVER_WORST] = "worst",
+                                       [OVER_MEAN] = "mean",
+                                       [OVER_DEVIATION] = "standard deviation",
+                                       [OVER_FRONT] = "mean"};
     const Answer *answer = context;
     const Search *search = answer->search;
     const OptimiseSummary *summary = answer->summary;
     const Designs *designs = &search->designs;
     int32_t best = answer->best;
+    Error ignored = {0};
+    if (search->study->search.over == OVER_FRONT) front_print(search, out, &ignored);
     fprintf(out, "%s, %s of %d designs", quantity(search),
             search->study->rank.lowest ? "the lowest" : "the highest", summary->designs);
     if (designs->conditions > 1)
-        fprintf(out, ", %s of %d points each", search->study->search.mean ? "mean" : "worst",
+        fprintf(out, ", %s of %d points each", over[search->study->search.over],
                 designs->conditions);
     fprintf(out, ":\n  %s: ", summary->best);
     print_estimate(&designs->list[best], out);
@@ -197,6 +226,7 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
     int32_t best = designs_best(&search->designs);
     TRY(search_answer(search, print_answer, &(Answer){search, summary, best}, err));
     TRY(draw_course(search, err));
+    if (search->study->search.over == OVER_FRONT) TRY(front_draw(search, err));
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         TRY(draw_section(search, best, k, err));
     TRY(search_leave_best(search, best, search->designs.list[best].deciding, err));

@@ -3,13 +3,10 @@
 // leaves what geometry says, and a linear field is itself on the section of distorted elements.
 #include "render/figures/surface.h"
 
+#include "cases.h"
 #include "render/figures/depth_image.h"
 #include "render/figures/surface_cut.h"
 #include "space_mesh.h"
-
-#include <stdarg.h>
-#include <setjmp.h>
-#include <cmocka.h>
 
 enum { KINDS = 5 };
 
@@ -111,34 +108,30 @@ static void check(ElementKind kind, const char *words, double area, double outli
     check_with(0.15, kind, words, area, outline);
 }
 
-static void a_box_has_its_boundary(void **state)
+TEST(a_box_has_its_boundary)
 {
-    (void)state;
     for (int k = 0; k < KINDS; ++k)
         check(kinds[k], NULL, 2 * (1 * 0.8 + 1 * 0.6 + 0.8 * 0.6), 4 * (1 + 0.8 + 0.6));
 }
 
 // y = 0.3: what is left is a box of 1 x 0.5 x 0.6.
-static void one_plane_leaves_a_box(void **state)
+TEST(one_plane_leaves_a_box)
 {
-    (void)state;
     for (int k = 0; k < KINDS; ++k)
         check(kinds[k], "y=0.3", 2 * (1 * 0.5 + 1 * 0.6 + 0.5 * 0.6), 4 * (1 + 0.5 + 0.6));
 }
 
 // A corner of 0.35 x 0.3 x 0.2 is taken out: the area stays; the outline loses three edges of that
 // size, and has nine new ones.
-static void three_planes_take_a_corner(void **state)
+TEST(three_planes_take_a_corner)
 {
-    (void)state;
     for (int k = 0; k < KINDS; ++k)
         check(kinds[k], "x=0.35,y=0.3,z=0.4", 2 * (1 * 0.8 + 1 * 0.6 + 0.8 * 0.6),
               4 * (1 + 0.8 + 0.6) + 2 * (0.35 + 0.3 + 0.2));
 }
 
-static void cuts_are_checked(void **state)
+TEST(cuts_are_checked)
 {
-    (void)state;
     static const char *const bad[] = {"w=1", "y", "y=", "y=1;", "x=1,y=2,z=3,x=4", "y=0.2 m"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         Error err = {0};
@@ -149,9 +142,8 @@ static void cuts_are_checked(void **state)
 }
 
 // Right is along x, up is up, and what is nearer to low y is nearer; lengths at the middle stay.
-static void the_camera_stands_before_the_block(void **state)
+TEST(the_camera_stands_before_the_block)
 {
-    (void)state;
     static const double low[3] = {0, 0, 0};
     Camera camera = camera_before(low, box);
     double middle[3] = {0.5, 0.4, 0.3}, seen[3], other[3];
@@ -175,9 +167,8 @@ static void the_camera_stands_before_the_block(void **state)
     assert_true(other[1] < seen[1] + 0.05);
 }
 
-static void the_nearer_hides(void **state)
+TEST(the_nearer_hides)
 {
-    (void)state;
     Error err = {0};
     DepthImage image;
     assert_true(depth_image_create(20, 10, 0.01, &image, &err));
@@ -189,17 +180,4 @@ static void the_nearer_hides(void **state)
     assert_near("far", image.values[15], 1, 0);
     assert_near("depth", image.depth[15], 5, 1e-12);
     depth_image_destroy(&image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_has_its_boundary),
-        cmocka_unit_test(one_plane_leaves_a_box),
-        cmocka_unit_test(three_planes_take_a_corner),
-        cmocka_unit_test(cuts_are_checked),
-        cmocka_unit_test(the_camera_stands_before_the_block),
-        cmocka_unit_test(the_nearer_hides),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
