@@ -11,7 +11,8 @@ import subprocess
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-STUDIES = {"pressures": "load.pressure", "lengths": "mesh.set.length", "velocities": "rod.velocity", "rests": "friction.rest"}
+STUDIES = {"pressures": "load.pressure", "lengths": "mesh.set.length", "velocities": "rod.velocity", "rests": "friction.rest",
+           "fine": None}
 LAWS = {"linear-weakening": "paper", "ageing": "ageing", "rate-and-state": "rate and state"}
 
 
@@ -28,6 +29,28 @@ def rest_cell(points):
     """The first peak on the finer mesh, and what the mesh changes."""
     coarse, fine = (float(point["results.mu_max"]) for point in sorted(points, key=lambda point: float(point["mesh.set.refine"])))
     return f"{fine:.4f} ({fine - coarse:+.4f})"
+
+
+def number(point, key, standard):
+    return float(point.get(key) or standard)
+
+
+def where(point):
+    return (point["friction.law"], number(point, "load.pressure", 0.003), number(point, "mesh.set.length", 1),
+            number(point, "rod.velocity", 1e-5))
+
+
+def bars(folder, points):
+    """Whether bars of the other studies hold mu_M of the fine meshes."""
+    given = {}
+    for name in ("pressures", "lengths", "velocities"):
+        with open(folder / name / "sweep.csv", encoding="utf-8") as file:
+            given |= {where(point): point for point in csv.DictReader(file)}
+    print("\nfine\n\n| law | P | L | V | mu_M | three times as fine | off by, in bars |\n|---|---|---|---|---|---|---|")
+    for point in points:
+        law, P, L, V = where(point)
+        mu, bar, fine = (float(item) for item in (given[law, P, L, V]["mu_M"], given[law, P, L, V]["mu_M_error"], point["mu_M"]))
+        print(f"| {LAWS[law]} | {P:g} | {L:g} | {V:g} | {mu:.4f} +- {bar:.4f} | {fine:.4f} | {abs(fine - mu) / bar:.2f} |")
 
 
 def table(name, points):
@@ -61,7 +84,11 @@ def main():
         folder = given.output / name
         subprocess.run([given.build / "bin/amontons", "sweep", "-q", HERE / f"{name}.yaml", "-o", folder], check=True)
         with open(folder / "sweep.csv", encoding="utf-8") as file:
-            table(name, list(csv.DictReader(file)))
+            points = list(csv.DictReader(file))
+        if name == "fine":
+            bars(given.output, points)
+        else:
+            table(name, points)
 
 
 if __name__ == "__main__":
