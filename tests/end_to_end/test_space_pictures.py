@@ -26,7 +26,7 @@ time: {{until: {{U: %g}}}}
 output: {{figures: [], fields: {{every_U: 5e-4, at_events: true}}}}
 """
 HEXAHEDRA = "nx: 5, ny: 4, nz: 3"
-BACKGROUND, STICK = (255, 255, 255), (214, 217, 222)
+BACKGROUND, STICK = (255, 255, 255), (249, 250, 251)
 
 
 def array(data, name):
@@ -185,7 +185,7 @@ class SpacePictures(unittest.TestCase):
         until = self.draw_up("drawn")
         self.render("drawn", "--figure", "contact-plane", "--at", f"U={until}", "--warnings", "none")
         pixels = picture(self.folder / "drawn/figures/contact-plane.png")
-        inside = near(pixels, STICK)
+        inside = near(pixels, STICK, 1)
         rows, columns = numpy.flatnonzero(inside.sum(axis=1) > 300), numpy.flatnonzero(inside.sum(axis=0) > 300)
         top, bottom, left, right = rows[0], rows[-1], columns[0], columns[-1]
         self.assertAlmostEqual((bottom - top) / (right - left), 0.8, delta=0.02)   # to scale
