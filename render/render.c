@@ -4,6 +4,7 @@
 
 #include "io/files/folder.h"
 #include "render/canvas/foot.h"
+#include "render/figure_data.h"
 #include "render/figures/figures.h"
 #include "render/panels.h"
 
@@ -14,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { NAMES_SIZE = 200 };
+enum { NAMES_SIZE = 240 };
 
 static const double FORCE_PLAIN = 0.62;   // of force without an inset: height over width
 
@@ -28,6 +29,7 @@ typedef struct Figure {
     const char *name, *title;
     double height_over_width;
     FigureFunction draw;
+    bool own_axes;   // no U along x: it cannot be a panel, and is drawn for who asks
     WholeFigureFunction draw_whole;   // in its place: begins the page itself, and needs fields
 } Figure;
 
@@ -52,6 +54,15 @@ static Figure figure_get(FigureId id)
     case FIGURE_CONTACT_DENSITY:
         figure.height_over_width = 0.62;
         figure.draw = figure_contact_density;
+        break;
+    case FIGURE_CONTACT_PLANE:
+        figure.draw_whole = figure_contact_plane;
+        break;
+    case FIGURE_PRECURSORS:
+    case FIGURE_FRONT_SPEED:
+        figure.height_over_width = 0.62;
+        figure.own_axes = true;
+        figure.draw = id == FIGURE_PRECURSORS ? figure_precursors : figure_front_speed;
         break;
     case FIGURE_FIELD:
         figure.draw_whole = figure_field;
@@ -110,8 +121,8 @@ static bool panels_find(const char *names, PanelFigure list[PANELS_MAX], int32_t
     for (const char *at = names; *at; at += strcspn(at, ","), at += *at == ',') {
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
         TRY(figure_find(name, &figure, err));
-        if (!figure.draw)
-            FAIL(err, ERROR_INPUT, "panels are figures of the history: %s cannot be one", name);
+        if (!figure.draw || figure.own_axes)
+            FAIL(err, ERROR_INPUT, "panels are figures over U: %s cannot be one", name);
         if (*count == PANELS_MAX) FAIL(err, ERROR_INPUT, "a page takes %d panels", PANELS_MAX);
         list[(*count)++] = (PanelFigure){figure.name, figure.height_over_width, figure.draw};
     }
@@ -154,6 +165,18 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool write_data(const char *folder, const PictureRequest *request, const Figure *figure,
+                       ResultView *view, Error *err)
+{
+    PanelFigure panels[PANELS_MAX] = {{.name = figure ? figure->name : NULL}};
+    int32_t count = 1;
+    if (!figure) TRY(panels_find(request->panels, panels, &count, err));
+    for (int32_t k = 0; k < count; ++k)
+        TRY(figure_data_write(folder, panels[k].name, view, request->style.compare, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 // One picture from nothing to its file. Whatever fails, all that was made for it is freed.
 static bool figure_make(const char *folder, const PictureRequest *request, const Figure *figure,
                         ResultView *view, Error *err)
@@ -163,6 +186,7 @@ static bool figure_make(const char *folder, const PictureRequest *request, const
     TRY(figure_path(folder, request, figure, path, err));
     TRY(draw(folder, request, figure, view, &page, err));
     TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
+    TRY(write_data(folder, request, figure, view, err));
 cleanup:
     page_destroy(&page);
     return error_is_clean(err);
@@ -204,7 +228,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Who asks for all figures gets those that there are.
 static bool has_fields(const char *folder)
 {
     char path[PATH_MAX];
@@ -212,14 +235,66 @@ static bool has_fields(const char *folder)
     return access(path, R_OK) == 0;
 }
 
+// Who asks for all figures gets those that there are. field-strip needs a sliding with several
+// times: for who asks. Likewise contact-plane without an event.
+static bool is_there(FigureId id, const char *folder, const PictureRequest *request,
+                     const ResultView *view)
+{
+    const char *of = request->field.of;
+    if (id == FIGURE_FIELD)
+        return has_fields(folder) &&
+               (!of || figure_field_shows(of) || !figure_contact_plane_shows(of));
+    if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(of))) return false;
+    return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
+}
+
+// Where no figure is named: a strip needs a sliding with several times, and figures with axes of
+// their own are of interest beside measurements.
+static bool is_drawn(const char *folder, FigureId id, const PictureRequest *request,
+                     ResultView *view, bool *drawn, Error *err)
+{
+    Figure figure = figure_get(id);
+    bool measured = false;
+    TRY(figure_data_measured(figure.name, request->style.compare, view, &measured, err));
+    *drawn = figure.draw_whole ? is_there(id, folder, request, view) : measured || !figure.own_axes;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Measurements that none of the figures named would show were given for nothing.
+static bool check_compare(const PictureRequest *request, ResultView *view, Error *err)
+{
+    const char *compare = request->style.compare;
+    PanelFigure panels[PANELS_MAX];
+    int32_t count = request->figure_count;
+    bool shows = !compare || (count == 0 && !request->panels);
+    if (request->panels) TRY(panels_find(request->panels, panels, &count, err));
+    for (int32_t k = 0; k < count && !shows; ++k) {
+        const char *name = request->panels ? panels[k].name : request->figures[k];
+        TRY(figure_data_measured(name, compare, view, &shows, err));
+    }
+    for (int32_t k = 0; k < FIGURE_COUNT && !shows; ++k) {
+        const char *name = figure_get((FigureId)k).name;
+        TRY(figure_data_measured(name, compare, view, &shows, err));
+        if (shows)
+            FAIL(err, ERROR_INPUT, "measurements %s: the figure that shows them is %s", compare,
+                 name);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // One open result serves all pictures.
 __attribute__((visibility("default"))) bool
 amontons_render(const char *folder, const PictureRequest *request, Error *err)
 {
     ResultView view = {0};
+    bool drawn = true;
     int32_t count = request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
     TRY(request_check(folder, request, err));
     TRY(result_view_open(folder, &view, err));
+    TRY(check_compare(request, &view, err));
+    if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
     TRY(make_figures_folder(folder, err));
     if (request->panels) {
         TRY(figure_make(folder, request, NULL, &view, err));
@@ -228,9 +303,9 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     for (int32_t k = 0; k < count; ++k) {
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
-        bool always = k != FIGURE_STRIP;   // which needs a sliding with several times: for who asks
-        bool there = always && !view.line && has_fields(folder);   // those of the plane are drawn
-        if (request->figure_count == 0 && figure.draw_whole && !there) continue;
+        if (request->figure_count == 0)
+            TRY(is_drawn(folder, (FigureId)k, request, &view, &drawn, err));
+        if (!drawn) continue;
         TRY(figure_make(folder, request, &figure, &view, err));
     }
 cleanup:

@@ -40,6 +40,9 @@ extern "C" {
     X(to, TEXT, 0, 0, "", "U=U", "Where they end; or t=TIME")                                      \
     X(pixels, WORD, 0, 0, "largest mean", "WHAT",                                                  \
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean")   \
+    X(line, TEXT, 0, 0, "", "y=Y",                                                                 \
+      "Of a block in space: the line along the drive that is shown against U; by default in the "  \
+      "middle")                                                                                    \
     X(compare, TEXT, 0, 0, "", "FILE.csv", "Measurements to draw beside what was computed")        \
     X(warnings, WORD, 0, 0, "below none", "WHERE",                                                 \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
@@ -53,7 +56,8 @@ typedef struct PictureStyle {
     bool overwrite;   // a file that is there and is not ours goes; else it is refused
     double height;   // mm; 0: as the figure asks
     // As PICTURE_OPTIONS has them; NULL: the default.
-    const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *compare, *warnings;
+    const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *line, *compare,
+        *warnings;
 } PictureStyle;
 
 // Sets an option of PICTURE_OPTIONS; `value` stays the caller's, who keeps it as long as the style.
@@ -66,6 +70,8 @@ typedef struct FieldChoice {
     const char *at;   // "U=0.0117" or "t=120": the nearest time that is stored; NULL: the last one
         // before the last sliding
     bool edges;   // of elements are drawn
+    const char *cut;   // of a block in space: "y=0.25", up to three with commas between: what lies
+        // before all these planes is taken away; NULL: none
 } FieldChoice;
 
 typedef struct PictureRequest {
@@ -111,6 +117,9 @@ typedef struct FilmRequest {
     bool last_cycle;   // from the end of a bulk sliding to a little after the next, the last
     const char *of;   // field of the block, as FieldChoice has it; without fields not asked
     double magnification;   // of the deformation; 0: chosen
+    bool
+        fields;   // the run is computed once more for as many fields of the block as the film shows
+    const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
     bool overwrite;   // a file that is there and is not ours goes; else it is refused
     FrameCallback on_frame;   // NULL: none

@@ -41,6 +41,7 @@ typedef struct RunForecast {
     double mesh;   // what reading the mesh took now
     double reduction, steps;   // expected
     double otherwise;   // both, if it were stepped in the other way
+    double memory;   // bytes, about; 0: not known, as in the plane
 } RunForecast;
 bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err);
 

@@ -21,6 +21,7 @@ typedef struct StabilityPoint {
     double load;   // weakening over the resistance of viscosity, inertia and elasticity, pressure
         // held fixed; from 1 on slip accelerates without oscillating (it runs away)
     bool certified;   // viscosity alone outweighs the weakening
+    double area;   // how much of the contact slips, over all of it
 } StabilityPoint;
 
 enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 6, STABILITY_WHY_SIZE = 400 };
@@ -29,7 +30,7 @@ enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 6, STABILITY_WHY_SIZE = 400 
 // l, drag and stiffness of the pad alone, everything else held.
 typedef struct StabilityPad {
     char name[64];
-    double length;   // sum of its nodes' weights
+    double length;   // sum of its nodes' weights, in space over its breadth
     double pressure;   // its load over its length, stress
     double slipping;   // how much of it slips, length
     double mode;   // how much it takes part: mean |slip| of the mode that grows,
@@ -60,6 +61,8 @@ typedef struct StabilitySummary {
     double mu_c, mu_rod;   // mu at l_c and at l_c_rod: mu_M for V -> 0, and for V
     double U_c, U_rod;   // U there, length
     double frequency;   // Im lambda at l_sc, 1/time
+    double area_sc, area_c, area_c_rod;   // how much of the contact slips at l_sc, l_c and l_c_rod,
+        // over all of it
     double element;   // mean distance of contact nodes, over L
     int32_t points;
     int32_t pad_count;

@@ -62,7 +62,7 @@ static inline void rig_build(const RigDef *def, BlockRig *rig)
                                 rig->interface.count, &rig->system, &err) &&
            rod_build(&rig->interface, def->rod_kind, def->rod_velocity, &rig->rod, &err);
     if (!done) fail_msg("%s", err.message);
-    rig->block = (Block){&rig->system, &rig->interface, &rig->law, &rig->rod};
+    rig->block = (Block){&rig->system, &rig->interface, &rig->law, &rig->rod, NULL};
 }
 
 static inline void rig_destroy(BlockRig *rig)

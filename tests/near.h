@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Doubles compared as doubles (cmocka 1.1.5 compares floats only), and the headers cmocka wants
-// before its own.
+// Doubles compared as doubles (cmocka 1.1.5 compares floats only).
 #ifndef AMONTONS_TESTS_NEAR_H
 #define AMONTONS_TESTS_NEAR_H
 
+#include "cases.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 // what: said when it fails.
 static inline void assert_near(const char *what, double value, double wanted, double tolerance)

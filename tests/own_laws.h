@@ -4,6 +4,7 @@
 #define AMONTONS_TESTS_OWN_LAWS_H
 
 #include "contact/friction_look.h"
+#include "contact/friction_make.h"
 #include "near.h"
 
 static inline FrictionLaw own_law(FrictionLaw law, const FrictionSource *source)

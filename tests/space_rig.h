@@ -30,7 +30,7 @@ static inline void space_rig_build(const SpaceDef *shape, const RigDef *def,
                                 rig->interface.count, &rig->system, &err) &&
            rod_build(&rig->interface, def->rod_kind, def->rod_velocity, &rig->rod, &err);
     if (!done) fail_msg("%s", err.message);
-    rig->block = (Block){&rig->system, &rig->interface, &rig->law, &rig->rod};
+    rig->block = (Block){&rig->system, &rig->interface, &rig->law, &rig->rod, NULL};
 }
 
 #endif

@@ -239,16 +239,18 @@ def _picture_style(style: dict[str, Any]) -> Any:
 
 
 def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: str | None = None, edges: bool = False,
-           panels: Sequence[str] = (), **style: Any) -> list[Path]:
+           panels: Sequence[str] = (), cut: str | None = None, **style: Any) -> list[Path]:
     """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. panels: those
     to stand below each other in one, panels.png, in the place of figures. of, at, edges: what "field"
-    shows ("stress_xz"), when ("U=0.0117"), and whether with the elements' edges. style: format ("png", "pdf", "svg"), dark,
+    shows ("stress_xz"), when ("U=0.0117"), and whether with the elements' edges; of "contact-plane" what and when. cut: where a
+    block in space is cut open ("y=0.25"). style: format ("png", "pdf", "svg"), dark,
     overwrite (also files that amontons did not write), and each option of `amontons render --help` by its name: style="columns",
     width (mm), height, dpi, title, legend, limits="1%,99%", from_="U=0.01", ... The files, in the folder figures/ of the result."""
     folder = result.folder if isinstance(result, Result) else Path(result)
     given = _picture_style(style)
     request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=given,
-                               field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges),
+                               field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges,
+                                                   cut=c_text_or_none(cut)),
                                panels=c_text(",".join(panels)) if panels else None)
     call(lib.amontons_render_result, c_text(folder), ctypes.byref(request))
     return sorted((folder / "figures").glob(f"*.{style.get('format', 'png')}"))
@@ -271,7 +273,7 @@ def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
 def film(result: Any, path: Any, **options: Any) -> Path:
     """A film of a stored result: `amontons film`. path: its ending (.mp4, .webm, .gif) says what is made; a folder gets
     PNG frames. options: seconds, rate (frames a second), width and height (pixels), begin and end ("U=0.0117"),
-    last_cycle, of (field), magnification, dark, overwrite. Ctrl-C stops; there is then no film."""
+    last_cycle, of (field), magnification, fields (the run is computed once more for them), title, dark, overwrite. Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
     folder = result.folder if isinstance(result, Result) else Path(result)
     words_of = {name: c_text(value) if isinstance(value, str) else value for name, value in options.items()}

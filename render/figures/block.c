@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double FOLDED = 0.2;   // of an element's area at a corner that must be left when drawn
+static const double FOLDED = 0.2;   // of an element's size at a corner that must be left when drawn
 static const double SHOWN = 0.05;   // largest drawn deformation over the block's larger extent
 
 BlockWords block_words(BlockQuantity quantity)
@@ -104,6 +104,18 @@ int32_t block_time_before(const BlockTimes *times, const ResultView *view, doubl
     return index;
 }
 
+static void frame_extent(const FieldFrame *frame, double low[3], double high[3])
+{
+    for (int32_t d = 0; d < 3; ++d) {
+        low[d] = INFINITY;
+        high[d] = -INFINITY;
+        for (int64_t i = 0; i < frame->node_count; ++i) {
+            low[d] = fmin(low[d], frame->position[3 * i + d]);
+            high[d] = fmax(high[d], frame->position[3 * i + d]);
+        }
+    }
+}
+
 bool block_read(const char *folder, const ResultView *view, const BlockTimes *times, int32_t index,
                 Block *block, Error *err)
 {
@@ -114,6 +126,11 @@ bool block_read(const char *folder, const ResultView *view, const BlockTimes *ti
     TRY(field_frame_read(path, &block->frame, err));
     TRY(block->value = NEW_ARRAY(double, block->frame.node_count, err));
     TRY(block->place = memory_array(block->frame.node_count, sizeof *block->place, err));
+    if (block->frame.dim > 2) {
+        TRY(block->moved = memory_array(block->frame.node_count, sizeof *block->moved, err));
+        frame_extent(&block->frame, block->low, block->high);
+        block->camera = camera_before(block->low, block->high);
+    }
     block_deform(block, 0);
 cleanup:
     if (!error_is_clean(err)) block_destroy(block);
@@ -125,33 +142,39 @@ void block_destroy(Block *block)
     field_frame_destroy(&block->frame);
     memory_free(block->value);
     memory_free(block->place);
+    memory_free(block->moved);
     *block = (Block){0};
 }
 
 // --- quantities ----------------------------------------------------------------------------------
 
-// Adds the strain (xx, zz, 2 xz) of `vectors` at the nodes of element e to theirs.
+// Which axes a strain or a stress belongs to, in the order of the arrays.
+static const uint8_t strain_axes[2][6][2] = {{{0, 0}, {1, 1}, {0, 1}},
+                                             {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+
+// Adds the strain of `vectors` at the nodes of element e to theirs, shear twice.
 static void element_strains(const FieldFrame *frame, int32_t e, const double *vectors,
                             double *strain)
 {
     const int32_t *nodes = frame->element_nodes + frame->first_node[e];
     ElementKind kind = (ElementKind)frame->kind[e];
-    int32_t count = element_node_count(kind);
+    int32_t count = element_node_count(kind), dim = frame->dim;
     MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
     for (int32_t a = 0; a < count; ++a)
-        memcpy(position[a], frame->position + 3 * nodes[a], sizeof position[a]);
+        memcpy(position[a], frame->position + 3 * (int64_t)nodes[a], sizeof position[a]);
     for (int32_t at = 0; at < count; ++at) {
-        double slope[2][2] = {{0}};   // of component, along x and z
+        double slope[3][3] = {{0}};   // of component, along axis
         ShapeValues shape = shape_at(kind, shape_node(kind, at));
         shape_gradients(kind, &shape, (const MeshPlace *)position, gradient);
         for (int32_t a = 0; a < count; ++a)
-            for (int32_t d = 0; d < 2; ++d) {
-                slope[d][0] += gradient[a][0] * vectors[3 * nodes[a] + d];
-                slope[d][1] += gradient[a][1] * vectors[3 * nodes[a] + d];
-            }
-        strain[3 * nodes[at]] += slope[0][0];
-        strain[3 * nodes[at] + 1] += slope[1][1];
-        strain[3 * nodes[at] + 2] += slope[0][1] + slope[1][0];
+            for (int32_t d = 0; d < dim; ++d)
+                for (int32_t k = 0; k < dim; ++k)
+                    slope[d][k] += gradient[a][k] * vectors[3 * (int64_t)nodes[a] + d];
+        for (int32_t k = 0; k < frame->stresses; ++k) {
+            int32_t a = strain_axes[dim - 2][k][0], b = strain_axes[dim - 2][k][1];
+            strain[(int64_t)frame->stresses * nodes[at] + k] += a == b ? slope[a][a]
+                                                                       : slope[a][b] + slope[b][a];
+        }
     }
 }
 
@@ -160,7 +183,8 @@ static bool take_work(Block *block, const double *stress, const double *other,
                       const double *vectors, double factor, Error *err)
 {
     const FieldFrame *frame = &block->frame;
-    double *strain = NEW_ARRAY(double, 3 * (int64_t)frame->node_count, err);
+    int64_t width = frame->stresses;
+    double *strain = NEW_ARRAY(double, width * frame->node_count, err);
     int32_t *shares = NEW_ARRAY(int32_t, frame->node_count, err);
     TRY(strain && shares);
     for (int32_t e = 0; e < frame->element_count; ++e) {
@@ -170,7 +194,7 @@ static bool take_work(Block *block, const double *stress, const double *other,
     }
     for (int64_t i = 0; i < frame->node_count; ++i) {
         double work = 0;
-        for (int64_t k = 3 * i; k < 3 * i + 3; ++k)
+        for (int64_t k = width * i; k < width * (i + 1); ++k)
             work += (stress[k] - (other ? other[k] : 0)) * strain[k];
         block->value[i] = factor * work / fmax(shares[i], 1);
     }
@@ -180,26 +204,52 @@ cleanup:
     return error_is_clean(err);
 }
 
+static double size_of(const double vector[3])
+{
+    return hypot(hypot(vector[0], vector[1]), vector[2]);
+}
+
+// Component (a, b) of stresses; axes 0 to 2 are x, y, z, of which the plane has no y.
+static double stress_at(const FieldFrame *frame, const double *stress, int32_t a, int32_t b)
+{
+    int32_t plane = frame->dim == 2;
+    for (int32_t k = 0; k < frame->stresses; ++k) {
+        const uint8_t *axes = strain_axes[frame->dim - 2][k];
+        if (axes[0] == a - (plane && a == 2) && axes[1] == b - (plane && b == 2)) return stress[k];
+    }
+    return 0;
+}
+
 bool block_take(Block *block, BlockQuantity quantity, Error *err)
 {
     const FieldFrame *frame = &block->frame;
+    int32_t dim = frame->dim;
+    bool across = quantity == BLOCK_STRESS_YY || quantity == BLOCK_STRESS_XY ||
+                  quantity == BLOCK_STRESS_YZ;
+    if (across && dim == 2)
+        FAIL(err, ERROR_INPUT, "%s is there in space only", block_words(quantity).name);
     if (quantity == BLOCK_ENERGY)
         return take_work(block, frame->stress_elastic, NULL, frame->displacement, 0.5, err);
     if (quantity == BLOCK_DISSIPATION)
         return take_work(block, frame->stress, frame->stress_elastic, frame->velocity, 1, err);
     for (int64_t i = 0; i < frame->node_count; ++i) {
-        const double *stress = frame->stress + 3 * i;
-        const double *moved = frame->displacement + 3 * i, *speed = frame->velocity + 3 * i;
+        const double *stress = frame->stress + frame->stresses * i;
+        double mean = 0;
+        for (int32_t d = 0; d < dim; ++d) mean += stress[d] / dim;
         const double values[] = {[BLOCK_VON_MISES] = frame->von_mises[i],
-                                 [BLOCK_STRESS_XX] = stress[0],
-                                 [BLOCK_STRESS_ZZ] = stress[1],
-                                 [BLOCK_STRESS_XZ] = stress[2],
-                                 [BLOCK_PRESSURE] = -(stress[0] + stress[1]) / 2,
-                                 [BLOCK_VELOCITY] = hypot(speed[0], speed[1]),
-                                 [BLOCK_DISPLACEMENT] = hypot(moved[0], moved[1])};
+                                 [BLOCK_STRESS_XX] = stress_at(frame, stress, 0, 0),
+                                 [BLOCK_STRESS_YY] = stress_at(frame, stress, 1, 1),
+                                 [BLOCK_STRESS_ZZ] = stress_at(frame, stress, 2, 2),
+                                 [BLOCK_STRESS_XZ] = stress_at(frame, stress, 0, 2),
+                                 [BLOCK_STRESS_XY] = stress_at(frame, stress, 0, 1),
+                                 [BLOCK_STRESS_YZ] = stress_at(frame, stress, 1, 2),
+                                 [BLOCK_PRESSURE] = -mean,
+                                 [BLOCK_VELOCITY] = size_of(frame->velocity + 3 * i),
+                                 [BLOCK_DISPLACEMENT] = size_of(frame->displacement + 3 * i)};
         block->value[i] = values[quantity];
     }
-    return true;
+cleanup:
+    return error_is_clean(err);
 }
 
 // --- deformation ---------------------------------------------------------------------------------
@@ -216,17 +266,14 @@ static double wanted_magnification(const Block *block)
 {
     const FieldFrame *frame = &block->frame;
     static const double handy[] = {5, 2, 1};
-    double mean = mean_along_x(frame), moved = 0, low[2] = {INFINITY, INFINITY};
-    double high[2] = {-INFINITY, -INFINITY};
-    for (int64_t i = 0; i < frame->node_count; ++i) {
-        moved = fmax(moved, fabs(frame->displacement[3 * i] - mean));
-        moved = fmax(moved, fabs(frame->displacement[3 * i + 1]));
-        for (int32_t d = 0; d < 2; ++d) {
-            low[d] = fmin(low[d], frame->position[3 * i + d]);
-            high[d] = fmax(high[d], frame->position[3 * i + d]);
-        }
+    double mean = mean_along_x(frame), moved = 0, low[3], high[3], extent = 0;
+    frame_extent(frame, low, high);
+    for (int32_t d = 0; d < frame->dim; ++d) {
+        extent = fmax(extent, high[d] - low[d]);
+        for (int64_t i = 0; i < frame->node_count; ++i)
+            moved = fmax(moved, fabs(frame->displacement[3 * i + d] - (d == 0 ? mean : 0)));
     }
-    double most = SHOWN * fmax(high[0] - low[0], high[1] - low[1]) / moved;
+    double most = SHOWN * extent / moved;
     if (!(most > 1) || !isfinite(most)) return 1;
     double power = pow(10, floor(log10(most)));
     for (int32_t k = 0; k < 3; ++k)
@@ -234,33 +281,30 @@ static double wanted_magnification(const Block *block)
     return power;
 }
 
-// Twice the signed area of the triangle at corner k of an element with `corners`, deformed.
-static double corner_area(const FieldFrame *frame, const int32_t *nodes, int32_t corners, int32_t k,
-                          double magnification)
+// The determinant at corner k of an element, deformed.
+static double corner_size(const FieldFrame *frame, int32_t e, int32_t k, double magnification)
 {
-    double place[3][2];
-    for (int32_t a = 0; a < 3; ++a) {
-        int64_t node = nodes[(k + a) % corners];
-        for (int32_t d = 0; d < 2; ++d)
-            place[a][d] = frame->position[3 * node + d] +
-                          magnification * frame->displacement[3 * node + d];
-    }
-    return (place[1][0] - place[0][0]) * (place[2][1] - place[0][1]) -
-           (place[1][1] - place[0][1]) * (place[2][0] - place[0][0]);
+    const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+    ElementKind kind = (ElementKind)frame->kind[e];
+    MeshPlace place[ELEMENT_NODES_MAX];
+    for (int32_t a = 0; a < element_node_count(kind); ++a)
+        for (int32_t d = 0; d < frame->dim; ++d) {
+            int64_t at = 3 * (int64_t)nodes[a] + d;
+            place[a][d] = frame->position[at] + magnification * frame->displacement[at];
+        }
+    ShapeValues shape = shape_at(kind, shape_node(kind, k));
+    return shape_jacobian(kind, &shape, (const MeshPlace *)place);
 }
 
 // Whether an element drawn so would be thinner than FOLDED of what it is at a corner, or folded.
 static bool deformation_folds(const FieldFrame *frame, double magnification)
 {
-    for (int32_t e = 0; e < frame->element_count; ++e) {
-        const int32_t *nodes = frame->element_nodes + frame->first_node[e];
-        int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
-        for (int32_t k = 0; k < corners; ++k) {
-            double before = corner_area(frame, nodes, corners, k, 0);
-            double after = corner_area(frame, nodes, corners, k, magnification);
+    for (int32_t e = 0; e < frame->element_count; ++e)
+        for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k) {
+            double before = corner_size(frame, e, k, 0);
+            double after = corner_size(frame, e, k, magnification);
             if (!(after * before > FOLDED * before * before)) return true;
         }
-    }
     return false;
 }
 
@@ -281,9 +325,15 @@ double block_magnification(const Block *block)
 void block_deform(Block *block, double magnification)
 {
     const FieldFrame *frame = &block->frame;
-    double mean[2] = {mean_along_x(frame), 0};
-    for (int64_t i = 0; i < frame->node_count; ++i)
-        for (int32_t d = 0; d < 2; ++d)
-            block->place[i][d] = frame->position[3 * i + d] +
-                                 magnification * (frame->displacement[3 * i + d] - mean[d]);
+    double mean[3] = {mean_along_x(frame), 0, 0};
+    for (int64_t i = 0; i < frame->node_count; ++i) {
+        double *to = block->moved ? block->moved[i] : block->place[i], seen[3];
+        for (int32_t d = 0; d < frame->dim; ++d)
+            to[d] = frame->position[3 * i + d] +
+                    magnification * (frame->displacement[3 * i + d] - mean[d]);
+        if (!block->moved) continue;
+        camera_see(&block->camera, to, seen);
+        block->place[i][0] = seen[0];
+        block->place[i][1] = seen[1];
+    }
 }

@@ -6,6 +6,7 @@
 
 #include "amontons_pictures.h"
 #include "io/fields/field_read.h"
+#include "render/figures/camera.h"
 #include "render/figures/result_view.h"
 #include "render/render.h"
 
@@ -27,7 +28,11 @@ typedef struct Block {
     double t, U;   // of this time; U by the history
     int64_t row;   // of the history, the nearest step
     double *value;   // [frame.node_count] the quantity
-    double (*place)[2];   // [frame.node_count] (x, z) as drawn, length
+    double (
+        *place)[2];   // [frame.node_count] (x, z) as drawn, in space as seen by the camera; length
+    double (*moved)[3];   // [frame.node_count] (x, y, z) as drawn; NULL in the plane
+    double low[3], high[3];   // in space: extent before anything moved
+    Camera camera;
 } Block;
 
 // The times stored in the result at `folder`, as rows of the history, [*count], rising.

@@ -2,12 +2,14 @@
 #include "render/figures/block_page.h"
 
 #include "base/memory.h"
-#include "io/text/picture_options.h"
+#include "io/mesh/shape_functions.h"
 #include "render/figures/rod_mark.h"
+#include "render/figures/space_page.h"
+#include "render/figures/value_range.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
+#include <string.h>
 
 enum { ARROWS = 9, STATUSES = 4 };
 
@@ -17,12 +19,13 @@ static const double CONTACT_GAP = 0.6,
                     CONTACT_HEIGHT = 4;   // points: the floor's line to the band, its height
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
 static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
-static const double LEFT_OUT = 0.01;   // of the area at each end of the range: a corner of the rod
 static const double FACE_SLACK = 1e-3;   // of the rod's width: nodes of the face it pushes
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
 static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
 static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
+static const char PRESSURE_IN_SPACE[] =
+    "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{yy} + ~{\u03c3}_{zz})/3";
 // By the history's status: open, sticks, slips where friction weakens, slips where it does not.
 static const struct {
     Color color;
@@ -34,6 +37,10 @@ static const struct {
 
 void block_extent(const Block *block, double extent[4])
 {
+    if (block->moved) {
+        space_page_extent(block, extent);
+        return;
+    }
     extent[0] = extent[2] = INFINITY;
     extent[1] = extent[3] = -INFINITY;
     for (int32_t i = 0; i < block->frame.node_count; ++i)
@@ -63,100 +70,57 @@ void block_page_ranges(const double extent[4], double scale, double share, Axes 
 
 // --- range of the colours ------------------------------------------------------------------------
 
-typedef struct Weighed {
-    double value, area;
-} Weighed;
-
-static int compare_weighed(const void *left, const void *right)
-{
-    double a = ((const Weighed *)left)->value, b = ((const Weighed *)right)->value;
-    return a < b ? -1 : a > b;
-}
-
-// Adds to each node's area its share of the elements around it, by their corners.
-static void add_areas(const FieldFrame *frame, Weighed *nodes)
+// Adds to each node's weight its share of the elements around it.
+static void add_sizes(const FieldFrame *frame, WeighedValue *nodes)
 {
     for (int32_t e = 0; e < frame->element_count; ++e) {
         const int32_t *own = frame->element_nodes + frame->first_node[e];
-        int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
-        int32_t count = frame->first_node[e + 1] - frame->first_node[e];
-        double area = 0;
-        for (int32_t k = 0; k < corners; ++k) {
-            const double *a = frame->position + 3 * own[k];
-            const double *b = frame->position + 3 * own[(k + 1) % corners];
-            area += (a[0] * b[1] - b[0] * a[1]) / 2;
+        ElementKind kind = (ElementKind)frame->kind[e];
+        int32_t count = element_node_count(kind);
+        MeshPlace place[ELEMENT_NODES_MAX];
+        Quadrature points = shape_quadrature(kind);
+        double size = 0;
+        for (int32_t a = 0; a < count; ++a)
+            memcpy(place[a], frame->position + 3 * (int64_t)own[a], sizeof place[a]);
+        for (int32_t q = 0; q < points.count; ++q) {
+            ShapeValues shape = shape_at(kind, points.point[q]);
+            size += points.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)place);
         }
-        for (int32_t k = 0; k < count; ++k) nodes[own[k]].area += fabs(area) / count;
+        for (int32_t a = 0; a < count; ++a) nodes[own[a]].weight += fabs(size) / count;
     }
-}
-
-// The value below which `part` of the area lies. sorted: [count], area of them all.
-static double value_at(const Weighed *sorted, int64_t count, double area, double part)
-{
-    double below = 0;
-    int64_t k = 0;
-    while (k + 1 < count && (below += sorted[k].area) < part * area) ++k;
-    return sorted[k].value;
-}
-
-typedef struct ColorEnds {
-    double range[2];   // what the style asks for, or where all but LEFT_OUT of the area lies
-    double whole[2];   // where all of it does
-} ColorEnds;
-
-// factor: from values to the numbers shown.
-static bool find_range(const Block *blocks, int32_t count, const PictureStyle *style, double factor,
-                       ColorEnds *ends, Error *err)
-{
-    int64_t total = 0, kept = 0;
-    double area = 0;
-    Weighed *sorted = NULL;
-    for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
-    TRY(sorted = NEW_ARRAY(Weighed, total, err));
-    for (int64_t k = 0, start = 0; k < count; start += blocks[k++].frame.node_count)
-        add_areas(&blocks[k].frame, sorted + start);
-    for (int64_t k = 0, from = 0; k < count; ++k)
-        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i, ++from) {
-            if (!isfinite(blocks[k].value[i])) continue;
-            sorted[kept++] = (Weighed){blocks[k].value[i], sorted[from].area};
-            area += sorted[kept - 1].area;
-        }
-    if (kept == 0) FAIL(err, ERROR_FILE, "the field holds no number");
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_weighed);
-    ends->whole[0] = sorted[0].value;
-    ends->whole[1] = sorted[kept - 1].value;
-    for (int32_t end = 0; end < 2; ++end) {
-        bool is_part = false;
-        double limit = picture_limit(style, end, &is_part);
-        double part = is_part ? limit : end ? 1 - LEFT_OUT : LEFT_OUT;
-        ends->range[end] = isfinite(limit) && !is_part ? limit / factor
-                                                       : value_at(sorted, kept, area, part);
-    }
-cleanup:
-    memory_free(sorted);
-    return error_is_clean(err);
 }
 
 bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err)
 {
-    ColorEnds ends = {{0, 0}, {0, 0}};
-    const double *range = ends.range, *whole = ends.whole;
+    int64_t total = 0;
+    WeighedValue *nodes = NULL;
+    ValueBar fitted;
     BlockWords words = block_words(quantity);
-    const PictureStyle none = {0}, *style = map->style ? map->style : &none;
-    TRY(find_range(blocks, count, &none, 1, &ends, err));
-    Axis axis = {.low = range[0], .high = range[1], .factor = 1};
-    if (map->view->si)
-        axis_set_unit(&axis, words.words, words.si);
-    else
-        snprintf(axis.label, sizeof axis.label, "%s / %s", words.words, words.normalised);
-    map->factor = axis.factor;
-    map->bar = (Colorbar){.label = map->label};
-    if (style->limits) TRY(find_range(blocks, count, style, axis.factor, &ends, err));
-    colorbar_fit(&map->bar, (double[]){range[0] * axis.factor, range[1] * axis.factor});
-    map->bar.clipped = whole[0] * axis.factor < map->bar.low;
-    map->bar.clipped_above = whole[1] * axis.factor > map->bar.high;
-    snprintf(map->label, sizeof map->label, "%s", axis.label);
+    ValueWords shown = {words.words, words.si, words.normalised, map->view->si};
+    if (quantity == BLOCK_PRESSURE && map->view->line) shown.words = PRESSURE_IN_SPACE;
+    for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
+    TRY(nodes = NEW_ARRAY(WeighedValue, total, err));
+    for (int64_t k = 0, start = 0; k < count; start += blocks[k++].frame.node_count) {
+        add_sizes(&blocks[k].frame, nodes + start);
+        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
+            nodes[start + i].value = blocks[k].value[i];
+    }
+    TRY(value_bar_fit(nodes, total, &shown, map->style, &fitted, err));
+    map->factor = fitted.factor;
+    snprintf(map->label, sizeof map->label, "%s", fitted.label);
+    map->bar = fitted.bar;
+    map->bar.label = map->label;
+cleanup:
+    memory_free(nodes);
+    return error_is_clean(err);
+}
+
+bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err)
+{
+    if (words && !view->line)
+        FAIL(err, ERROR_INPUT, "the block is in the plane: there is nothing to cut open");
+    TRY(space_cut_read(words, cut, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -178,8 +142,22 @@ cleanup:
     return error_is_clean(err);
 }
 
+static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *axes)
+{
+    static const SpaceCut whole = {0};
+    SpacePage space = {.view = map->view,
+                       .cut = map->cut ? map->cut : &whole,
+                       .edges = map->edges,
+                       .unit = map->share * page->point,
+                       .axes = *axes,
+                       .bar = &map->bar,
+                       .factor = map->factor};
+    for (int32_t k = 0; k < STATUSES; ++k) space.status[k] = STATUS[k].color;
+    return space;
+}
+
 // Below the floor's line, a colour for each contact node; where there is none, none.
-void block_page_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes)
+static void draw_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes)
 {
     const ResultView *view = map->view;
     const double *status = view->status + row * view->nodes;
@@ -196,6 +174,25 @@ void block_page_contact(const Page *page, const BlockPage *map, int64_t row, con
         box.right = fmax(round(box.right), box.left + 1);
         if (kind >= 0 && kind < STATUSES) draw_fill(page->canvas, STATUS[kind].color, &box);
     }
+}
+
+void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
+                        const Axes *axes)
+{
+    SpacePage space = space_of(page, map, axes);
+    if (block->moved)
+        space_page_floor(page, &space, block, row);
+    else
+        draw_contact(page, map, row, axes);
+}
+
+void block_page_axes(const Page *page, const BlockPage *map, const Block *block, const Axes *axes)
+{
+    SpacePage space = space_of(page, map, axes);
+    if (block->moved)
+        space_page_axes(page, &space, block);
+    else
+        axes_draw(page, axes);
 }
 
 // Arrows along what was the top before anything moved.
@@ -250,6 +247,8 @@ static RodMark rod_find(const Block *block, double low, double high, double shar
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
                      Error *err)
 {
+    SpacePage space = space_of(page, map, axes);
+    if (block->moved) return space_page_draw(page, &space, block, err);
     double unit = map->share * page->point;
     double low = map->view->number[NUMBER_ROD_LOW], high = map->view->number[NUMBER_ROD_HIGH];
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
@@ -260,7 +259,7 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     if (map->edges) block_edges_draw(page, block, axes, &edge);
     TRY(draw_contours(page, map, block, axes, err));
     TRY(block_outline_draw(page, block, axes, &outline, err));
-    block_page_contact(page, map, block->row, axes);
+    draw_contact(page, map, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
     draw_segment(page->canvas, &ground, left, right);
     draw_load(page, map, block, axes);

@@ -6,16 +6,21 @@
 
 #include "render/canvas/colorbar.h"
 #include "render/figures/block_mesh.h"
+#include "render/figures/surface_cut.h"
 
 typedef struct BlockPage {
     const ResultView *view;   // its statuses have been read
     bool edges;   // of elements are drawn
+    const SpaceCut *cut;   // of a block in space; NULL: none
     double share;   // of the sizes of marks: 1, or less on a small picture
     const PictureStyle *style;   // whose limits the colours have; NULL: those that fit
     Colorbar bar;   // block_page_fit sets it, and what follows
     char label[AXIS_LABEL_SIZE];   // of the bar
     double factor;   // the bar's numbers are the block's values times this
 } BlockPage;
+
+// As space_cut_read. ERROR_INPUT also where the block is in the plane.
+bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err);
 
 // Least and largest x and z of the block as drawn: low and high of x, then of z.
 void block_extent(const Block *block, double extent[4]);
@@ -37,8 +42,12 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
                      Error *err);
 
 // What the contact does at a step of the history, in its place below the block; part of
-// block_page_draw.
-void block_page_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes);
+// block_page_draw. block: one of this result.
+void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
+                        const Axes *axes);
+
+// Frame, numbers and names; of a block in space along its edges.
+void block_page_axes(const Page *page, const BlockPage *map, const Block *block, const Axes *axes);
 
 // What the colours of the contact mean, from `place` to the right.
 void block_page_legend(const Page *page, Point place);

@@ -37,6 +37,8 @@ static void draw_words(const Page *page, const FieldPage *field, const BlockPage
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
     snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
              block->U * U.factor, field->magnification);
+    style.size *=
+        fmin(1, (axes->box.right - axes->box.left) / text_width(page->text, style.size, words));
     text_draw(page->text, &style, (Point){axes->box.left, axes->box.top - 3.5 * page->point},
               words);
 }
@@ -59,7 +61,7 @@ bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *
     color_map_fill(colors);
     canvas_set_map(page->canvas, colors, PAPER);
     TRY(block_page_draw(page, map, block, &axes, err));
-    axes_draw(page, &axes);
+    block_page_axes(page, map, block, &axes);
     draw_words(page, field, map, block, &axes);
     Box beside = axes.box;
     beside.left = round(axes.box.right + BAR_GAP * point);

@@ -13,6 +13,7 @@
 enum { RANGES = 5 };
 
 static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
+static const double AREA_RADIUS = 1.6;   // points: of measured areas
 static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
 
 typedef struct Precursors {
@@ -59,11 +60,72 @@ static void grid_to_levels(PixelGrid *grid, double critical, double low)
     }
 }
 
-static void key_of_map(Page *page, const ResultView *view)
+static void key_of_map(Page *page, const ResultView *view, const Measured *measured)
 {
-    const KeyEntry entries[2] = {{KEY_LINE, INK, "front of slip"},
-                                 {KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"}};
-    key_draw(page, entries, view->pad[view->nodes - 1] > 0 ? 2 : 1);
+    KeyEntry entries[3] = {{KEY_LINE, INK, "front of slip"}};
+    int32_t count = 1;
+    if (view->pad[view->nodes - 1] > 0)
+        entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
+    if (measured->count > 0) entries[count++] = (KeyEntry){KEY_RING, INK, measured->words};
+    key_draw(page, entries, count);
+}
+
+// Of the nearest node at that row; open contact has no area.
+static double density_at(const ResultView *view, int64_t row, double x)
+{
+    int32_t nearest = 0;
+    for (int32_t i = 1; i < view->nodes; ++i)
+        if (fabs(view->x[i] - x) < fabs(view->x[nearest] - x)) nearest = i;
+    int64_t k = row * view->nodes + nearest;
+    double density = 1 - fabs(view->slip_rate[k]) / view->number[NUMBER_CRITICAL_VELOCITY];
+    return view->status[k] == 0 ? 0 : fmax(density, 0);
+}
+
+// Linear between steps.
+static double density_computed(const void *context, const Measured *measured, int32_t k)
+{
+    const ResultView *view = context;
+    double U = measured->at[k], x = measured->x[k], low = 0, high = 0;
+    figure_x_extent(view, &low, &high);
+    if (x < low || x > high) return NAN;
+    for (int64_t row = 0; row + 1 < view->rows; ++row) {
+        double from = view->U[row], to = view->U[row + 1];
+        if (!(U >= from && U <= to)) continue;
+        double part = to > from ? (U - from) / (to - from) : 1, before = density_at(view, row, x);
+        return before + part * (density_at(view, row + 1, x) - before);
+    }
+    return NAN;
+}
+
+bool figure_contact_density_measured(ResultView *view, const char *path, Measured *measured,
+                                     Error *err)
+{
+    TRY(measured_read(path, MEASURED_AREA, view, measured, err));
+    if (measured->count == 0) return true;
+    TRY(result_view_read_slip_rate(view, err));
+    TRY(result_view_read_status(view, err));
+    measured_compare(measured, view, density_computed, view);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Discs in the colours of the map, so that one that agrees does not stand out but for its rim.
+static void areas_draw(const Page *page, const Measured *measured, const MapPage *map)
+{
+    uint8_t colors[MAP_SIZE * 3];
+    double radius = AREA_RADIUS * page->point;
+    color_map_fill(colors);
+    canvas_clip(page->canvas, &map->axes.box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        Point at = axes_place(&map->axes, measured->at[k], measured->x[k]);
+        double lost = (1 - measured->value[k]) / (1 - map->bar.low);
+        const uint8_t *color = colors + 3 * (int32_t)lround(255 * fmin(fmax(lost, 0), 1));
+        Color inside = {(float)color[0] / 255, (float)color[1] / 255, (float)color[2] / 255, 1};
+        draw_disc(page->canvas, PAPER, at, radius + 0.8 * page->point);
+        draw_disc(page->canvas, INK, at, radius + 0.4 * page->point);
+        draw_disc(page->canvas, inside, at, radius);
+    }
+    canvas_clip(page->canvas, NULL);
 }
 
 bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
@@ -71,6 +133,7 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     Page page = *whole;
     double critical = view->number[NUMBER_CRITICAL_VELOCITY];
     Zoom zoom = zoom_choose(view);
+    Measured measured = {0};
     MapPage map = {.bar = {.high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
     if (!(critical > 0))
         FAIL(err, ERROR_INPUT,
@@ -87,15 +150,18 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = OPEN;
-    key_of_map(&page, view);
+    TRY(figure_contact_density_measured(view, page.style.compare, &measured, err));
+    key_of_map(&page, view, &measured);
     map_page_layout(&page, view, zoom.U_low, zoom.U_high, &map);
     TRY(map_page_fill(view, view->status, &map, err));
     grid_to_levels(&map.grid, critical, map.bar.low);
     map_page_draw_field(&page, view, &map);
     TRY(map_page_draw_front(&page, view, &map, err));
+    areas_draw(&page, &measured, &map);
     if (zoom.found && page.zoom_name) map.axes.color = ZOOM_DENSITY;
     map_page_draw_frame(&page, view, &map);
 cleanup:
+    measured_destroy(&measured);
     map_page_destroy(&map);
     return error_is_clean(err);
 }

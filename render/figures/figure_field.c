@@ -24,14 +24,26 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool figure_field_shows(const char *quantity)
+{
+    Error unknown = {0};
+    BlockQuantity found = BLOCK_VON_MISES;
+    return block_quantity_find(quantity, &found, &unknown);
+}
+
 bool figure_field(Page *page, const FigureInput *input, Error *err)
 {
     Block block = {0};
     FieldPage field = {0};
     PageDef def = input->def;
     BlockQuantity quantity = BLOCK_VON_MISES;
-    BlockPage map = {
-        .view = input->view, .edges = input->field->edges, .share = 1, .style = input->def.style};
+    SpaceCut cut;
+    BlockPage map = {.view = input->view,
+                     .edges = input->field->edges,
+                     .cut = &cut,
+                     .share = 1,
+                     .style = input->def.style};
+    TRY(block_cut_read(input->view, input->field->cut, &cut, err));
     TRY(block_quantity_find(input->field->of, &quantity, err));
     TRY(read_block(input, &block, err));
     field.magnification = block_magnification(&block);

@@ -28,7 +28,6 @@ static const double PEAK_PITCH = 0.3;   // of the distance of peaks: radius of a
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
 static const Color CURVE_COLOR = {0.05f, 0.27f, 0.55f, 1};
-static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 static const Color LEVEL_COLOR = {0.45f, 0.45f, 0.47f, 1};
 
 // A horizontal line and its name.
@@ -159,7 +158,7 @@ static void peaks_draw(const Page *page, const ResultView *view, const Axes *axe
     }
 }
 
-// What the inset shows, and lines to the corners of it: all in one colour.
+// What the inset shows, and lines from it to below the inset's numbers: all in one colour.
 static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 {
     Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page->point};
@@ -168,9 +167,9 @@ static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
     Box box = {from.x, from.y, to.x, to.y};
     draw_outline(page->canvas, &stroke, &box);
     stroke.width *= 0.6;
-    draw_segment(page->canvas, &stroke, from, (Point){inset->box.left, inset->box.bottom});
-    draw_segment(page->canvas, &stroke, (Point){to.x, from.y},
-                 (Point){inset->box.right, inset->box.bottom});
+    double foot = inset->box.bottom + axes_bottom_margin(inset) * page->point;
+    draw_segment(page->canvas, &stroke, from, (Point){inset->box.left, foot});
+    draw_segment(page->canvas, &stroke, (Point){to.x, from.y}, (Point){inset->box.right, foot});
 }
 
 // Where the zoom lies in what is shown, and the style does not forbid it.
@@ -179,7 +178,8 @@ static bool has_inset(const ResultView *view, const PictureStyle *style, const W
     Zoom zoom = zoom_choose(view);
     bool none = style->inset && strcmp(style->inset, "none") == 0;
     double range[2];
-    return !none && zoom.found && zoom.U_low >= window->low && zoom.U_high <= window->high &&
+    return !none && zoom.found && !zoom.smooth && zoom.U_low >= window->low &&
+           zoom.U_high <= window->high &&
            mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range) && range[1] > range[0];
 }
 
@@ -234,21 +234,6 @@ static Axes axes_layout(const Page *page, const ResultView *view, const Window *
     return axes;
 }
 
-// With bars as long as the errors on both sides.
-static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
-{
-    Stroke stroke = {.color = MEASURED_COLOR, .width = 0.5 * page->point};
-    canvas_clip(page->canvas, &axes->box);
-    for (int32_t k = 0; k < measured->count; ++k) {
-        double U = measured->U[k], mu = measured->value[k], error = measured->error[k];
-        if (isfinite(error))
-            draw_segment(page->canvas, &stroke, axes_place(axes, U, mu - error),
-                         axes_place(axes, U, mu + error));
-        draw_disc(page->canvas, MEASURED_COLOR, axes_place(axes, U, mu), KEY_RADIUS * page->point);
-    }
-    canvas_clip(page->canvas, NULL);
-}
-
 static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
                          const Measured *measured)
 {
@@ -277,6 +262,14 @@ static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarge
     inset->box.right = axes->box.right;
 }
 
+bool figure_force_measured(ResultView *view, const char *path, Measured *measured, Error *err)
+{
+    const ComputedCurve curve = {view->rows, view->U, view->mu};
+    if (!measured_read(path, MEASURED_MU, view, measured, err)) return false;
+    measured_compare(measured, view, computed_on_curve, &curve);
+    return true;
+}
+
 bool figure_force(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -286,7 +279,7 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     Level level[LEVELS_MAX];
     double range[2] = {0, 0};
     TRY(window_find(view, &page.style, &window, err));
-    TRY(measured_read(page.style.compare, MEASURED_MU, view, view->mu, &measured, err));
+    TRY(figure_force_measured(view, page.style.compare, &measured, err));
     key_of_peaks(&page, view, &window, &measured);
     bool enlarged = inset_axes(&page, view, &window, &inset);
     double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;

@@ -67,20 +67,19 @@ static void key_of_map(Page *page, const ResultView *view, const Window *window,
     if (view->pad[view->nodes - 1] > 0)
         entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
     if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
-    if (measured->count > 0) entries[count++] = (KeyEntry){KEY_RING, INK, measured->words};
+    if (measured->count > 0)
+        entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured->words};
     key_draw(page, entries, count);
 }
 
-static void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
+bool figure_slip_map_measured(ResultView *view, const char *path, Measured *measured, Error *err)
 {
-    double radius = KEY_RADIUS * page->point;
-    canvas_clip(page->canvas, &axes->box);
-    for (int32_t k = 0; k < measured->count; ++k) {
-        Point at = axes_place(axes, measured->U[k], measured->value[k]);
-        draw_disc(page->canvas, INK, at, radius);
-        draw_disc(page->canvas, PAPER, at, 0.6 * radius);
-    }
-    canvas_clip(page->canvas, NULL);
+    TRY(measured_read(path, MEASURED_FRONT, view, measured, err));
+    if (measured->count > 0) TRY(result_view_read_front(view, err));
+    const ComputedCurve curve = {view->rows, view->U, view->front};
+    if (measured->count > 0) measured_compare(measured, view, computed_on_curve, &curve);
+cleanup:
+    return error_is_clean(err);
 }
 
 bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
@@ -100,8 +99,7 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
     map.bar = slip_scale(view, V);
     map.bar.label = map.mean ? "mean slip rate / ~{V}" : "largest slip rate / ~{V}";
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
-    if (page.style.compare) TRY(result_view_read_front(view, err));
-    TRY(measured_read(page.style.compare, MEASURED_X, view, view->front, &measured, err));
+    TRY(figure_slip_map_measured(view, page.style.compare, &measured, err));
     key_of_map(&page, view, &window, &measured);
     map_page_layout(&page, view, window.low, window.high, &map);
     TRY(map_page_fill(view, NULL, &map, err));

@@ -158,7 +158,10 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     char words[WORDS_SIZE];
     double point = page->point;
     uint8_t colors[3 * MAP_SIZE];
+    SpaceCut cut;
+    TRY(block_cut_read(input->view, input->field->cut, &cut, err));
     BlockPage map = {.view = input->view,
+                     .cut = &cut,
                      .edges = input->field->edges,
                      .share = SHARE,
                      .style = input->def.style};

@@ -5,7 +5,7 @@
 #define AMONTONS_RENDER_FIGURES_FIGURES_H
 
 #include "render/canvas/axes.h"
-#include "render/figures/result_view.h"
+#include "render/figures/measured.h"
 
 // The view may read more of the result, hence not const.
 typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
@@ -21,8 +21,14 @@ typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error 
 
 // One field of the block at one time.
 bool figure_field(Page *page, const FigureInput *input, Error *err);
+bool figure_field_shows(const char *quantity);
 // The same, the velocity where none is named, in up to six frames of one sliding.
 bool figure_strip(Page *page, const FigureInput *input, Error *err);
+
+// The contact of a block in space: slip rates, or what is named, at moments of one sliding or those
+// that are asked for; or when slip arrived.
+bool figure_contact_plane(Page *page, const FigureInput *input, Error *err);
+bool figure_contact_plane_shows(const char *quantity);
 
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and above it an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);
@@ -32,6 +38,30 @@ bool figure_force_enlarges(const ResultView *view, const PictureStyle *style);
 bool figure_slip_map(const Page *page, ResultView *view, Error *err);
 // Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.
 bool figure_contact_density(const Page *page, ResultView *view, Error *err);
+
+// How long slip was when the load ratio first came so far, in the cycle that is enlarged.
+bool figure_precursors(const Page *page, ResultView *view, Error *err);
+// How fast the front of the sliding that is enlarged ran, over x.
+bool figure_front_speed(const Page *page, ResultView *view, Error *err);
+
+// What a file has to say beside a figure, compared with what was computed; count 0: nothing.
+typedef bool (*MeasuredFunction)(ResultView *view, const char *path, Measured *measured,
+                                 Error *err);
+bool figure_force_measured(ResultView *view, const char *path, Measured *measured, Error *err);
+bool figure_slip_map_measured(ResultView *view, const char *path, Measured *measured, Error *err);
+bool figure_contact_density_measured(ResultView *view, const char *path, Measured *measured,
+                                     Error *err);
+bool figure_precursors_measured(ResultView *view, const char *path, Measured *measured, Error *err);
+bool figure_front_speed_measured(ResultView *view, const char *path, Measured *measured,
+                                 Error *err);
+
+// The curve of each of the last two: owned by the caller; columns "F_T/F_N, l/L" and "x/L, v/c_R".
+typedef struct FigureCurve {
+    int64_t count;
+    double *at, *value;   // [count] owned
+} FigureCurve;
+bool precursors_curve(ResultView *view, FigureCurve *curve, Error *err);
+bool front_speed_curve(ResultView *view, FigureCurve *curve, Error *err);
 
 // The figure called `name`, one of the history alone, on a fresh page. In render.c.
 bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,

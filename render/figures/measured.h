@@ -3,36 +3,71 @@
 // figures.
 //
 // The first line names the columns, with units behind them; columns of other names are left alone
-// (a `source`, a remark):
+// (a `source`, a remark). Which columns there are says what was measured, and which figure has it:
 //
-//     U (mm), F_T/F_N, error            # the load ratio against the rod's way, for `force`;
-//     U/L, mu                          # mu is F_T/F_N; so are the columns F_T and F_N, of one unit
-//     U (mm), x (cm), error             # how far slip has come, for `slip-map`
+//     U (mm), F_T/F_N, error          force: the load ratio over the rod's way, or over `t (s)`
+//     U/L, x/L                         slip-map: how far slip has come
+//     t (ms), x (mm), A/A_0            contact-density: contact area over what it was at rest
+//     F_T/F_N, l (mm)                  precursors: how long slip is at that load ratio
+//     x/L, v/c_R                       front-speed: how fast the front of slip runs over x
 //
-// `error` is what one reads or measures F_T/F_N, or x, to, in that unit.
+// `mu` is F_T/F_N; so are the columns F_T and F_N, of one unit. `error` is what one reads or
+// measures the last of these to, in its unit.
 #ifndef AMONTONS_RENDER_FIGURES_MEASURED_H
 #define AMONTONS_RENDER_FIGURES_MEASURED_H
 
+#include "render/canvas/axes.h"
 #include "render/figures/result_view.h"
 
 enum { MEASURED_WORDS_SIZE = 200 };
 
-typedef enum MeasuredKind { MEASURED_MU, MEASURED_X } MeasuredKind;
+typedef enum MeasuredKind {
+    MEASURED_MU,
+    MEASURED_FRONT,
+    MEASURED_AREA,
+    MEASURED_LENGTH,
+    MEASURED_SPEED,
+    MEASURED_KINDS
+} MeasuredKind;
 
 typedef struct Measured {
+    MeasuredKind kind;
+    const char *path;   // borrowed
     int32_t count;
-    double *U;   // [count] length of the result; owned, as the next two
-    double *value;   // [count] 1, or length
+    double *at;   // [count] U; of MEASURED_LENGTH F_T/F_N, of MEASURED_SPEED x; owned, as the rest
+    double *x;   // [count] of MEASURED_AREA alone
+    double *value;   // [count] 1, length or velocity
     double *error;   // [count] NaN: not given
+    double *computed;   // [count] NaN: not covered; by measured_compare
     char words[MEASURED_WORDS_SIZE];   // for a legend: the file's name and the misfit
 } Measured;
 
-// What the file says of `kind`; count 0: nothing, or no file is given (path NULL). The misfit is
-// the root of the mean square of what is measured less what was computed at the same U, over the
-// points that the history covers; in parts of the errors too where all have one. series:
-// [view->rows].
-bool measured_read(const char *path, MeasuredKind kind, const ResultView *view,
-                   const double *series, Measured *measured, Error *err);
+// What was computed where point k was measured; NaN: nothing.
+typedef double (*ComputedFunction)(const void *context, const Measured *measured, int32_t k);
+
+// What the file says of `kind`; count 0: nothing, or no file is given (path NULL).
+bool measured_read(const char *path, MeasuredKind kind, const ResultView *view, Measured *measured,
+                   Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine
+// Whether the file has `kind`.
+bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, bool *has,
+                  Error *err);
+
+// The misfit: the root of the mean square of what is measured less what was computed there, over
+// the points that the result covers; in parts of the errors too where all have one.
+void measured_compare(Measured *measured, const ResultView *view, ComputedFunction computed,
+                      const void *context);
+
+// What a ComputedFunction of curves needs: linear between points whose `at` does not fall.
+typedef struct ComputedCurve {
+    int64_t count;
+    const double *at, *value;   // [count]
+} ComputedCurve;
+double computed_on_curve(const void *curve, const Measured *measured, int32_t k);
+double curve_value(const ComputedCurve *curve, double at);   // NaN: beyond its ends
+
+// Discs with bars as long as the errors on both sides, in a colour of their own.
+void measured_draw(const Page *page, const Measured *measured, const Axes *axes);
+extern const Color MEASURED_COLOR;
 
 #endif

@@ -5,9 +5,12 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { UNITS_SIZE = 32, LINES_SIZE = 1 << 16 };   // bytes
+
+static const double LINE_ROUNDING = 1e-6;   // of places along the contact, over a mean cell
 
 // One value a row; `rows` shrinks to the shortest series: a killed run may have flushed some only.
 static bool scalar_read(ResultView *view, ResultSeries series, double **values, Error *err)
@@ -84,6 +87,18 @@ static bool nodes_series_read(ResultView *view, ResultSeries series, double **va
     if (vectors) take_values(series, *values, rows * nodes);
     if (rows < view->rows) view->rows = rows;
 cleanup:
+    return error_is_clean(err);
+}
+
+bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    TRY(nodes_series_read(view, series, values, err));
+    TRY(range_check(view, err));
+cleanup:
+    if (!error_is_clean(err)) {
+        memory_free(*values);
+        *values = NULL;
+    }
     return error_is_clean(err);
 }
 
@@ -166,15 +181,16 @@ cleanup:
 // As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
 static bool events_read(ResultView *view, Error *err)
 {
-    static const ResultTable tables[3] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP};
-    double *column[3] = {0};
+    static const ResultTable tables[4] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP, EVENTS_REACH};
+    double *column[4] = {0};
     int32_t count = 0;
-    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
+    TRY(result_file_read_tables(view->file, tables, 4, column, &count, err));
     TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
     for (int32_t k = 0; k < count; ++k) {
         double kind = column[0][k];
         bool known = kind >= 0 && kind <= VIEW_LEADING;
-        view->events[k] = (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k]};
+        view->events[k] =
+            (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k], column[3][k]};
     }
     view->event_count = count;
     TRY(view->rapid = memory_array(count, sizeof *view->rapid, err));
@@ -185,7 +201,7 @@ static bool events_read(ResultView *view, Error *err)
         view->rapid[view->rapid_count++][1] = event->U_stop;
     }
 cleanup:
-    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    for (int32_t k = 0; k < 4; ++k) memory_free(column[k]);
     return error_is_clean(err);
 }
 
@@ -223,9 +239,75 @@ bool result_view_read_slip_rate(ResultView *view, Error *err)
     return view->slip_rate || result_view_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
 }
 
+// In space also those beside the line, where the history says what the contact is made of.
 bool result_view_read_status(ResultView *view, Error *err)
 {
+    if (view->line && result_file_has_faces(view->file) && !result_view_read_plane(view, err))
+        return false;
     return view->status || result_view_read(view, SERIES_STATUS, &view->status, err);
+}
+
+bool result_view_read_plane(ResultView *view, Error *err)
+{
+    if (!view->line)
+        FAIL(err, ERROR_INPUT,
+             "the block is in the plane: slip-map and contact-density show its contact");
+    if (view->plane.patch_count == 0)
+        TRY(contact_plane_read(view->file, view->all_nodes, &view->plane, err));
+    if (!view->contact_status)
+        TRY(result_view_read_contact(view, SERIES_STATUS, &view->contact_status, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// y of the node nearest to `wanted`.
+static double nearest_y(const ContactPlane *plane, double wanted)
+{
+    double nearest = INFINITY;
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        if (fabs(plane->y[i] - wanted) < fabs(nearest - wanted)) nearest = plane->y[i];
+    return nearest;
+}
+
+// The nodes within half a mean cell of y, one for each x: that nearest to y. As the run itself
+// finds its line.
+static void take_nodes_at(ResultView *view, double y)
+{
+    const ContactPlane *plane = &view->plane;
+    double area = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) area += plane->weight[i];
+    double cell = sqrt(area / plane->nodes), rounding = LINE_ROUNDING * cell;
+    view->nodes = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) {
+        double off = fabs(plane->y[i] - y);
+        if (off > 0.5 * cell + rounding) continue;
+        int32_t last = view->nodes - 1;
+        bool beside = last >= 0 && plane->x[i] - view->x[last] <= rounding;
+        if (beside && off >= fabs(plane->y[view->line[last]] - y)) continue;
+        int32_t at = beside ? last : view->nodes++;
+        view->line[at] = i;
+        view->x[at] = plane->x[i];
+    }
+}
+
+bool result_view_choose_line(ResultView *view, const char *words, Error *err)
+{
+    double *pad = NULL, y = NAN;
+    int32_t pads = 0;
+    char *end = NULL;
+    if (strncmp(words, "y=", 2) == 0) y = strtod(words + 2, &end);
+    if (!isfinite(y) || *end)
+        FAIL(err, ERROR_INPUT, "a line is given by its y, as y=0.2, not as \"%.40s\"", words);
+    TRY(result_view_read_plane(view, err));
+    TRY(result_file_read_nodes(view->file, NODES_PAD, &pad, &pads, err));
+    memory_free(view->x);
+    view->x = NULL;
+    TRY(view->x = NEW_ARRAY(double, view->all_nodes, err));
+    take_nodes_at(view, nearest_y(&view->plane, y));
+    for (int32_t k = 0; k < view->nodes; ++k) view->pad[k] = pad[view->line[k]];
+cleanup:
+    memory_free(pad);
+    return error_is_clean(err);
 }
 
 bool result_view_read_slip(ResultView *view, Error *err)
@@ -255,6 +337,8 @@ void result_view_close(ResultView *view)
     memory_free(view->slip);
     memory_free(view->front);
     memory_free(view->status);
+    memory_free(view->contact_status);
+    contact_plane_destroy(&view->plane);
     memory_free(view->events);
     memory_free(view->rapid);
     memory_free(view->peaks);

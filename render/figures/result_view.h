@@ -4,13 +4,14 @@
 #ifndef AMONTONS_RENDER_FIGURES_RESULT_VIEW_H
 #define AMONTONS_RENDER_FIGURES_RESULT_VIEW_H
 
-#include "io/hdf5/result_file.h"
+#include "render/figures/contact_plane.h"
 
 typedef enum ViewEventKind { VIEW_QUASI_STATIC, VIEW_BOUNDED, VIEW_LEADING } ViewEventKind;
 
 typedef struct ViewEvent {
     int32_t kind;   // ViewEventKind
     double U_start, U_stop;   // length
+    double reach;   // x, length; NaN: not known
 } ViewEvent;
 
 typedef struct ViewPeak {
@@ -37,6 +38,8 @@ typedef struct ResultView {
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
     double *front;   // [rows] x, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
+    ContactPlane plane;   // in space; patch_count 0: not read yet; owned
+    double *contact_status;   // [rows * all_nodes] in space, or NULL: not read yet; owned
     double number[RESULT_NUMBERS_COUNT];   // NaN: not known
     int32_t event_count, peak_count;   // 0 in a run that did not end
     ViewEvent *events;   // [event_count] owned
@@ -52,12 +55,21 @@ void result_view_close(ResultView *view);   // zeroed is fine
 
 bool result_view_read_slip_rate(ResultView *view, Error *err);
 bool result_view_read_status(ResultView *view, Error *err);
+// The plane, and contact_status. ERROR_INPUT: the block is in the plane.
+bool result_view_read_plane(ResultView *view, Error *err);
 bool result_view_read_slip(ResultView *view, Error *err);
 bool result_view_read_front(ResultView *view, Error *err);
 
 // *values [rows * nodes], the caller's; in space |v| of slip rates, their size of shear. `rows` may
 // shrink.
 bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err);
+
+// The same of all nodes of the contact: *values [rows * all_nodes].
+bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err);
+
+// Another line along the drive than that in the middle: "y=0.2", the nodes nearest to it. ERROR_INPUT
+// also where the block is in the plane. Before any series of nodes is read.
+bool result_view_choose_line(ResultView *view, const char *words, Error *err);
 
 // The first and the last finite U.
 void result_view_range(const ResultView *view, double *low, double *high);

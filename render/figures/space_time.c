@@ -8,7 +8,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double ROUND_DOWN = 0.5;   // columns: an event not longer than its mark by more is one
 

@@ -126,13 +126,16 @@ Zoom zoom_choose(const ResultView *view)
     Cycle cycle = {0};
     Zoom zoom = {0};
     double low = 0, high = 0;
-    zoom.found = cycle_from_events(view, &cycle) || cycle_from_mu(view, &cycle);
+    bool by_events = cycle_from_events(view, &cycle);
+    zoom.found = by_events || cycle_from_mu(view, &cycle);
     if (!zoom.found) return zoom;
     double length = cycle.U_slide - cycle.U_start;
     double first = cycle.bounded > 0 ? cycle.U_precursor : cycle.U_slide - CYCLE_SHOWN * length;
     double span = fmax(cycle.U_slide - first, SPAN_MIN * length);
     result_view_range(view, &low, &high);
+    zoom.U_start = cycle.U_start;
     zoom.U_slide = cycle.U_slide;
+    zoom.smooth = by_events && cycle.bounded == 0;
     zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
     zoom.U_high = fmin(high, cycle.U_slide + PAD * span);
     return zoom;

@@ -8,6 +8,8 @@
 
 typedef struct Zoom {
     bool found;   // false: no sliding was seen, the rest is not set
+    double U_start;   // where the sliding before that ended, or the history begins, length
+    bool smooth;   // no rapid precursor is in it: there is nothing that enlarging would show
     double U_slide;   // where bulk sliding starts, length
     double U_low, U_high;   // the part to show: precursors before it and the start of sliding
 } Zoom;

@@ -141,8 +141,16 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY(complete(request, &film, &frames, err));
     TRY(read_view(folder, &view, err));
     TRY(set_clock(&film, &view, frames, &clock, err));
-    FilmPageDef def = {
-        folder, &view, &clock, film.width, film.height, film.of, film.magnification, film.dark};
+    const PictureStyle titled = {.title = film.title};
+    FilmPageDef def = {folder,
+                       &view,
+                       &clock,
+                       film.width,
+                       film.height,
+                       film.of,
+                       film.magnification,
+                       film.dark,
+                       page_title(&titled, view.title, true)};
     TRY(page = film_page_create(&def, err));
     FilmSinkDef file = {film.path, film.width, film.height, film.rate, view.title, film.overwrite};
     TRY(sink = film_sink_create(&file, err));

@@ -2,6 +2,7 @@
 #include "render/film/film_page.h"
 
 #include "base/memory.h"
+#include "render/film/film_plane.h"
 #include "render/figures/slip_scale.h"
 
 #include <limits.h>
@@ -32,11 +33,16 @@ struct FilmPage {
     FilmBand band;
     FilmForce force;
     FilmProfile profile;
+    bool in_space;   // the contact as a plane, in the place of its profile
+    FilmPlane plane;
     BlockTimes times;   // owned
     int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
-    int32_t shown;   // the one that stands on the base; -1: none
+    int32_t shown;   // the one that stands on the base; -1: none, or a mixture
+    Block pair[2];   // of neighbouring steps, to be mixed; owned
+    int32_t pair_index[2];   // of `times`; -1: none
     BlockPage map;
     Axes block;
+    Block block_shown;   // its field; owned
     BlockQuantity quantity;
     double magnification;
     int32_t U_decimals, t_decimals;
@@ -148,6 +154,14 @@ static void place_block(FilmPage *page, const Box *cell, const double extent[4])
     page->block.box.bottom = page->block.box.top + round(needed * point);
 }
 
+// The contact, now: its slip rates along x, in space all of it.
+static bool place_contact(FilmPage *page, const Box *cell, Error *err)
+{
+    if (page->in_space) return film_plane_create(&page->base, cell, &page->plane, err);
+    film_profile_place(&page->base, cell, &page->profile);
+    return true;
+}
+
 static bool lay_out(FilmPage *page, Error *err)
 {
     double point = page->base.point, extent[4] = {0};
@@ -168,12 +182,12 @@ static bool lay_out(FilmPage *page, Error *err)
         lower.top = right.bottom = (right.top + right.bottom) / 2;
         TRY(fit_fields(page, extent, err));
         place_block(page, &left, extent);
-        film_profile_place(&page->base, &lower, &page->profile);
+        TRY(place_contact(page, &lower, err));
     } else {
-        film_profile_place(&page->base, &left, &page->profile);
+        TRY(place_contact(page, &left, err));
     }
     film_force_place(&page->base, &right, t, &page->force);
-    if (page->stored)   // one above the other: frames begin at one line
+    if (page->stored && !page->in_space)   // one above the other: frames begin at one line
         page->force.axes.box.left = page->profile.axes.box.left =
             fmax(page->force.axes.box.left, page->profile.axes.box.left);
     TRY(film_band_create(&page->base, &foot, &page->band, err));
@@ -207,9 +221,9 @@ static void draw_title(const FilmPage *page)
 {
     double point = page->base.point;
     TextStyle style = {.size = TITLE_SIZE * point, .color = INK};
-    if (page->def.view->title && page->def.view->title[0])
+    if (page->def.title[0])
         text_draw(page->base.text, &style, (Point){2 * MARGIN * point, BASELINE * point},
-                  page->def.view->title);
+                  page->def.title);
 }
 
 static void draw_bar(const FilmPage *page)
@@ -236,7 +250,10 @@ static bool draw_standing(FilmPage *page, Error *err)
 {
     draw_title(page);
     film_band_draw(&page->base, &page->band);
-    film_profile_draw(&page->base, &page->profile);
+    if (page->in_space)
+        film_plane_draw(&page->base, &page->plane);
+    else
+        film_profile_draw(&page->base, &page->profile);
     TRY(film_force_draw(&page->base, &page->force, err));
     if (page->stored) {
         set_block_map(page);
@@ -247,7 +264,7 @@ cleanup:
 }
 
 // Over the block: when its field was stored, and how much the deformation is enlarged.
-static void draw_block_words(const FilmPage *page, const Block *block)
+static void draw_block_words(const FilmPage *page, const Block *block, bool mixed)
 {
     char words[WORDS_SIZE];
     double point = page->base.point;
@@ -256,28 +273,91 @@ static void draw_block_words(const FilmPage *page, const Block *block)
     Box line = {page->block.box.left, page->block.box.top - WORDS_HEIGHT * point,
                 page->block.box.right, page->block.box.top};
     draw_fill(page->base.canvas, PAPER, &line);
-    snprintf(words, sizeof words, "stored at %s = %.*f,  deformation \u00d7 %g", U.label,
-             page->U_decimals, block->U * U.factor, page->magnification);
+    int length = mixed ? 0
+                       : snprintf(words, sizeof words, "stored at %s = %.*f,  ", U.label,
+                                  page->U_decimals, block->U * U.factor);
+    snprintf(words + length, sizeof words - (size_t)length, "deformation \u00d7 %g",
+             page->magnification);
     style.size *= fmin(1, (line.right - line.left - LEGEND_LEFT * point) /
                               text_width(page->base.text, style.size, words));
     text_draw(page->base.text, &style,
               (Point){line.left + LEGEND_LEFT * point, line.bottom - 3 * point}, words);
 }
 
-// Only where a frame shows another stored field than the one before.
-static bool draw_block(FilmPage *page, int32_t index, Error *err)
+static bool put_block(FilmPage *page, const Block *block, bool mixed, Error *err)
 {
-    Block block = {0};
-    if (index == page->shown) return true;
-    TRY(read_stored(page, index, &block, err));
     set_block_map(page);
     draw_fill(page->base.canvas, PAPER, &page->block.box);
-    TRY(block_page_draw(&page->base, &page->map, &block, &page->block, err));
-    draw_block_words(page, &block);
+    if (!block_page_draw(&page->base, &page->map, block, &page->block, err)) return false;
+    draw_block_words(page, block, mixed);
+    return true;
+}
+
+// Only where a frame shows another stored field than the one before.
+static bool draw_stored(FilmPage *page, int32_t index, Error *err)
+{
+    Block *block = &page->block_shown;
+    if (index == page->shown) return true;
+    block_destroy(block);
+    TRY(read_stored(page, index, block, err));
+    TRY(put_block(page, block, false, err));
     page->shown = index;
 cleanup:
-    block_destroy(&block);
     return error_is_clean(err);
+}
+
+// Both of a pair, the one that is there already kept.
+static bool read_pair(FilmPage *page, int32_t first, Error *err)
+{
+    if (page->pair_index[1] == first) {
+        Block kept = page->pair[1];
+        page->pair[1] = page->pair[0];
+        page->pair[0] = kept;
+        page->pair_index[1] = page->pair_index[0];
+        page->pair_index[0] = first;
+    }
+    for (int32_t k = 0; k < 2; ++k) {
+        if (page->pair_index[k] == first + k) continue;
+        block_destroy(&page->pair[k]);
+        page->pair_index[k] = -1;
+        TRY(read_stored(page, first + k, &page->pair[k], err));
+        page->pair_index[k] = first + k;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What is drawn of two stored fields, linear in time, in the place of the first: its own is read
+// again where it is wanted.
+static bool draw_mixture(FilmPage *page, int32_t first, double t, Error *err)
+{
+    TRY(read_pair(page, first, err));
+    Block *a = &page->pair[0], *b = &page->pair[1];
+    double part = (t - a->t) / (b->t - a->t);
+    if (a->frame.node_count != b->frame.node_count)
+        FAIL(err, ERROR_FILE, "two fields of the film have %d and %d nodes", a->frame.node_count,
+             b->frame.node_count);
+    for (int32_t i = 0; i < a->frame.node_count; ++i) {
+        a->value[i] += part * (b->value[i] - a->value[i]);
+        for (int32_t d = 0; d < 2; ++d) a->place[i][d] += part * (b->place[i][d] - a->place[i][d]);
+    }
+    a->t = t;   // from here on to the second
+    page->shown = -1;
+    TRY(put_block(page, a, true, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// From one step to the next the block is linear in time, as all else is in the film; where steps
+// between two stored fields are not known it shows the nearer one, and says when that was stored.
+static bool draw_block(FilmPage *page, int32_t k, double t, Error *err)
+{
+    const BlockTimes *times = &page->times;
+    int32_t first = page->stored[k];
+    if (times->times[first].t > t && first > 0) --first;
+    bool neighbours = first + 1 < times->count && times->times[first].t <= t &&
+                      times->row[first + 1] == times->row[first] + 1;
+    return neighbours ? draw_mixture(page, first, t, err) : draw_stored(page, page->stored[k], err);
 }
 
 // --- what moves ----------------------------------------------------------------------------------
@@ -300,15 +380,19 @@ static void draw_clock(const FilmPage *page, const FilmMoment *now)
 bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err)
 {
     FilmMoment now = film_moment(page->def.view, page->def.clock->t[k]);
-    if (page->stored) TRY(draw_block(page, page->stored[k], err));
+    if (page->stored) TRY(draw_block(page, k, now.t, err));
     film_force_pass(&page->base, &page->force, &now);
     canvas_copy(page->frame.canvas, page->base.canvas);
     draw_clock(page, &now);
     film_band_now(&page->frame, &page->band, k);
     film_force_now(&page->frame, &page->force, &now);
-    TRY(film_profile_now(&page->frame, &page->profile, &now, err));
+    if (page->in_space)
+        TRY(film_plane_now(&page->frame, &page->plane, &now, err));
+    else
+        TRY(film_profile_now(&page->frame, &page->profile, &now, err));
     if (page->stored)
-        block_page_contact(&page->frame, &page->map, film_nearest_row(&now), &page->block);
+        block_page_contact(&page->frame, &page->map, &page->block_shown, film_nearest_row(&now),
+                           &page->block);
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
 cleanup:
     return error_is_clean(err);
@@ -322,11 +406,12 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
     TRY(page);
     page->def = *def;
-    page->shown = -1;
+    page->shown = page->pair_index[0] = page->pair_index[1] = -1;
     page->map = (BlockPage){.view = def->view, .share = 1};
-    page->force.view = page->profile.view = page->band.view = def->view;
+    page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
+    page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;
-    page->band.map.bar = page->profile.bar = slip_scale(def->view, V);
+    page->band.map.bar = page->profile.bar = page->plane.bar = slip_scale(def->view, V);
     TRY(block_quantity_find(def->of, &page->quantity, err));
     TRY(page_open(page, &page->base, err));
     TRY(page_open(page, &page->frame, err));
@@ -347,6 +432,9 @@ void film_page_destroy(FilmPage *page)
     page_destroy(&page->frame);
     film_band_destroy(&page->band);
     block_times_destroy(&page->times);
+    block_destroy(&page->block_shown);
+    film_plane_destroy(&page->plane);
+    for (int32_t k = 0; k < 2; ++k) block_destroy(&page->pair[k]);
     memory_free(page->stored);
     memory_free(page);
 }

@@ -17,6 +17,7 @@ typedef struct FilmPageDef {
     const char *of;   // field; NULL: von_mises
     double magnification;   // 0: chosen
     bool dark;
+    const char *title;   // "": none
 } FilmPageDef;
 
 typedef struct FilmPage FilmPage;

@@ -11,7 +11,6 @@
 #include "render/canvas/png_encode.h"
 
 #include <limits.h>
-#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>

@@ -26,10 +26,15 @@ FilmMoment film_moment(const ResultView *view, double t)
                         .part = part};
 }
 
+double film_value(const FilmMoment *moment, const double *values, int32_t width, int32_t k)
+{
+    const double *before = values + moment->row * width + k;
+    return before[0] + moment->part * (before[width] - before[0]);
+}
+
 double film_slip_rate(const ResultView *view, const FilmMoment *moment, int32_t node)
 {
-    const double *before = view->slip_rate + moment->row * view->nodes + node;
-    return before[0] + moment->part * (before[view->nodes] - before[0]);
+    return film_value(moment, view->slip_rate, view->nodes, node);
 }
 
 int64_t film_nearest_row(const FilmMoment *moment)

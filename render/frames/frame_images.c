@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/frames/frame_images.h"
 
-#include "base/memory.h"
-
 #include <math.h>
 
 // Of a picture for a screen: 600 pixels wide, letters 14 pixels high.

@@ -5,6 +5,7 @@
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "render/canvas/svg_chart.h"
 #include "render/frames/frame_choice.h"
 #include "render/frames/frame_images.h"
@@ -147,12 +148,6 @@ cleanup:
 
 // --- axes ----------------------------------------------------------------------------------------
 
-static int compare_numbers(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return a < b ? -1 : a > b;
-}
-
 // The value that all but `left_out` of the finite ones of a strip stay below; `least` or more.
 static bool find_high(const Frames *frames, StripId strip, double left_out, double least,
                       double *high, Error *err)
@@ -162,7 +157,7 @@ static bool find_high(const Frames *frames, StripId strip, double left_out, doub
     TRY(sorted);
     for (int64_t k = 0; k < count; ++k)
         if (isfinite(frames->y[strip][k])) sorted[kept++] = frames->y[strip][k];
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
+    qsort(sorted, (size_t)kept, sizeof *sorted, order_doubles);
     *high = least;
     if (kept > 0) *high = fmax(least, sorted[kept - 1 - (int64_t)(left_out * (double)kept)]);
 cleanup:

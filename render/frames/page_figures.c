@@ -37,7 +37,17 @@ static const struct {
      "the rod.",
      "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
      "before a sliding. Black line: the front of slip."},
+    {"contact-plane", "png", "Maps: slip rate over the contact at moments before and in a sliding.",
+     "Slip rate over the rod\u2019s velocity, over the contact, while slow slip grows and as slip "
+     "turns rapid. Grey: stick."},
 };
+
+// The last one is of a block in space whose slip turned rapid.
+static int32_t figure_count(const ResultView *view)
+{
+    bool plane = view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
+    return (int32_t)(sizeof FIGURES / sizeof *FIGURES) - !plane;
+}
 
 // --- pictures ------------------------------------------------------------------------------------
 
@@ -95,7 +105,7 @@ __attribute__((visibility("default"))) bool amontons_render_figures(const char *
     ResultView view = {0};
     TRY(result_view_open(folder, &view, err));
     view.title[0] = view.warnings[0] = '\0';
-    for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
+    for (int32_t k = 0; k < figure_count(&view); ++k) {
         HistoryFigure figure = {&view, FIGURES[k].name};
         const Drawing drawing = {draw_history, &figure, FIGURES[k].format, FIGURES[k].alt,
                                  FIGURES[k].caption};

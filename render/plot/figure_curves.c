@@ -6,6 +6,7 @@
 #include "io/text/picture_options.h"
 #include "render/plot/legend.h"
 #include "render/plot/panel.h"
+#include "render/plot/plot_compare.h"
 #include "render/plot/plot_grid.h"
 #include "render/plot/plot_style.h"
 
@@ -116,6 +117,7 @@ bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *
     if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
     if (!(used.width > 0) && !used.style) used.width = width;
     TRY(plot_take_style(plot, &used, err));
+    if (used.compare) TRY(plot_compare(plot, used.compare, err));
     TRY(page_begin(page, &def, err));
     TRY(figure_curves(page, plot, err));
 cleanup:

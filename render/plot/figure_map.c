@@ -324,23 +324,23 @@ static void cross_draw(const Page *page, Point at, double arm)
                  (Point){at.x + arm, at.y - arm});
 }
 
-// The colour inside shows; ink inside of paper is seen on any.
-static void ring_draw(const Page *page, Point at, double radius)
+// The colour inside shows; ink inside of paper is seen on any. sides 4: a square.
+static void ring_draw(const Page *page, Point at, double radius, int32_t sides)
 {
     Stroke stroke = {.color = PAPER, .width = fmin(3 * RING_WIDTH * page->point, 0.6 * radius)};
     Point line[RING_SIDES + 1];
-    for (int32_t k = 0; k <= RING_SIDES; k++) {
-        double angle = 8 * atan(1) * k / RING_SIDES;
+    for (int32_t k = 0; k <= sides; k++) {
+        double angle = 8 * atan(1) * (k + 0.5) / sides;
         line[k] = (Point){at.x + radius * cos(angle), at.y + radius * sin(angle)};
     }
-    draw_line(page->canvas, &stroke, line, RING_SIDES + 1);
+    draw_line(page->canvas, &stroke, line, sides + 1);
     stroke.color = INK;
     stroke.width /= 3;
-    draw_line(page->canvas, &stroke, line, RING_SIDES + 1);
+    draw_line(page->canvas, &stroke, line, sides + 1);
 }
 
-// distance: to the next mark. Marks get smaller as they come nearer to each other; of very many
-// only the doubtful points and those without value have some.
+// distance: to the next mark. Marks get smaller as they come nearer to each other. A cell is a run
+// and needs no mark; of very many points only the doubtful and those without value have some.
 static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bool shows_all)
 {
     const Page *page = drawing->page;
@@ -351,7 +351,7 @@ static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bo
     if (!isfinite(drawing->map->value[k])) {
         cross_draw(page, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
     } else if (drawing->map->open && drawing->map->open[k] > 0) {
-        ring_draw(page, at, ring);
+        ring_draw(page, at, ring, drawing->map->open[k] > 1 ? 4 : RING_SIDES);
     } else if (shows_all) {
         draw_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
         draw_disc(page->canvas, INK, at, dot);
@@ -367,7 +367,7 @@ static void points_draw(const MapDrawing *drawing)
     bool thinned = grid->columns > 0 && distance < least;
     if (!thinned) {
         for (int32_t k = 0; k < drawing->map->count; k++)
-            point_draw(drawing, k, distance, distance >= least);
+            point_draw(drawing, k, distance, grid->columns == 0 && distance >= least);
         return;
     }
     int32_t step = (int32_t)ceil(MARKS_APART * drawing->page->point / distance);

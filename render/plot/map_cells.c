@@ -2,6 +2,7 @@
 #include "render/plot/map_cells.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "render/plot/triangulate.h"
 
 #include <math.h>
@@ -11,12 +12,6 @@ static const double SAME = 1e-9;   // of the range: values nearer than this are 
 static const double TAKEN_LEAST = 0.5;   // of a grid's places
 static const double LONE_WIDTH = 0.3;   // of a cell that has no neighbour, decades or lengths
 static const double SIDE_MAX = 3;   // times the usual distance there: a longer side spans a gap
-
-static int compare_numbers(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return a < b ? -1 : a > b;
-}
 
 static double scaled(double value, bool is_log)
 {
@@ -38,7 +33,7 @@ static int32_t find_lines(const double *values, int32_t count, bool is_log, doub
         double value = scaled(values[k], is_log);
         if (isfinite(value)) sorted[kept++] = value;
     }
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
+    qsort(sorted, (size_t)kept, sizeof *sorted, order_doubles);
     double least = kept > 0 ? SAME * (sorted[kept - 1] - sorted[0]) : 0;
     for (int32_t k = 0; k < kept; k++)
         if (found == 0 || sorted[k] - sorted[found - 1] > least) sorted[found++] = sorted[k];

@@ -5,8 +5,6 @@
 #include "base/memory.h"
 #include "render/plot/marks.h"
 
-#include <math.h>
-
 static const double BAR_WIDTH = 0.5, BAR_CAP = 1.4;   // points: error bars, half their caps
 
 // A NaN breaks the line; so does what a logarithmic axis cannot show.

@@ -13,6 +13,7 @@ enum {
     PLOT_COLORS = 8,
     PLOT_LABEL_SIZE = 96,
     PLOT_WORDS = 16,
+    PLOT_WORD_SIZE = 1024,
 };
 
 typedef enum PlotMarker {
@@ -53,7 +54,7 @@ typedef struct PlotMap {
     int32_t count;
     double *x, *y, *value;   // [count] owned, as the next two; value NaN: no answer
     double *contour;   // [count] or NULL: lines at equal values of this
-    double *open;   // [count] or NULL: 1 where the point's mark is open
+    double *open;   // [count] or NULL: 1 where the point's mark is open, 2: a square
 } PlotMap;
 
 typedef struct PlotPanel {
@@ -71,8 +72,9 @@ typedef struct Plot {
     char title[256];
     double height_over_width;
     PictureStyle style;   // what its `page` says; texts in `words`
-    char words[PLOT_WORDS][PLOT_LABEL_SIZE];   // [word_count]
+    char words[PLOT_WORDS][PLOT_WORD_SIZE];   // [word_count]
     int32_t word_count;
+    char column[2][PLOT_LABEL_SIZE];   // of a table of measurements: those of x and y; may be empty
     PlotPanel main;
     int32_t panel_count;   // 0: `main` is the plot; else it is drawn in each of these
     PlotPanel *panels;   // [panel_count] their axes are main's; owned

@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { UNIT_SIZE = 16 };
@@ -147,8 +146,8 @@ static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     int32_t corner = CORNER_AUTO;
-    if (!read_axis(reader, map, "x", "label unit scale range ", &panel->x) ||
-        !read_axis(reader, map, "y", "label unit scale range names ", &panel->y) ||
+    if (!read_axis(reader, map, "x", "label unit column scale range ", &panel->x) ||
+        !read_axis(reader, map, "y", "label unit column scale range names ", &panel->y) ||
         !plot_read_choice(reader, map, "legend", CORNERS, &corner))
         return false;
     YamlNode y = plot_child(reader, map, "y");
@@ -220,6 +219,27 @@ static bool read_scales(const PlotReader *reader, Plot *plot)
            read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours);
 }
 
+// A file is named as seen from the plot's folder.
+static void read_word(const PlotReader *reader, YamlNode item, char word[PLOT_WORD_SIZE])
+{
+    const char *text = yaml_text(reader->file, item), *slash = strrchr(reader->path, '/');
+    bool beside = strcmp(yaml_key(reader->file, item), "compare") == 0 && text[0] != '/' && slash;
+    snprintf(word, PLOT_WORD_SIZE, "%.*s%s", beside ? (int)(slash - reader->path) + 1 : 0,
+             reader->path, text);
+}
+
+// The names of columns are asked of the plot as a whole: panels share its axes.
+static bool read_columns(const PlotReader *reader, Plot *plot)
+{
+    static const char *const axes[2] = {"x", "y"};
+    for (int32_t k = 0; k < 2; ++k) {
+        YamlNode axis = plot_child(reader, YAML_ROOT, axes[k]);
+        if (axis == YAML_NO_NODE) continue;
+        if (!plot_read_text(reader, axis, "column", plot->column[k], PLOT_LABEL_SIZE)) return false;
+    }
+    return true;
+}
+
 // Options as the command has them; those that it is given go before these.
 static bool read_page(const PlotReader *reader, Plot *plot)
 {
@@ -231,7 +251,7 @@ static bool read_page(const PlotReader *reader, Plot *plot)
          item = yaml_next(reader->file, item)) {
         Error why = {0};
         char *word = plot->words[plot->word_count++];
-        snprintf(word, PLOT_LABEL_SIZE, "%s", yaml_text(reader->file, item));
+        read_word(reader, item, word);
         if (picture_option_set(&plot->style, yaml_key(reader->file, item), word, &why)) continue;
         yaml_error(reader->file, item, reader->err, "page: %s", why.message);
         return false;
@@ -259,7 +279,7 @@ static bool read_plot(const PlotReader *reader, Plot *plot)
     YamlNode panels = plot_child(reader, YAML_ROOT, "panels");
     return read_panel(reader, YAML_ROOT, &plot->main) &&
            (panels == YAML_NO_NODE || read_panels(reader, panels, plot)) &&
-           (inset == YAML_NO_NODE || read_inset(reader, inset, plot));
+           read_columns(reader, plot) && (inset == YAML_NO_NODE || read_inset(reader, inset, plot));
 }
 
 // Units have the prefix that suits the ends, which are known now.

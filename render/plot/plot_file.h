@@ -23,6 +23,7 @@
 //         line: thin                          # or solid, dashed, none
 //     inset: {place: [0.5, 0.05, 0.97, 0.5], x: ..., y: ..., series: [...]}   # of the frame
 //
+//     x: {column: load.pressure}              # what the column is called in page.compare's table
 //     page: {style: columns, height: 60, legend: none}   # an option of `amontons render`; what the
 //                                             # command is given goes before it
 //
@@ -31,7 +32,8 @@
 //
 //     color: {label: "~{\u03bc}_{M}"}             # or with unit and range, as an axis
 //     contours: {label: "~{l}_{c} / ~{L}"}     # lines at handy values
-//     map: {x: [...], y: [...], value: [...], contour: [...], open: [0, 1, ...]}
+//     map: {x: [...], y: [...], value: [...], contour: [...], open: [0, 1, 2, ...]}
+//                                             # open 1: a ring, 2: a square around the point
 //
 // Several panels with the same axes on one page; what stands beside `panels` is drawn in each:
 //

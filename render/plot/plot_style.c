@@ -2,17 +2,12 @@
 #include "render/plot/plot_style.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "io/text/picture_options.h"
 #include "render/plot/plot_file.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static int compare_numbers(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return a < b ? -1 : a > b;
-}
 
 // The values of all maps, sorted: [*count], the caller's.
 static bool sort_values(const Plot *plot, double **sorted, int64_t *count, Error *err)
@@ -26,7 +21,7 @@ static bool sort_values(const Plot *plot, double **sorted, int64_t *count, Error
         for (int32_t i = 0; i < map->count; i++)
             if (isfinite(map->value[i])) (*sorted)[(*count)++] = map->value[i];
     }
-    qsort(*sorted, (size_t)*count, sizeof **sorted, compare_numbers);
+    qsort(*sorted, (size_t)*count, sizeof **sorted, order_doubles);
 cleanup:
     return error_is_clean(err);
 }

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { POINTS_MIN = 3, DIMENSIONS = 2 };
 

@@ -7,7 +7,6 @@
 #include <limits.h>
 #include <link.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 bool place_folder(char *folder, size_t size, Error *err)

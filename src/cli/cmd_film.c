@@ -18,15 +18,18 @@ static const CommandText text = {
     .what = "result folder",
     .example = "amontons film fig1-result -o fig1.mp4",
     .help =
-        "Films the result folder RESULT, from what is stored in it; nothing is computed. The film "
+        "Films the result folder RESULT, from what is stored in it; nothing is computed but with "
+        "--fields. The film "
         "shows a field of the block (where the scene had output.fields; else the interface alone), "
         "the slip rate along the contact, and F_T/F_N. Where slip is rapid time goes slower by "
         "itself: a band at the foot says how much."
         "\vThe ending of -o says what is made: .mp4 (H.264), .webm (VP9) or .gif; a name without "
         "an ending is a folder of PNG frames, and so is a pattern such as frames/run-%04d.png. "
         "Without -o the film is RESULT.mp4 in the current folder. Of the fields each frame shows "
-        "the one stored nearest in time: store many where much happens. Examples:\n\n"
+        "the one stored nearest in time; --fields computes the run once more and keeps as many as "
+        "the film shows, until it is made. Examples:\n\n"
         "  amontons film fig1-result\n"
+        "  amontons film fig1-result --cycle --fields\n"
         "  amontons film fig1-result -o cycle.webm --cycle --size 1280x720\n"
         "  amontons film fig1-result -o sliding.gif --from U=0.0114 --to U=0.0116\n"
         "  amontons film fig1-result -o frames/ --of velocity --dark"};
@@ -108,6 +111,11 @@ int command_film(int argc, char **argv)
          .word = &film.of},
         {"magnification", 0, "N", "Of the block's deformation; chosen by default",
          .word = &magnification},
+        {"fields", 0, NULL,
+         "Compute the run once more, for as many fields of the block as the film shows",
+         .flag = &film.fields},
+        {"title", 0, "WORDS", "Words above it; `none`; by default the scene's title",
+         .word = &film.title},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.dark},
         option_overwrite(&film.overwrite),
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},

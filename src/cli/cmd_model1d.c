@@ -7,7 +7,6 @@
 #include "cli/say.h"
 #include "cli/scene_words.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 static const CommandText text = {

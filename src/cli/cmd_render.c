@@ -103,10 +103,9 @@ int command_render(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density, field or field-strip (up to "
-         "six "
-         "frames of one sliding). May "
-         "be given several times",
+         "Draw only this picture: force, slip-map, contact-density, contact-plane (of a block in "
+         "space), field or field-strip (up to six frames of one sliding). May be given several "
+         "times",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
          "Draw these of force, slip-map and contact-density below each other, as panels.png",
@@ -122,10 +121,17 @@ int command_render(int argc, char **argv)
         {"of", 0, "FIELD",
          "What `field` shows: von_mises (default), stress_xx, stress_zz, "
          "stress_xz, pressure, velocity, displacement, strain_energy or "
-         "dissipation",
+         "dissipation; `contact-plane`: slip_rate (default), contact_density, pressure, shear, "
+         "shear_over_pressure, slip or arrival",
          .word = &request.field.of},
-        {"at", 0, "U=U", "When: the stored time nearest to it; or t=TIME",
+        {"at", 0, "U=U",
+         "When: the stored time nearest to it; or t=TIME. Of contact-plane several, as in "
+         "U=0.01,U=0.02",
          .word = &request.field.at},
+        {"cut", 0, "y=Y",
+         "Cut a block in space open: what lies before this plane, or before up to three as in "
+         "x=0.2,y=0.25, is taken away",
+         .word = &request.field.cut},
         {"edges", 0, NULL, "Draw the elements' edges in `field`", .flag = &request.field.edges},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &request.style.dark},
         option_overwrite(&request.style.overwrite),

@@ -174,6 +174,7 @@ static int show_forecast(const Scene *scene)
                        : "   none: stepped on the full mesh");
     say("  %-10s %9.2f s   some %.0f stages, if nothing ends it before time.until\n", "steps",
         cost.steps, cost.stages);
+    if (cost.memory > 0) say("about %.2g GB of memory\n", cost.memory / 1e9);
     say("%s it would be about %.2g s\n", cost.reduced ? "On the full mesh" : "Reduced",
         cost.mesh + cost.otherwise);
     return 0;

@@ -127,6 +127,10 @@ static void print_answers(const StabilitySummary *summary)
                        "a disturbance grows without oscillating, however slow the rod");
     point_table_answer("l_c/L at V", summary->l_c_rod,
                        "a disturbance grows from V to v_c in half an oscillation");
+    if (summary->area_c_rod < 1 || summary->area_sc < 1) {
+        point_table_answer("A_sc/A", summary->area_sc, "how much of the contact slips at l_sc");
+        point_table_answer("A_c/A at V", summary->area_c_rod, "the same at l_c at V");
+    }
     point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, pressures held fixed");
     point_table_answer("mu at l_sc", summary->mu_sc, "oscillations grow; at V");
     point_table_answer("mu at a jump", summary->mu_snap,

@@ -5,7 +5,6 @@
 #include "cli/scene_words.h"
 
 #include <math.h>
-#include <stdio.h>
 
 static const CommandText text = {
     .name = "static",

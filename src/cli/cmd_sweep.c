@@ -5,7 +5,6 @@
 #include "cli/say.h"
 #include "cli/study_run.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>

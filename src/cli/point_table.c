@@ -6,7 +6,6 @@
 #include "cli/say.h"
 
 #include <math.h>
-#include <stdio.h>
 
 PointTable point_table_begin(bool quiet)
 {

@@ -5,6 +5,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 
 #include <math.h>
 #include <string.h>
@@ -60,6 +61,7 @@ void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
 {
     newton->equations = (ContactEquations){
         .problem = problem, .at = solution, .free = newton->free, .row = newton->row};
+    newton->creeps = friction_creeps(problem->law);
     newton->rounding = rounding * dense_max_abs(problem->g, problem->interface->count);
     hold(newton);
     contact_newton_react(newton);
@@ -130,7 +132,7 @@ static bool factor(ContactNewton *newton)
 // gain. false: the derivative is singular.
 static bool find_factors(ContactNewton *newton)
 {
-    bool kept = factors_are_of(newton);
+    bool kept = factors_are_of(newton) && !newton->creeps;   // there each row is another
     newton->reused = kept && newton->factors_gain &&
                      contact_has_statuses(&newton->equations, newton->factors.status);
     if (newton->reused) return true;
@@ -187,6 +189,32 @@ void contact_newton_take(ContactNewton *newton)
     newton->exact = false;
 }
 
+// Nodes that never stick: friction there is steep at rest and flat above, over many decades of v.
+// Where it outweighs S, or the step would turn slip round, the step is taken in mu instead of in v;
+// no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round at 0,
+// where nothing jumps.
+static void creep(ContactNewton *newton)
+{
+    const ContactProblem *problem = newton->equations.problem;
+    const ContactSolution *at = newton->equations.at;
+    int64_t count = problem->interface->count;
+    double fastest = contact_scales(problem, at->reaction).velocity;
+    for (int32_t a = 0; a < newton->equations.free_count; a++) {
+        int32_t k = newton->free[a], i = contact_slipping_node(&newton->equations, k);
+        if (i < 0 || !friction_creeps(friction_at(problem->law, i))) continue;
+        const FrictionLaw *law = friction_at(problem->law, i);
+        double v = at->velocity[k], step = newton->step[a], speed = fabs(v);
+        double gain = friction_rates(law, speed, friction_state(law, speed)).mu_speed;
+        bool steep = gain * at->reaction[newton->row[a].normal] >
+                     problem->matrix->schur[k * (count + 1)];
+        if (!steep && (v + step) * v > 0) continue;
+        double most = fmax(speed, fastest);
+        double next = fmin(fmax(friction_follow(law, v, step), -most), most);
+        newton->step[a] = next - v;
+        at->status[i] = status_of_slip(next);
+    }
+}
+
 // With factors of an earlier derivative it is a step of a chord method: linear in convergence, and
 // far cheaper than factoring.
 bool contact_newton_step(ContactNewton *newton)
@@ -203,6 +231,7 @@ bool contact_newton_step(ContactNewton *newton)
     if (!contact_factors_solve(&newton->factors, equations, newton->step) &&
         !(factor(newton) && contact_factors_solve(&newton->factors, equations, newton->step)))
         return false;
+    if (newton->creeps) creep(newton);
     contact_newton_take(newton);
     return true;
 }

@@ -5,111 +5,11 @@
 #include "contact/friction_law.h"
 
 #include <math.h>
-#include <string.h>
 
-// The columns stand in the order of the kinds.
-FrictionUse friction_use(const FrictionLaw *law, const char *key)
+bool friction_has_memory(const FrictionLaw *law)
 {
-    enum { KINDS = 6, NO = FRICTION_UNUSED, MAY = FRICTION_MAY, MUST = FRICTION_MUST };
-    static const struct {
-        const char *key;
-        uint8_t use[KINDS];
-    } table[] = {{"law", {MAY, MAY, MAY, MAY, MAY, MAY}},
-                 {"mu_static", {MUST, MUST, MUST, MAY, MAY, MAY}},
-                 {"mu_kinetic", {MUST, MUST, MAY, MAY, MAY, MAY}},
-                 {"critical_velocity", {MUST, MUST, MAY, MAY, MAY, MAY}},
-                 {"velocity", {NO, NO, NO, MUST, NO, NO}},
-                 {"mu", {NO, NO, NO, MUST, NO, NO}},
-                 {"interpolation", {NO, NO, NO, MAY, NO, NO}},
-                 {"formula", {NO, NO, NO, NO, MUST, NO}},
-                 {"file", {NO, NO, NO, NO, NO, MUST}},
-                 {"parameters", {NO, NO, NO, NO, NO, MAY}},
-                 {"velocity_max", {NO, NO, NO, NO, MAY, MAY}},
-                 {"along", {MAY, MAY, MAY, MAY, MAY, MAY}},
-                 {"contacts", {MAY, MAY, MAY, MAY, MAY, MAY}}};
-    for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
-        if (strcmp(table[k].key, key) == 0) return (FrictionUse)table[k].use[law->kind];
-    return FRICTION_UNUSED;
-}
-
-static bool read_table(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
-{
-    FrictionTable *table = &law->own.table;
-    int32_t count = source->velocity_count;
-    *key = "velocity";
-    if (count < 2 || count > FRICTION_POINTS_MAX)
-        FAIL(err, ERROR_INPUT, "has %d numbers; a table has 2 to %d", count, FRICTION_POINTS_MAX);
-    if (source->velocity[0] != 0)
-        FAIL(err, ERROR_INPUT, "begins with %g; the first is 0, where mu holds at rest",
-             source->velocity[0]);
-    *table = (FrictionTable){.count = count, .straight = source->straight};
-    for (int32_t k = 0; k < count; k++) {
-        table->speed[k] = source->velocity[k];
-        if (k > 0 && !(table->speed[k] > table->speed[k - 1]))
-            FAIL(err, ERROR_INPUT, "%g stands after %g; velocities ascend", table->speed[k],
-                 table->speed[k - 1]);
-    }
-    *key = "mu";
-    if (source->mu_count != count)
-        FAIL(err, ERROR_INPUT, "has %d numbers, friction.velocity has %d", source->mu_count, count);
-    memcpy(table->mu, source->mu, (size_t)count * sizeof(double));
-    friction_table_slopes(table);
-    law->end = table->speed[count - 1];
-cleanup:
-    return error_is_clean(err);
-}
-
-// Of a formula: what the scene gives besides.
-static bool given_number(const void *context, const char *name, double *value)
-{
-    const FrictionLaw *law = context;
-    *value = strcmp(name, "mu_static") == 0           ? law->mu_static
-             : strcmp(name, "mu_kinetic") == 0        ? law->mu_kinetic
-             : strcmp(name, "critical_velocity") == 0 ? law->critical_velocity
-                                                      : 0;
-    return *value > 0;
-}
-
-static bool read_plugin(const FrictionSource *source, FrictionLaw *law, Error *err)
-{
-    AmontonsFriction *given = &law->own.plugin.given;
-    if (source->parameter_count > AMONTONS_FRICTION_PARAMETERS_MAX)
-        FAIL(err, ERROR_INPUT, "takes at most %d friction.parameters, not %d",
-             AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
-    *given = (AmontonsFriction){.mu_static = law->mu_static,
-                                .mu_kinetic = law->mu_kinetic,
-                                .critical_velocity = law->critical_velocity,
-                                .parameter_count = source->parameter_count};
-    for (int32_t k = 0; k < source->parameter_count; k++)
-        given->parameters[k] = source->parameters[k];
-    TRY(friction_plugin_open(source->file, &law->own.plugin, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
-{
-    FormulaNames names = {given_number, law, "v",
-                          "is no number here: v, and mu_static, mu_kinetic, critical_velocity "
-                          "where friction gives them"};
-    law->end = source->end;
-    law->factor = 1;
-    switch (law->kind) {
-    case FRICTION_TABLE:
-        return read_table(source, law, key, err);
-    case FRICTION_FORMULA:
-        *key = "formula";
-        return formula_read(source->formula, &names, &law->own.formula, err);
-    case FRICTION_PLUGIN:
-        *key = "file";
-        return read_plugin(source, law, err);
-    case FRICTION_LINEAR_WEAKENING:
-    case FRICTION_EXPONENTIAL_WEAKENING:
-    case FRICTION_COULOMB:
-        break;
-    }
-    *key = "law";
-    return true;
+    return law->kind == FRICTION_AGEING || law->kind == FRICTION_SLIP_WEAKENING ||
+           law->kind == FRICTION_RATE_STATE;
 }
 
 FrictionLaw friction_constant(double mu)
@@ -126,6 +26,16 @@ FrictionLaw friction_scaled(const FrictionLaw *law, double factor)
     scaled.bend *= factor;
     scaled.fall *= factor;
     scaled.factor *= factor;
+    if (friction_has_memory(law)) {
+        FrictionMemory *memory = &scaled.own.memory;
+        memory->mu_static *= factor;
+        memory->mu_kinetic *= factor;
+        if (law->kind == FRICTION_RATE_STATE) {
+            memory->direct *= factor;
+            memory->healing *= factor;
+            memory->reference *= factor;
+        }
+    }
     return scaled;
 }
 
@@ -180,6 +90,9 @@ bool friction_is_own(const FrictionLaw *law)
     case FRICTION_LINEAR_WEAKENING:
     case FRICTION_EXPONENTIAL_WEAKENING:
     case FRICTION_COULOMB:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
         break;
     }
     return false;
@@ -193,6 +106,9 @@ bool friction_has_drop(const FrictionLaw *law)
     case FRICTION_TABLE:
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
         return true;
     case FRICTION_COULOMB:
         break;
@@ -200,9 +116,10 @@ bool friction_has_drop(const FrictionLaw *law)
     return false;
 }
 
-// Of a law that has one.
+// Of a law that has one; with memory that of its numbers, whatever its state.
 static inline double drop_of(const FrictionLaw *law)
 {
+    if (friction_has_memory(law)) return law->own.memory.mu_static - law->own.memory.mu_kinetic;
     return law->mu_static - law->mu_kinetic;
 }
 
@@ -254,6 +171,19 @@ static __attribute__((noinline)) double own_slope(const FrictionLaw *law, double
     return slope;
 }
 
+static __attribute__((noinline)) double remembered_coefficient(const FrictionLaw *law, double speed)
+{
+    double ignored;
+    return memory_coefficient(&law->own.memory, speed, &ignored);
+}
+
+static __attribute__((noinline)) double remembered_slope(const FrictionLaw *law, double speed)
+{
+    double slope;
+    memory_coefficient(&law->own.memory, speed, &slope);
+    return slope;
+}
+
 // Continuous at v_c, where the linear law has its kink.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
@@ -267,6 +197,10 @@ double friction_coefficient(const FrictionLaw *law, double speed)
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
         return own_coefficient(law, speed);
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        return remembered_coefficient(law, speed);
     case FRICTION_COULOMB:
         break;
     }
@@ -286,6 +220,10 @@ double friction_slope(const FrictionLaw *law, double speed)
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
         return own_slope(law, speed);
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        return remembered_slope(law, speed);
     case FRICTION_COULOMB:
         break;
     }
@@ -294,12 +232,14 @@ double friction_slope(const FrictionLaw *law, double speed)
 
 double friction_steepest(const FrictionLaw *law)
 {
+    if (law->kind == FRICTION_RATE_STATE) return 0;   // while its state stays
     return friction_is_own(law) ? law->steepest : -friction_slope(law, 0);
 }
 
+// Ageing: a product of falling convex factors, ln(1 + c/(1 + x)) one of them.
 bool friction_is_convex(const FrictionLaw *law)
 {
-    return !friction_is_own(law);
+    return !friction_is_own(law) && law->kind != FRICTION_RATE_STATE;
 }
 
 // One's own law has a kink at its end, beyond which it stays; a formula or plug-in may have more,
@@ -308,6 +248,7 @@ double friction_kink(const FrictionLaw *law, int32_t k)
 {
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
+    case FRICTION_AGEING:
         return k == 0 ? law->critical_velocity : INFINITY;
     case FRICTION_TABLE:
         if (law->own.table.straight)
@@ -318,6 +259,8 @@ double friction_kink(const FrictionLaw *law, int32_t k)
         return k == 0 ? law->end : INFINITY;
     case FRICTION_EXPONENTIAL_WEAKENING:
     case FRICTION_COULOMB:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
         break;
     }
     return INFINITY;
@@ -352,10 +295,12 @@ static const double TURN = 0.1;   // of the largest: the slope of one's own law 
 // The last piece of a law with kinks is level, as is a law without a drop.
 bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to)
 {
-    bool last = piece > 0 && !isfinite(friction_kink(law, piece));
-    double before, after;
+    bool last = piece > 0 && !isfinite(friction_kink(law, piece)) && !friction_has_memory(law);
+    double before, after, bends = law->critical_velocity;
+    if (friction_has_memory(law) && law->own.memory.reach > 0)
+        bends = fmin(bends, law->own.memory.slip_distance / law->own.memory.reach);
     if (last || !(friction_drop(law) > 0 || law->bend > 0)) return true;
-    if (fabs(to - from) > BEND * fmax(law->critical_velocity, from)) return false;
+    if (fabs(to - from) > BEND * fmax(bends, from)) return false;
     if (friction_is_convex(law)) return true;
     friction_branch(law, piece, from, &before);
     friction_branch(law, piece, to, &after);
@@ -366,12 +311,17 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
 // safe.
 bool friction_weakens(const FrictionLaw *law, double speed)
 {
+    if (friction_has_memory(law)) {
+        const FrictionMemory *memory = &law->own.memory;
+        FrictionRates rates = memory_rates(memory, speed, memory_state(memory, speed));
+        return rates.mu_speed < 0 || rates.mu_state * rates.rate < 0;
+    }
     return friction_slope(law, speed) < 0.0;
 }
 
 bool friction_strengthens(const FrictionLaw *law)
 {
-    return friction_is_own(law) && law->strengthens;
+    return law->strengthens;
 }
 
 // Of v_c: where exp(-5) is left of the exponential law's drop, under 1 %.
@@ -388,6 +338,10 @@ double friction_spent_speed(const FrictionLaw *law)
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
         return law->spent;
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        return memory_spent_speed(&law->own.memory);
     case FRICTION_COULOMB:
         break;
     }
@@ -400,7 +354,7 @@ double friction_contact_density(const FrictionLaw *law, double speed)
 {
     double drop = friction_has_drop(law) ? drop_of(law) : 0;
     double left = drop > 0 ? (friction_coefficient(law, speed) - law->mu_kinetic) / drop : 1.0;
-    return fmin(left, 1);
+    return fmin(fmax(left, 0), 1);
 }
 
 // Points of a table and fifteen between each two; else a hundred to a decade, over the twelve below

@@ -7,6 +7,7 @@
 //   exponential        mu_K + (mu_S - mu_K) exp(-|v| / v_c)
 //   Coulomb            mu_S
 //   one's own          a table, a formula or a plug-in: may rise, also above mu(0)
+//   with memory        of speed and a state, which a stage eliminates (contact/friction_state)
 //
 // A new law is a line of FRICTION_LAWS and its cases in friction_law.c: nobody else asks for the
 // kind, but through the functions below.
@@ -14,8 +15,8 @@
 #define AMONTONS_CONTACT_FRICTION_LAW_H
 
 #include "base/formula.h"
+#include "contact/friction_memory.h"
 #include "contact/friction_plugin.h"
-#include "contact/friction_source.h"
 #include "contact/friction_table.h"
 
 // symbol, name in a scene
@@ -25,7 +26,10 @@
     X(FRICTION_COULOMB, "coulomb")                                                                 \
     X(FRICTION_TABLE, "table")                                                                     \
     X(FRICTION_FORMULA, "formula")                                                                 \
-    X(FRICTION_PLUGIN, "plugin")
+    X(FRICTION_PLUGIN, "plugin")                                                                   \
+    X(FRICTION_AGEING, "ageing")                                                                   \
+    X(FRICTION_SLIP_WEAKENING, "slip-weakening")                                                   \
+    X(FRICTION_RATE_STATE, "rate-and-state")
 
 typedef enum FrictionKind {
 #define X(symbol, name) symbol,
@@ -36,10 +40,10 @@ typedef enum FrictionKind {
 // Nothing is owned: copies are as good.
 typedef struct FrictionLaw {
     FrictionKind kind;
-    double mu_static;   // mu_S = mu(0), 1
+    double mu_static;   // mu_S = mu(0), 1; with memory: in the stage under way
     double mu_kinetic;   // mu_K <= mu_S, the lowest coefficient, 1; of laws that weaken
     double critical_velocity;   // v_c > 0, velocity; of laws that weaken
-    // The rest: of one's own laws, by friction_own_law and contact/friction_look.
+    // The rest: of one's own laws, by contact/friction_make and contact/friction_look.
     double end;   // beyond this speed mu stays, velocity
     double steepest;   // the largest -mu'(v), one over a velocity
     double bend;   // the largest |mu'(v)|, one over a velocity
@@ -55,6 +59,7 @@ typedef struct FrictionLaw {
         FrictionTable table;
         Formula formula;   // of v
         FrictionPlugin plugin;
+        FrictionMemory memory;   // of laws with memory
     } own;
 } FrictionLaw;
 
@@ -82,6 +87,9 @@ const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind
 
 // A table, a formula or a plug-in.
 bool friction_is_own(const FrictionLaw *law);
+
+// It has a state (contact/friction_state).
+bool friction_has_memory(const FrictionLaw *law);
 
 // The law has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);
@@ -121,7 +129,7 @@ double friction_branch(const FrictionLaw *law, int32_t piece, double speed, doub
 // one to the other.
 bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to);
 
-// Still weakening at this speed: a faster slip meets less friction.
+// Still weakening at this speed: a faster, or with memory a further slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);
 
 // At some speed a faster slip meets more friction.
@@ -133,14 +141,6 @@ double friction_spent_speed(const FrictionLaw *law);
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from
 // the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), 1 from mu_S on.
 double friction_contact_density(const FrictionLaw *law, double speed);
-
-// What a key of the map `friction` is to a law.
-FrictionUse friction_use(const FrictionLaw *law, const char *key);
-
-// Makes one's own law of kind law->kind and of the numbers mu_static, mu_kinetic and
-// critical_velocity, 0 where they are not given; contact/friction_look has still to look at it.
-// *key: the one that is wrong (ERROR_INPUT), or that holds the law.
-bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
 // The k-th of the speeds, ascending from 0 to its end, at which one's own law is looked at before
 // it is used (contact/friction_look); INFINITY: there are no more.

@@ -11,8 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
@@ -124,6 +122,7 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
         interface->pad[i] = contact.pad_of[i];
     }
     TRY(interface_find_line(interface, err));
+    TRY(contact_faces_build(mesh, &contact, &interface->faces, err));
     if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
         for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
 cleanup:
@@ -348,9 +347,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+// In space as many as the root of its mean cell would go along the contact.
 double interface_nodes_along(const Interface *interface)
 {
-    return pow(interface->contact_count, 1.0 / (interface->dim - 1));
+    double from[2] = {INFINITY, INFINITY}, to[2] = {-INFINITY, -INFINITY};
+    if (interface->dim == 2) return interface->contact_count;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        const double place[] = {interface->x[i], interface->y[i]};
+        for (int d = 0; d < 2; d++) {
+            from[d] = fmin(from[d], place[d]);
+            to[d] = fmax(to[d], place[d]);
+        }
+    }
+    return sqrt(interface->contact_count * (to[0] - from[0]) / (to[1] - from[1]));
 }
 
 void interface_destroy(Interface *interface)
@@ -361,6 +370,7 @@ void interface_destroy(Interface *interface)
     memory_free(interface->gap);
     memory_free(interface->pad);
     memory_free(interface->pad_name);
+    contact_faces_destroy(&interface->faces);
     memory_free(interface->rod_node);
     memory_free(interface->y);
     memory_free(interface->line);

@@ -11,6 +11,7 @@
 #ifndef AMONTONS_CONTACT_INTERFACE_H
 #define AMONTONS_CONTACT_INTERFACE_H
 
+#include "contact/contact_faces.h"
 #include "fem/mesh.h"
 
 typedef struct Interface {
@@ -30,6 +31,7 @@ typedef struct Interface {
     int32_t *line;   // [line_count] contact nodes one behind the other along the drive, in space
         // along the middle: fronts and how far slip reaches are read off it; NULL: all of them;
         // owned
+    ContactFaces faces;   // what the contact is drawn by, in space; owned
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
     double *rod_z;   // [rod_count] height, length; owned
@@ -89,8 +91,8 @@ static inline double interface_line_x(const Interface *interface, int32_t k)
     return interface->x[interface_line_node(interface, k)];
 }
 
-// How many contact nodes stand along its length, were they spread evenly over all its directions:
-// as many as there are in the plane, their root in space.
+// How many contact nodes stand along its length: all of them in the plane; in space so many as if
+// cells were as long along the drive as across it.
 double interface_nodes_along(const Interface *interface);
 
 static inline double interface_gap(const Interface *interface, int32_t i)

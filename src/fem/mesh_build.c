@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 // A determinant counts as zero below this times the square of the element's longest edge. Round-off

@@ -6,7 +6,6 @@
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
-#include <stddef.h>
 
 // By the element's own quadrature: exact where sides are straight.
 double mesh_element_area(const Mesh *mesh, int32_t e)

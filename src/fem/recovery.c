@@ -12,7 +12,6 @@
 #include "fem/element_group.h"
 
 #include <math.h>
-#include <string.h>
 
 // The point of a node in a material, a new one where there is none yet; next: [points] the
 // following point of a node, -1: none.

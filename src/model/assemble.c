@@ -15,13 +15,19 @@
 // Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
 static const double NODE_BYTES = 4e3;
 
-// Said before the memory is full: then the system would end this or another program.
-static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
+double model_memory_there(void)
 {
     struct rlimit room;
     double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
         have = fmin(have, (double)room.rlim_cur);
+    return have;
+}
+
+// Said before the memory is full: then the system would end this or another program.
+static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
+{
+    double have = model_memory_there();
     if (node_count * NODE_BYTES > have)
         FAIL(err, ERROR_INPUT,
              "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
@@ -31,8 +37,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A material in space is neither in plane stress nor in plane strain; lambda is that of the latter.
-static bool take_to_space(Model *model, Error *err)
+// lambda is that of plane strain.
+bool model_take_to_space(Model *model, Error *err)
 {
     Materials *materials = &model->materials;
     bool possible = true;
@@ -81,7 +87,7 @@ bool model_read_mesh(Model *model, Error *err)
     model->height = mesh->z_max - mesh->z_min;
     model->elements = mesh->element_count;
     if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
-    TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
+    TRY(mesh->dim > 2 ? model_take_to_space(model, err) : refuse_across(scene, err));
     TRY(model_mark_regions(model, err));
 cleanup:
     mesh_file_destroy(&file);

@@ -11,6 +11,12 @@ bool model_read_mesh(Model *model, Error *err);
 bool model_build_bulk(Model *model, Error *err);   // bulk, loads, interface
 bool model_hold_supports(Model *model, Error *err);   // takes their unknowns out of the bulk
 
+// A material in space is neither in plane stress nor in plane strain. ERROR_INPUT: it keeps its
+// volume.
+bool model_take_to_space(Model *model, Error *err);
+
+double model_memory_there(void);   // of this computer, or what a limit leaves of it, bytes
+
 // The force that others are measured with, from the resultant of the loads towards the plane, per
 // unit of load_reference(), wherever that comes from. ERROR_INPUT: nothing presses the block down.
 bool model_set_load(Model *model, double unit_resultant, Error *err);

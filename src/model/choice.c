@@ -34,8 +34,40 @@ static const double NOT_WORTH_ASKING = 0.05;
 // 320 x 320 and at 800 contact nodes on 60 rows).
 static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36, BYTES_MAX = 6e9;
 
+// In space a sparse factor takes n^2 operations and has n^(4/3) entries; the contact problem and
+// its certificate pass through matrices of m x m and factor those of what slips. What is far is not
+// replaced, so that q = n. Fitted to processor times of cubes of 6, 10, 14 and 20 cells a side and
+// of 20 x 20 x 10, reduced and not.
+static const double SPACE_FACTOR = 1.6e-9;   // rung and n^2
+static const double SPACE_STAGE = 3.7e-8;   // stage and n^(4/3)
+static const double SPACE_CONTACT = 3e-9, SPACE_CONTACT_FACTORS = 1e-11;   // stage and m^2, m^3
+static const double SPACE_REDUCTION = 1.8e-8;   // n^2 of each part
+static const double SPACE_PRODUCTS = 1.2e-9;   // n m^2 of each part
+
+// Numbers that are kept at once: matrices of m x m (rungs, their copies, factors, certificate),
+// entries of a factor, and in a reduction columns of responses over those of a part's border.
+static const double SPACE_SQUARES = 30, SPACE_ENTRIES = 39, SPACE_COLUMNS = 12;
+
+static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
+{
+    double n = sizes->unknowns, m = sizes->interface, parts = sizes->parts;
+    double stages = sizes->stages, of_part = n / parts, border = m / parts;
+    double contact = ANY_STAGE + SPACE_CONTACT * m * m + SPACE_CONTACT_FACTORS * m * m * m;
+    double reduction = SPACE_REDUCTION * of_part * of_part +
+                       SPACE_PRODUCTS * of_part * border * border;
+    double squares = SPACE_SQUARES * m * m, entries = SPACE_ENTRIES * pow(n, 4.0 / 3);
+    double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
+    double full = RUNGS * SPACE_FACTOR * n * n + stages * SPACE_STAGE * pow(n, 4.0 / 3);
+    return (ExpectedCost){.reduction = parts * reduction * (sizes->several ? OF_SEVERAL : 1),
+                          .reduced = stages * (contact + REDUCED_STAGE * m * m),
+                          .full = full + stages * contact,
+                          .bytes_reduced = sizeof(double) * fmax(squares, responses),
+                          .bytes_full = sizeof(double) * (squares + RUNGS * entries)};
+}
+
 ExpectedCost choice_expect(const ChoiceSizes *sizes)
 {
+    if (sizes->space) return expect_in_space(sizes);
     double n = sizes->unknowns, square = sizes->interface * sizes->interface;
     double factor = FULL_FACTOR * pow(n, 1.5);
     double pass = FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square;
@@ -53,7 +85,7 @@ bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)
     double n = sizes->unknowns / sizes->parts, m = sizes->interface / sizes->parts;
     double bytes = BYTES_FACTORS * n + BYTES_PRODUCTS * m * far_patches_left(n, m);
     if (sizes->held) return true;
-    if (bytes > BYTES_MAX) return false;
+    if (sizes->space ? cost->bytes_reduced > cost->bytes_full : bytes > BYTES_MAX) return false;
     return cost->reduction < NOT_WORTH_ASKING ||
            cost->reduction / sizes->runs + cost->reduced < cost->full;
 }

@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 
 typedef struct ChoiceSizes {
+    bool space;   // in three dimensions: else in two
     double unknowns;   // of the mesh
     double interface;   // of those on floor and rod
     double stages;   // of the run (model/stages)
@@ -21,6 +22,7 @@ typedef struct ExpectedCost {
     double reduction;   // building the basis, where it is not held
     double reduced;   // factors and stages on it
     double full;   // factors and stages on the mesh
+    double bytes_reduced, bytes_full;   // of memory that either way takes at most; 0: not known
 } ExpectedCost;
 
 ExpectedCost choice_expect(const ChoiceSizes *sizes);

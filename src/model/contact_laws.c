@@ -2,6 +2,7 @@
 #include "model/contact_laws.h"
 
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "model/place_formula.h"
 #include "scene/contact_laws.h"
 
@@ -110,7 +111,8 @@ bool model_lay_laws(Model *model, Error *err)
     int32_t count = interface->contact_count;
     bool plane = !interface->y;
     Part part = {0}, all = box_of(interface);
-    if (scene->contact_laws.count == 0 && !*scene->own_friction.along) return true;
+    bool alike = scene->contact_laws.count == 0 && !*scene->own_friction.along;
+    if (alike && !friction_remembers(&scene->friction, 0)) return true;
     TRY(scene_blame(scene, "friction.contacts", check_groups(model, err), err));
     TRY((model->node_laws = NEW_ARRAY(FrictionLaw, count, err)));
     for (int32_t i = 0; i < count; i++) {

@@ -65,6 +65,13 @@ double model_friction_slip(const Model *model)
     return friction_slip(&model->law, pressure, model->height, model->materials.mean.young);
 }
 
+double model_slip_per_mu(const Model *model)
+{
+    FrictionLaw one = friction_constant(1);
+    double pressure = model->scales.load / (model->length * model->breadth);
+    return friction_slip(&one, pressure, model->height, model->materials.mean.young);
+}
+
 // Slip times E L/H is the drop (mu_S - mu_K) F_N.
 double model_machine_yield(const Model *model)
 {

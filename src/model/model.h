@@ -62,6 +62,9 @@ Model model_of(const Scene *scene);
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);
 
+// The slip that a fall of the coefficient by 1 can drive, p H / E, length.
+double model_slip_per_mu(const Model *model);
+
 // By how much the machine yields less when the load falls by that drop, length; 0: it is rigid.
 double model_machine_yield(const Model *model);
 

@@ -49,14 +49,15 @@ static bool starts_at_interface(const Scene *scene)
     return true;
 }
 
-// E, eta, rho L^2 and the size of the load: what the reduced matrices are normalised with.
+// E, eta, rho L^2 (in space times L) and the size of the load: what the reduced matrices are
+// normalised with.
 static BulkScales bulk_scales(const Model *model, double load)
 {
     const Material *material = &model->materials.mean;
-    double length = model->length;
-    return (BulkScales){.stiffness = material->young,
-                        .damping = material->eta1 + material->eta2,
-                        .mass = material->density * length * length,
+    double length = model->length, deep = model->interface.dim > 2 ? length : 1;
+    return (BulkScales){.stiffness = material->young * deep,
+                        .damping = (material->eta1 + material->eta2) * deep,
+                        .mass = material->density * length * length * deep,
                         .load = load};
 }
 
@@ -77,6 +78,7 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     shape->interface = (Interface){0};
     model->length = shape->sizes.length;
     model->height = shape->sizes.height;
+    model->breadth = shape->sizes.breadth;
     model->middle = shape->sizes.middle;
     model->elements = (int32_t)shape->sizes.elements;
     model->full_dofs = (int32_t)shape->sizes.full_dofs;
@@ -84,6 +86,7 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     model->contact_region = (int32_t)shape->sizes.contact_region;
     memcpy(model->materials.area, shape->sizes.region_area, sizeof shape->sizes.region_area);
     memcpy(model->materials.width, shape->sizes.region_width, sizeof shape->sizes.region_width);
+    if (model->interface.dim > 2 && !model_take_to_space(model, err)) return false;
     materials_find_mean(&model->materials);
     model->reduced.scales = bulk_scales(model, load);
     model->is_reduced = true;
@@ -118,6 +121,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     ReductionDef def = {.tolerance = reduction_tolerance(scene),
                         .materials = block->materials,
                         .modes = wants_mesh(scene),
+                        .no_patches = model->mesh.dim > 2,
                         .node_image = block->image,
                         .position = block->position,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
@@ -161,6 +165,7 @@ static bool reduce_bulk(Model *model, const char *key, Error *err)
     ReductionBlock block = {0};
     Shape shape = {.sizes = {.length = model->length,
                              .height = model->height,
+                             .breadth = model->breadth,
                              .middle = model->middle,
                              .area = bulk->area,
                              .elements = model->elements,
@@ -195,15 +200,14 @@ static bool is_viscous(const Scene *scene)
     return viscous;
 }
 
-// The scene's bulk can be reduced: in the plane, implicitly, with viscosity, from states that the
+// The scene's bulk can be reduced: implicitly, with viscosity, from states that the
 // interface made.
 static bool is_reducible(const Model *model)
 {
     const Scene *scene = model->scene;
-    bool plane = model->mesh.dim <= 2;   // 0: not read yet
     bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
     bool allowed = scene->reduction.use != REDUCE_NEVER && scene->reduction.decided != REDUCE_NEVER;
-    return allowed && plane && implicit && is_viscous(scene) && starts_at_interface(scene);
+    return allowed && implicit && is_viscous(scene) && starts_at_interface(scene);
 }
 
 // Sets what the run is expected to cost. held: the basis is in the cache.
@@ -217,7 +221,8 @@ static bool expect(Model *model, bool held, Error *err)
                                 model->interface.count, &parts, err));
     Drive drive = stages_drive(model);
     model->choice =
-        (ChoiceSizes){.unknowns = model->full_dofs,
+        (ChoiceSizes){.space = model->interface.dim > 2,
+                      .unknowns = model->full_dofs,
                       .interface = model->interface.count,
                       .stages = stages_expect(scene, &drive),
                       .parts = parts,
@@ -249,20 +254,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What is not there yet for a mesh in space.
-static bool check_space(const Model *model, Error *err)
+// Said before anything is factored; in space, where it goes up with the fourth power of the cells
+// along a side.
+static bool check_memory(const Model *model, Error *err)
 {
-    const Scene *scene = model->scene;
-    if (model->mesh.dim > 2 && scene->reduction.use == REDUCE_ALWAYS)
+    double bytes = model->is_reduced ? model->expected.bytes_reduced : model->expected.bytes_full;
+    double have = model_memory_there();
+    if (bytes > have && model->scene->time.scheme != SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT,
-             "%s: reduction.use: always, but blocks in space are stepped on the whole mesh "
-             "(`auto` or `never`)",
-             scene->path);
-    if (model->mesh.dim > 2 && scene->accuracy.mu > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: accuracy.mu: how the error of a block in space falls with its cells was not "
-             "measured yet; run it on two meshes, and compare",
-             scene->path);
+             "%s: %d contact nodes are too many for this computer: a run takes some %.0f GB of "
+             "memory, and there are %.1f; coarser cells at the contact are needed",
+             model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
 cleanup:
     return error_is_clean(err);
 }
@@ -271,9 +273,9 @@ cleanup:
 static bool choose(Model *model, Error *err)
 {
     TRY(model_hold_supports(model, err));
-    TRY(check_space(model, err));
     TRY(expect(model, false, err));
     model->is_reduced = is_reducible(model) && reduction_pays(model);
+    TRY(check_memory(model, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -2,7 +2,6 @@
 // A formula has one variable, x; y is a number in it, and it is read anew at each y.
 #include "model/place_formula.h"
 
-#include <stddef.h>
 #include <string.h>
 
 static bool look_up(const void *context, const char *name, double *value)

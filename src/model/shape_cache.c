@@ -9,6 +9,7 @@
 
 #include "base/computation.h"
 #include "base/memory.h"
+#include "io/mesh/element_faces.h"
 #include "io/mesh/mesh_source.h"
 #include "model/basis_cache.h"
 #include "scene/materials.h"
@@ -46,11 +47,14 @@ static void hash_boundary(const Scene *scene, Hash *hash)
     hash_text(hash, scene->rod.kind == ROD_NONE ? "no rod" : scene->groups.rod);
     hash_number(hash, scene->rod.height);
     hash_number(hash, scene->rod.width);
+    hash_number(hash, scene->rod.breadth);
+    hash_number(hash, scene->rod.whole);
     hash_number(hash, scene->rod.ends);
     hash_number(hash, scene->load.pressure / reference);
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         hash_text(hash, scene->load.tractions[k].group);
         hash_number(hash, scene->load.tractions[k].x / reference);
+        hash_number(hash, scene->load.tractions[k].y / reference);
         hash_number(hash, scene->load.tractions[k].z / reference);
     }
 }
@@ -105,6 +109,29 @@ static bool is_possible(const ShapeSizes *sizes)
            sizes->elements < INT32_MAX;
 }
 
+// What a block in the plane has nothing of.
+static void archive_across(Interface *interface, Archive *archive)
+{
+    int32_t rod = interface->rod_count;
+    archive_new_numbers(archive, &interface->rod_y, rod);
+    archive_new_numbers(archive, &interface->rod_length, rod);
+    archive_length(archive, &interface->line_count);
+    archive_new_indices(archive, &interface->line, interface->line_count, 0,
+                        interface->contact_count);
+}
+
+static void archive_faces(ContactFaces *faces, int32_t contact_count, Archive *archive)
+{
+    archive_length(archive, &faces->count);
+    archive_length(archive, &faces->width);
+    archive_length(archive, &faces->corner_count);
+    archive_require(archive, faces->width <= FACE_NODES_MAX);
+    if (archive->failed) return;
+    archive_new_indices(archive, &faces->point, faces->count * faces->width, -1,
+                        contact_count + faces->corner_count);
+    archive_new_numbers(archive, &faces->corner, 2 * (int64_t)faces->corner_count);
+}
+
 // dofs: of the mesh.
 static void archive_interface(Interface *interface, int32_t dofs, Archive *archive)
 {
@@ -120,6 +147,7 @@ static void archive_interface(Interface *interface, int32_t dofs, Archive *archi
     interface->count = interface_rod(interface, rod);
     archive_new_indices(archive, &interface->node, contact, 0, nodes);
     archive_new_numbers(archive, &interface->x, contact);
+    if (interface->dim > 2) archive_new_numbers(archive, &interface->y, contact);
     archive_new_numbers(archive, &interface->weight, contact);
     archive_flag(archive, &has_gap);
     if (has_gap) archive_new_numbers(archive, &interface->gap, contact);
@@ -131,8 +159,10 @@ static void archive_interface(Interface *interface, int32_t dofs, Archive *archi
     archive_new_indices(archive, &interface->rod_node, rod, 0, nodes);
     archive_new_numbers(archive, &interface->rod_z, rod);
     archive_new_numbers(archive, &interface->rod_share, rod);
+    if (interface->dim > 2) archive_across(interface, archive);
     archive_numbers(archive, interface->rod_face, 2);
     archive_new_indices(archive, &interface->dofs, interface->count, 0, dofs);
+    if (interface->dim > 2) archive_faces(&interface->faces, contact, archive);
 }
 
 static void archive_shape(void *self, Archive *archive)

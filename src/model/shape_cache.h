@@ -18,8 +18,8 @@
 
 // Sizes that a run needs beside the arrays.
 typedef struct ShapeSizes {
-    double length, height;   // L, H, length
-    double area;   // length^2
+    double length, height, breadth;   // L, H, and along y (1 in the plane), length
+    double area;   // length^2; in space the volume
     double elements;   // of the mesh
     double full_dofs;   // unknowns of the mesh
     double load_size;   // largest nodal load per unit of load_reference()

@@ -5,7 +5,6 @@
 
 #include "page_resources.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { HASH_SIZE = 32, HASH_TEXT = 48 };

@@ -119,17 +119,21 @@ cleanup:
 // The different values of a key, in the order of the table.
 static void write_values(HtmlWriter *html, const CsvTable *table, int32_t column)
 {
-    int32_t shown = 0, different = 0;
+    const char *shown[VALUES_SHOWN];
+    int32_t different = 0;
     for (int32_t row = 0; row < table->rows; ++row) {
+        const char *cell = csv_cell(table, row, column);
         bool seen = false;
-        for (int32_t before = 0; before < row && !seen; ++before)
-            seen = strcmp(csv_cell(table, before, column), csv_cell(table, row, column)) == 0;
+        for (int32_t k = 0; k < different && !seen; ++k) seen = strcmp(shown[k], cell) == 0;
         if (seen) continue;
-        if (++different > VALUES_SHOWN) break;
-        html_markup(html, "%s", shown++ ? ", " : "");
-        html_text(html, csv_cell(table, row, column));
+        if (different == VALUES_SHOWN) {
+            html_markup(html, ", \u2026");
+            return;
+        }
+        html_markup(html, "%s", different ? ", " : "");
+        html_text(html, cell);
+        shown[different++] = cell;
     }
-    if (different > VALUES_SHOWN) html_markup(html, ", \u2026");
 }
 
 static void write_varied(HtmlWriter *html, const SweepSource *sweep)
@@ -388,12 +392,16 @@ static bool write_again(HtmlWriter *html, const SweepSource *sweep, Error *err)
         scene_summary_write(html, &sweep->run);
         TRY(scene_text_write(html, &sweep->run, err));
     }
+    const char *command = folder_holds(sweep->folder, "fit.csv", NULL)      ? "fit"
+                          : folder_holds(sweep->folder, "answer.txt", NULL) ? "optimise"
+                                                                            : "sweep";
     sheet_part(html, &AGAIN);
     html_markup(html,
                 "<p>The study\u2019s file is not kept with its results. With it, and the same "
                 "version, each point has the same bits again:</p>\n<pre tabindex='0'>amontons "
-                "sweep STUDY.yaml -o again\n</pre>\n<p>The scene of each point stands in its "
-                "points/.../run.json, which sweep.csv names.</p>\n");
+                "%s STUDY.yaml -o again\n</pre>\n<p>The scene of each point stands in its "
+                "points/.../run.json, which sweep.csv names.</p>\n",
+                command);
 cleanup:
     return error_is_clean(err);
 }
@@ -415,7 +423,10 @@ bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
     parts[count++] = AGAIN;
     parts[count++] = CITE;
     parts[count] = (SheetPart){0};
-    sheet_begin(html, sweep.title, "Report of a sweep, by amontons", parts);
+    sheet_begin(html, sweep.title,
+                folder_holds(folder, "answer.txt", NULL) ? "Report of a search, by amontons"
+                                                         : "Report of a sweep, by amontons",
+                parts);
     write_lead(html, &sweep);
     TRY(write_answer(html, &sweep, err));
     write_varied(html, &sweep);

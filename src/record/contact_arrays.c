@@ -4,9 +4,8 @@
 #include "record/contact_arrays.h"
 
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
-
-#include <math.h>
 
 // law must outlive the arrays.
 bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
@@ -19,6 +18,7 @@ bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
     arrays->pressure = NEW_ARRAY(double, count, err);
     arrays->shear = NEW_ARRAY(double, count *tangents, err);
     arrays->status = NEW_ARRAY(uint8_t, count, err);
+    if (friction_remembers(law, count)) arrays->state = NEW_ARRAY(double, count, err);
     arrays->origin = NEW_ARRAY(double, count *tangents, err);
     return error_is_clean(err);
 }
@@ -30,6 +30,7 @@ void contact_arrays_destroy(ContactArrays *arrays)
     memory_free(arrays->pressure);
     memory_free(arrays->shear);
     memory_free(arrays->status);
+    memory_free(arrays->state);
     memory_free(arrays->origin);
     *arrays = (ContactArrays){0};
 }
@@ -59,8 +60,10 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
     for (int32_t i = 0; i < arrays->count; i++) {
         int32_t n = interface_normal(seen->interface, i);
         for (int32_t c = 0; c < arrays->tangents; c++) read_slip(arrays, seen, i, c);
+        if (arrays->state)
+            arrays->state[i] = friction_shown_state(friction_at(arrays->law, i), state->theta[i]);
         arrays->pressure[i] = state->reaction[n] / seen->interface->weight[i];
-        arrays->status[i] = shown_status(friction_at(arrays->law, i), state->status[i],
+        arrays->status[i] = shown_status(friction_at(arrays->law, i), seen_status(seen, i),
                                          slip_size(seen->interface, i, state->slip_rate));
     }
     arrays->started = true;

@@ -11,7 +11,7 @@ const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 // Of mu, over the cells that slip where slow slip turns fast, or over nodes along the contact, if
 // that is more: what a mesh scatters by, and the way to ever smaller cells, before meshes tell.
 // From a tenth to ten times as much was met, on blocks as on pads (validation/benchmark/priors.md):
-// so that is worth no more than one level.
+// so that is worth no more than one level. In space the same holds (validation/space/priors.md).
 static const double USUAL = 0.05, USUAL_LEAST = 0.2;
 enum { USUAL_LEVELS = 1 };
 static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh

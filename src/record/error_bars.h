@@ -65,6 +65,7 @@ typedef struct LevelCut {
 } LevelCut;
 
 typedef struct Levels {
+    bool space;   // meshes of a block in space
     double wanted;   // bar over value
     bool met;
     AnswerKind asked;   // what `wanted` is of

@@ -140,7 +140,7 @@ static bool mark_slipped(Events *events, const Observation *seen)
 {
     bool all = true;
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
-        if (seen->state->status[i] != CONTACT_STICK && !events->slipped[i]) {
+        if (seen_status(seen, i) != CONTACT_STICK && !events->slipped[i]) {
             events->slipped[i] = 1;
             events->list[events->rapid].slipped += seen->interface->weight[i];
         }

@@ -32,7 +32,7 @@ typedef struct Event {
         // has slipped from its trailing end on, along the line of the contact, length
     double
         slipped;   // how much of the contact slipped: rapid: in all of it; slow: at most at once;
-        // length, in space length^2
+    // length, in space length^2
     double peak_slip_rate;   // velocity
     double front_speed;   // mean along the contact; rapid: of the fast front on `pad`; NaN: it did
         // not move

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Stresses of the bulk are found and written as .vtu, the interface as .vtp. What does
 // not change in a run (points, cells) is laid out once, in the 64-bit integers and three
-// coordinates that VTK wants; z of the model is VTK's y. VTK itself stays in its module:
+// coordinates that VTK wants; z of a model in the plane is VTK's y. VTK itself stays in its module:
 // io/fields/field_file.
 #include "record/field_files.h"
 
@@ -44,15 +44,62 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
     return true;
 }
 
-// One segment between neighbours of the same pad: gaps between pads stay gaps.
+enum { VTK_LINE_CELL = 3, VTK_TRIANGLE_CELL = 5, VTK_QUAD_CELL = 9, FACE_CELLS_MAX = 4 };
+
+// Room for the interface's cells.
+static bool make_line_grid(FieldFiles *files, int64_t cells, int32_t points_each, Error *err)
+{
+    int64_t count = files->line_point_count;
+    files->line_points = NEW_ARRAY(double, 3 * count, err);
+    files->line_values = NEW_ARRAY(double, 3 * FIELD_LINE_ARRAYS * count, err);
+    files->line_offsets = NEW_ARRAY(int64_t, cells + 1, err);
+    files->line_connectivity = NEW_ARRAY(int64_t, points_each * cells, err);
+    files->line_types = NEW_ARRAY(uint8_t, cells, err);
+    return error_is_clean(err);
+}
+
+static void add_face_cell(FieldFiles *files, const int32_t *points, const uint8_t *which,
+                          int32_t count)
+{
+    int32_t cell = files->line_count++;
+    int64_t first = files->line_offsets[cell];
+    for (int32_t k = 0; k < count; k++) files->line_connectivity[first + k] = points[which[k]];
+    files->line_offsets[cell + 1] = first + count;
+    files->line_types[cell] = count == 3 ? VTK_TRIANGLE_CELL : VTK_QUAD_CELL;
+}
+
+// VTK's polygons are flat and have corners only: faces with nodes between them are cut into four.
+static bool fill_face_grid(FieldFiles *files, const Interface *interface, Error *err)
+{
+    static const uint8_t whole[] = {0, 1, 2, 3};
+    static const uint8_t six[][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+    static const uint8_t nine[][4] = {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
+    const ContactFaces *faces = files->faces;
+    TRY(make_line_grid(files, (int64_t)FACE_CELLS_MAX * faces->count, 4, err));
+    for (int32_t i = 0; i < files->line_point_count; i++) {
+        int32_t k = i - interface->contact_count;
+        files->line_points[3 * i] = k < 0 ? interface->x[i] : faces->corner[2 * k];
+        files->line_points[3 * i + 1] = k < 0 ? interface->y[i] : faces->corner[2 * k + 1];
+    }
+    for (int32_t f = 0; f < faces->count; f++) {
+        const int32_t *points = faces->point + (int64_t)f * faces->width;
+        int32_t count = contact_face_points(faces, f);
+        if (count <= 4) add_face_cell(files, points, whole, count);
+        for (int32_t k = 0; k < FACE_CELLS_MAX && count == 6; k++)
+            add_face_cell(files, points, six[k], 3);
+        for (int32_t k = 0; k < FACE_CELLS_MAX && count == 9; k++)
+            add_face_cell(files, points, nine[k], 4);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// In the plane one segment between neighbours of the same pad: gaps between pads stay gaps.
 static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error *err)
 {
     int64_t count = interface->contact_count;
-    files->line_points = NEW_ARRAY(double, 3 * count, err);
-    files->line_offsets = NEW_ARRAY(int64_t, count + 1, err);
-    files->line_connectivity = NEW_ARRAY(int64_t, 2 * count, err);
-    files->line_types = NEW_ARRAY(uint8_t, count, err);
-    if (!error_is_clean(err)) return false;
+    if (interface->y) return fill_face_grid(files, interface, err);
+    if (!make_line_grid(files, count, 2, err)) return false;
     for (int32_t i = 0; i < count; i++) {
         files->line_points[3 * i] = interface->x[i];
         if (i == 0 || interface->pad[i] != interface->pad[i - 1]) continue;
@@ -60,16 +107,22 @@ static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error 
         files->line_connectivity[2 * line] = i - 1;
         files->line_connectivity[2 * line + 1] = i;
         files->line_offsets[line + 1] = 2 * (line + 1);
-        files->line_types[line] = 3;   // VTK_LINE
+        files->line_types[line] = VTK_LINE_CELL;
     }
     return true;
 }
 
 bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
 {
-    *files = (FieldFiles){.mesh = mesh, .line_point_count = interface->contact_count};
-    return nodal_stress_create(mesh, &files->stress, err) && fill_bulk_grid(files, err) &&
-           fill_line_grid(files, interface, err);
+    *files = (FieldFiles){
+        .mesh = mesh, .contact_count = interface->contact_count, .tangents = mesh->dim - 1};
+    files->faces = &interface->faces;
+    files->line_point_count = interface->contact_count + files->faces->corner_count;
+    TRY(nodal_stress_create(mesh, &files->stress, err));
+    TRY(fill_bulk_grid(files, err));
+    TRY(fill_line_grid(files, interface, err));
+cleanup:
+    return error_is_clean(err);
 }
 
 void field_files_destroy(FieldFiles *files)
@@ -81,6 +134,7 @@ void field_files_destroy(FieldFiles *files)
     memory_free(files->connectivity);
     memory_free(files->cell_types);
     memory_free(files->line_points);
+    memory_free(files->line_values);
     memory_free(files->line_offsets);
     memory_free(files->line_connectivity);
     memory_free(files->line_types);
@@ -122,16 +176,59 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
     return field_file_write_vtu(path, &grid, err);
 }
 
-// line: [FIELD_LINE_ARRAYS][contact_count]; names and order are those of docs/results.md.
+// What belongs to a point: its own, and of a corner that touches nothing the mean of the points
+// beside it on its faces. values: [line_point_count * components], known at the contact nodes.
+static void fill_corners(const FieldFiles *files, int32_t components, double *values)
+{
+    const ContactFaces *faces = files->faces;
+    for (int32_t f = 0; f < faces->count; f++) {
+        const int32_t *points = faces->point + (int64_t)f * faces->width;
+        int32_t corners = contact_face_points(faces, f) / 2;   // of a face with mid-sides
+        for (int32_t k = 0; k < corners; k++) {
+            int64_t beside = points[corners + k],
+                    before = points[corners + (k + corners - 1) % corners];
+            if (points[k] < files->contact_count) continue;
+            for (int32_t d = 0; d < components; d++)
+                values[components * points[k] + d] =
+                    (values[components * beside + d] + values[components * before + d]) / 2;
+        }
+    }
+}
+
+// From columns to an array of points, vectors with three components.
+static FieldArray line_array(const FieldFiles *files, const char *name, const double *columns,
+                             int32_t count, double *values)
+{
+    int32_t components = count > 1 ? 3 : 1;
+    for (int64_t i = 0; i < files->contact_count; i++)
+        for (int32_t d = 0; d < components; d++)
+            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i]
+                                                   : 0;
+    fill_corners(files, components, values);
+    return (FieldArray){.name = name, .components = components, .values = values};
+}
+
+// line: [field_line_columns][contact_count]; names and order are those of docs/results.md.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
                             Error *err)
 {
-    static const char *const names[FIELD_LINE_ARRAYS] = {
-        "slip_rate", "displacement_x", "gap", "pressure", "shear", "contact_density"};
+    int32_t tangents = files->tangents;
+    const struct {
+        const char *name;
+        int32_t columns;
+    } rows[FIELD_LINE_ARRAYS] = {{"slip_rate", tangents},
+                                 {tangents > 1 ? "displacement" : "displacement_x", tangents},
+                                 {"gap", 1},
+                                 {"pressure", 1},
+                                 {"shear", tangents},
+                                 {"contact_density", 1}};
     FieldArray arrays[FIELD_LINE_ARRAYS];
     int64_t count = files->line_point_count;
-    for (int k = 0; k < FIELD_LINE_ARRAYS; k++)
-        arrays[k] = (FieldArray){.name = names[k], .components = 1, .values = line + k * count};
+    for (int k = 0; k < FIELD_LINE_ARRAYS; k++) {
+        arrays[k] = line_array(files, rows[k].name, line, rows[k].columns,
+                               files->line_values + 3 * k * count);
+        line += rows[k].columns * (int64_t)files->contact_count;
+    }
     FieldGrid grid = {.point_count = count,
                       .points = files->line_points,
                       .cell_count = files->line_count,

@@ -10,6 +10,12 @@
 
 enum { FIELD_LINE_ARRAYS = 6 };
 
+// Numbers of a contact node that they hold.
+static inline int32_t field_line_columns(int32_t tangents)
+{
+    return 3 * tangents + 3;
+}
+
 // What every time of a mesh shares, and room for one.
 typedef struct FieldFiles {
     const Mesh *mesh;   // not owned
@@ -19,7 +25,11 @@ typedef struct FieldFiles {
     double *vectors;   // [stress.point_count * 6] displacement, velocity
     int64_t *offsets, *connectivity;
     uint8_t *cell_types;
-    double *line_points;   // [line_point_count * 3]
+    const ContactFaces *faces;   // none in the plane; not owned
+    int32_t contact_count, tangents;   // tangents: 1 in the plane, 2 in space
+    double *line_points;   // [line_point_count * 3] contact nodes, and behind them corners of faces
+        // that touch nothing
+    double *line_values;   // [FIELD_LINE_ARRAYS * line_point_count * 3] work
     int64_t *line_offsets, *line_connectivity;
     uint8_t *line_types;
     int32_t line_point_count, line_count;
@@ -37,8 +47,8 @@ void field_files_destroy(FieldFiles *files);
 
 bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
                             Error *err);
-// line: [FIELD_LINE_ARRAYS][line_point_count]: slip rate, u_x, gap, pressure, shear stress, contact
-// density.
+// line: [field_line_columns][contact_count]: slip rate, displacement along the floor, gap,
+// pressure, shear stress, contact density.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
                             Error *err);
 

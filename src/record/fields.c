@@ -131,7 +131,7 @@ static bool start_writer(Fields *fields, const Observation *seen, Error *err)
 {
     const Mesh *mesh = fields->files.mesh;
     int64_t dofs = seen->system->dof_count, whole = (int64_t)mesh->dim * mesh->node_count;
-    int64_t line = (int64_t)FIELD_LINE_ARRAYS * seen->interface->contact_count;
+    int64_t line = (int64_t)field_line_columns(mesh->dim - 1) * seen->interface->contact_count;
     WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
     if (fields->writer) return true;
     fields->system = seen->system;
@@ -169,27 +169,30 @@ cleanup:
     return error_is_clean(err);
 }
 
-// line: [FIELD_LINE_ARRAYS][contact_count]; the law is asked here: a plug-in need not be safe
+// line: [field_line_columns][contact_count]; the law is asked here: a plug-in need not be safe
 // elsewhere.
 static void copy_line(const Fields *fields, const Observation *seen, double *line)
 {
     const Interface *interface = seen->interface;
     const State *state = seen->state;
     const int32_t *dofs = seen->system->interface_dofs;
-    int64_t count = interface->contact_count;
-    double *columns[FIELD_LINE_ARRAYS];
-    for (int k = 0; k < FIELD_LINE_ARRAYS; k++) columns[k] = line + k * count;
+    int64_t count = interface->contact_count, tangents = interface->dim - 1;
+    double *rate = line, *moved = rate + tangents * count, *gap = moved + tangents * count;
+    double *pressure = gap + count, *shear = pressure + count, *density = shear + tangents * count;
     for (int32_t i = 0; i < count; i++) {
-        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
-        columns[0][i] = state->slip_rate[t];
-        columns[1][i] = state->displacement[dofs[t]];
-        columns[2][i] = state->displacement[dofs[n]] + interface_gap(interface, i);
-        columns[3][i] = state->reaction[n] / interface->weight[i];
-        columns[4][i] = -state->reaction[t] / interface->weight[i];
-        columns[5][i] = state->status[i] == CONTACT_OPEN
-                            ? 0
-                            : friction_contact_density(friction_at(fields->law, i),
-                                                       slip_size(interface, i, state->slip_rate));
+        int32_t n = interface_normal(interface, i);
+        for (int32_t d = 0; d < tangents; d++) {
+            int32_t t = interface_tangent(interface, i) + d;
+            rate[d * count + i] = state->slip_rate[t];
+            moved[d * count + i] = state->displacement[dofs[t]];
+            shear[d * count + i] = -state->reaction[t] / interface->weight[i];
+        }
+        gap[i] = state->displacement[dofs[n]] + interface_gap(interface, i);
+        pressure[i] = state->reaction[n] / interface->weight[i];
+        density[i] = state->status[i] == CONTACT_OPEN
+                         ? 0
+                         : friction_contact_density(friction_at(fields->law, i),
+                                                    slip_size(interface, i, state->slip_rate));
     }
 }
 

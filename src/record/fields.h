@@ -24,7 +24,7 @@ typedef struct FieldTimeCopy {
     double *storage;   // of all that follows; owned
     double *unknowns[2];   // [dof_count] displacement and velocity of the system that is stepped
     double *whole[2];   // [dim * nodes] of the mesh: the writer's
-    double *line;   // [FIELD_LINE_ARRAYS * contact_count]
+    double *line;   // [field_line_columns * contact_count]
     double time;
 } FieldTimeCopy;
 

@@ -21,7 +21,8 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     *history = (History){.contact = contact,
                          .flushed_at = clock_seconds(),
                          .pad_count = interface->pad_count,
-                         .rod_on_spring = head->rod_on_spring};
+                         .rod_on_spring = head->rod_on_spring,
+                         .remembers = head->remembers};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     if (interface->line) history->line = NEW_ARRAY(double, count, err);
@@ -105,6 +106,8 @@ static const double *node_values(const History *history, ResultSeries series)
         return contact->pressure;
     case SERIES_SHEAR:
         return contact->shear;
+    case SERIES_STATE:
+        return contact->state;
     default:
         for (int32_t i = 0; i < contact->count; i++) history->row[i] = contact->status[i];
         return history->row;
@@ -167,6 +170,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
     pad_sums(seen, history->pad_sums);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
         if (series == SERIES_ROD_WAY && !history->rod_on_spring) continue;
+        if (series == SERIES_STATE && !history->remembers) continue;
         TRY(append(history, seen, series, err));
     }
     history->end.rows++;

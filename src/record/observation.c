@@ -2,6 +2,7 @@
 #include "record/observation.h"
 
 #include "base/dense.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 
 #include <assert.h>
@@ -21,13 +22,18 @@ static double judged_velocity(const StepControl *control, const ObservationScale
     return fmax(scales->slip_velocity, ROUNDINGS_LIMIT * rounding);
 }
 
+// Where friction is 0 at rest every node slips at all times: what is slower than this part of the
+// rod's velocity hardly moves while the rod drives the block by its own slip.
+static const double CREEP = 0.1;
+
 // x of the last node of the run of nodes from the trailing edge that do not stick: l.
-static double slip_front(const Interface *interface, const State *state)
+static double slip_front(const Observation *seen)
 {
+    const Interface *interface = seen->interface;
     double front = interface_line_x(interface, 0);
     for (int32_t k = 0; k < interface_line_count(interface); k++) {
         int32_t i = interface_line_node(interface, k);
-        if (state->status[i] == CONTACT_STICK) break;
+        if (seen_status(seen, i) == CONTACT_STICK) break;
         front = interface->x[i];
     }
     return front;
@@ -65,10 +71,11 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .rod_way = state->rod_way,
                         .step_size = control->counters.accepted > 0 ? control->last_step : 0,
                         .rod_force = rod_force(interface, state->reaction),
-                        .front = slip_front(interface, state),
                         .trailing = scales->trailing,
                         .certified = control->certified,
                         .grows = control->grows};
+    if (friction_creeps(scheme->law)) seen.creep = CREEP * scales->slip_velocity;
+    seen.front = slip_front(&seen);
     if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;
     double load = scales->load * load_factor(scheme->course, state->time);
     seen.mu = seen.rod_force / load;

@@ -6,6 +6,7 @@
 #define AMONTONS_RECORD_OBSERVATION_H
 
 #include "contact/contact_check.h"
+#include "contact/slip.h"
 #include "stepping/step_control.h"
 
 typedef struct Observation {
@@ -20,9 +21,11 @@ typedef struct Observation {
     double mu;   // F_T / F_N, F_N the applied load
     double
         front;   // x to which slip reaches without a gap from the trailing edge, along the line of
-        // the contact
+    // the contact
     double trailing;   // x of the block's trailing end: l is front - trailing
     double max_slip_rate;   // velocity
+    double creep;   // where no node ever sticks, one that slips slower than this counts as at rest;
+        // 0 where nodes stick; velocity
     bool certified;
     bool grows;   // slip runs away, as step_control saw it
     double energy_imbalance;   // energy/width, since the start
@@ -44,6 +47,15 @@ typedef struct ObservationScales {
     double time;   // wave crossing plus viscous time, time
     double slip_velocity;   // velocity
 } ObservationScales;
+
+// What node i does, as events, fronts and pictures count it.
+static inline uint8_t seen_status(const Observation *seen, int32_t i)
+{
+    uint8_t status = seen->state->status[i];
+    bool creeps = status_slips(status) &&
+                  slip_size(seen->interface, i, seen->state->slip_rate) < seen->creep;
+    return creeps ? CONTACT_STICK : status;
+}
 
 Observation observe(const StepControl *control, const ObservationScales *scales);
 

@@ -24,7 +24,7 @@ void pad_sums(const Observation *seen, PadSum *sums)
         PadSum *sum = &sums[interface->pad[i]];
         sum->normal_force += state->reaction[interface_normal(interface, i)];
         sum->shear -= state->reaction[interface_tangent(interface, i)];
-        if (!status_slips(state->status[i])) continue;
+        if (!status_slips(seen_status(seen, i))) continue;
         sum->slipping += interface->weight[i];
         sum->slipping_cells += cells_of(interface, i);
         sum->fastest = fmax(sum->fastest, slip_size(interface, i, state->slip_rate));

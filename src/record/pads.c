@@ -53,7 +53,7 @@ void pads_destroy(Pads *pads)
 static void mark_nodes(Pads *pads, const Observation *seen)
 {
     for (int32_t i = 0; i < pads->contact_count; i++) {
-        if (seen->state->status[i] == CONTACT_STICK)
+        if (seen_status(seen, i) == CONTACT_STICK)
             pads->stuck[i] = 1;
         else if (pads->stuck[i])
             pads->slipped[i] = 1;

@@ -80,7 +80,7 @@ static bool stands_out(const SeriesItem *items, int32_t count, int32_t period, i
 SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance, int32_t parts)
 {
     const Agreement asked = {tolerance, parts};
-    for (int32_t period = 1; period <= SERIES_PERIOD_MAX; period++) {
+    for (int32_t period = 1; period <= SERIES_PERIOD_LIMIT; period++) {
         int32_t agreeing = count_agreeing(items, count, period, &asked);
         if (agreeing > ROUNDS * period && REPEATING_PART * agreeing >= count &&
             stands_out(items, count, period, parts))

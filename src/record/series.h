@@ -30,7 +30,7 @@ typedef struct SeriesBranch {
     int32_t kind, count;
 } SeriesBranch;
 
-enum { SERIES_PERIOD_MAX = 8 };
+enum { SERIES_PERIOD_LIMIT = 8 };
 
 // Two items agree within `tolerance`, relative to the later one, and so do the states, the sum over
 // their parts within twice of it.

@@ -17,7 +17,7 @@ static bool all_slips(const Steady *steady, const Observation *seen)
 {
     int32_t slipping = 0;
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
-        if (seen->state->status[i] == CONTACT_STICK) return false;
+        if (seen_status(seen, i) == CONTACT_STICK) return false;
         slipping += status_slips(seen->state->status[i]);
     }
     return slipping > 0 && steady->events->rapid < 0;

@@ -51,7 +51,7 @@ void stretches_follow(Stretches *stretches, const Observation *seen)
 {
     if (stretches->stuck == 0) return;
     for (int32_t i = 0; i < stretches->contact_count; i++) {
-        if (seen->state->status[i] == CONTACT_STICK || stretches->slipped[i]) continue;
+        if (seen_status(seen, i) == CONTACT_STICK || stretches->slipped[i]) continue;
         stretches->slipped[i] = 1;
         stretches->stuck--;
     }

@@ -302,7 +302,7 @@ bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t in
     FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
     *part = (ReducedPart){.border = {.size = interface_count, .count = interface_count},
                           .mesh = {.size = bulk->dof_count, .count = bulk->dof_count}};
-    if (interface_count >= FAR_INTERFACE)
+    if (interface_count >= FAR_INTERFACE && !def->no_patches)
         TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &work.far, err));
     work.full = work.far.used ? &work.far.system : &work.mesh;
     if (!work.far.used)

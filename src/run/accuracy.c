@@ -20,7 +20,8 @@ enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
 static const double STEP = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
 // A run's time goes with a power of the cells along the contact: this before levels tell, and
 // between those whatever they tell, as times of short runs on a busy machine are noise.
-static const double GROWTH = 2.6, GROWTH_LEAST = 1.2, GROWTH_MOST = 4;
+static const double GROWTH[] = {2.6, 5}, GROWTH_LEAST[] = {1.2, 2},   // in the plane, in space
+    GROWTH_MOST[] = {4, 6.5};
 // A mesh may take so many times less than is expected: nine of ten runs are off by less
 // (validation/strangers/forecasts.py). One that time then cuts short costs time that nothing else
 // could use.
@@ -95,8 +96,10 @@ static double growth_ahead(const Accuracy *accuracy, double step)
 {
     const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
     double finer = log(last->nodes_along / first->nodes_along);
-    double power = finer > 0 ? log(seconds_of_run(last) / seconds_of_run(first)) / finer : GROWTH;
-    return pow(step, fmin(fmax(power, GROWTH_LEAST), GROWTH_MOST));
+    bool space = accuracy->levels.space;
+    double power = GROWTH[space];
+    if (finer > 0) power = log(seconds_of_run(last) / seconds_of_run(first)) / finer;
+    return pow(step, fmin(fmax(power, GROWTH_LEAST[space]), GROWTH_MOST[space]));
 }
 
 // Wall time that the next level will take, s.
@@ -151,7 +154,7 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = pow(accuracy->step, GROWTH) *
+        accuracy->out_of_time = pow(accuracy->step, GROWTH[accuracy->levels.space]) *
                                     accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;

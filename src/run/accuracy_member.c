@@ -16,7 +16,10 @@
 enum {
     CONTACT_NODES_MIN = 21,   // of the first level
     PAD_NODES_MIN = 5,   // of it on each piece of the contact
+    SPACE_NODES_MIN = 36,   // likewise in space: 6 x 6, and 3 x 3
+    SPACE_PAD_NODES_MIN = 9,
     PEAKS_MIN = 8,   // that count in a run, before its answer can be known
+    SPACE_PEAKS_MIN = 4,   // where each takes seconds to minutes
 };
 static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
 static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known; and
@@ -80,7 +83,8 @@ bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
     double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
     if (answers->steady) return true;
     if (answers->regime.run_in != RUN_IN_OVER) return false;
-    if (answers->peaks_counted >= PEAKS_MIN) return mu_M->error <= allowed * mu_M->value;
+    int32_t least = accuracy->levels.space ? SPACE_PEAKS_MIN : PEAKS_MIN;
+    if (answers->peaks_counted >= least) return mu_M->error <= allowed * mu_M->value;
     return answers->peaks_counted == 0 && answers->enough;
 }
 
@@ -131,12 +135,13 @@ cleanup:
 
 static bool contact_has_nodes(const Interface *interface)
 {
+    bool space = interface->dim > 2;
     for (int32_t pad = 0; pad < interface->pad_count; pad++) {
         int32_t nodes = 0;
         for (int32_t i = 0; i < interface->contact_count; i++) nodes += interface->pad[i] == pad;
-        if (nodes < PAD_NODES_MIN) return false;
+        if (nodes < (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN)) return false;
     }
-    return interface->contact_count >= CONTACT_NODES_MIN;
+    return interface->contact_count >= (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
 }
 
 // A StepCallback: says which run of which mesh it is, and what is known so far.
@@ -245,6 +250,7 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
+    accuracy->levels.space = interface->dim > 2;
     if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
     double begun = clock_seconds();
     step_until_known(accuracy, simulation, &wait, err);

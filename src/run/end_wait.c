@@ -9,14 +9,14 @@ static const double ROUNDING = 1e-6;   // of positions, in cells
 // Cells from the front to the leading end.
 static double cells_left(const Interface *interface, double front)
 {
-    int32_t last = interface_line_count(interface) - 1;
-    double end = interface_line_x(interface, last);
-    return (end - front) / (end - interface_line_x(interface, last - 1));
+    int32_t last = interface->contact_count - 1;
+    double end = interface->x[last];
+    return (end - front) / (end - interface->x[last - 1]);
 }
 
 static bool has_end(const Interface *interface)
 {
-    return interface->pad_count == 1 && interface_line_count(interface) > END_NODES;
+    return interface->dim == 2 && interface->pad_count == 1 && interface->contact_count > END_NODES;
 }
 
 void end_wait_watch(EndWait *wait, const Simulation *simulation)

@@ -3,7 +3,8 @@
 // front comes to the last nodes of the leading end before the block slides, these hold the block on
 // while mu rises, and by how much depends on their size: shorter cells let go sooner
 // (validation/paper/README.md). The rise from when the front comes to them until the block slides
-// is an error of the mesh. Called by run/accuracy after each step.
+// is an error of the mesh. In space a row of nodes lets go one by one, and bars hold without this
+// (validation/space/priors.md). Called by run/accuracy after each step.
 #ifndef AMONTONS_RUN_END_WAIT_H
 #define AMONTONS_RUN_END_WAIT_H
 
@@ -19,7 +20,7 @@ typedef struct EndWait {
 void end_wait_watch(EndWait *wait, const Simulation *simulation);
 
 // Mean rise of mu, where the front of slip comes to the last nodes and not past them before the
-// block slides (critical_length: the mean l_c, length). 0: it does not; or several pads.
+// block slides (critical_length: the mean l_c, length). 0: it does not; several pads; in space.
 double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length);
 
 #endif

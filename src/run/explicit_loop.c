@@ -31,7 +31,8 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
                        .law = &simulation->law,
                        .rod = &simulation->rod,
                        .course = control->scheme.course,
-                       .step = interval / steps};
+                       .step = interval / steps,
+                       .stage_laws = control->scheme.memory.laws};
     TRY(explicit_reference_create(&def, &simulation->explicit_reference, err));
     explicit_reference_start(&simulation->explicit_reference, &control->now);
     step_control_use_explicit(control, &simulation->explicit_reference);

@@ -24,7 +24,8 @@ bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err)
                               .mesh = clock_processor_seconds() - begun,
                               .reduction = reduced ? reduction : 0,
                               .steps = reduced ? cost->reduced : cost->full,
-                              .otherwise = reduced ? cost->full : reduction + cost->reduced};
+                              .otherwise = reduced ? cost->full : reduction + cost->reduced,
+                              .memory = reduced ? cost->bytes_reduced : cost->bytes_full};
 cleanup:
     model_destroy(&model);
     return error_is_clean(err);

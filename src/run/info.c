@@ -3,7 +3,6 @@
 #include "run/info.h"
 
 #include "amontons.h"
-#include "base/memory.h"
 #include "base/text.h"
 #include "model/model.h"
 #include "scene/keys.h"

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/files/open_file.h"
 #include "run/pictures.h"
 #include "run/warnings.h"
 #include "scene/window.h"
@@ -25,6 +26,23 @@ static char *join_pad_names(const Interface *interface, Error *err)
     return text;
 }
 
+// *points: [count * width] of the faces, as numbers; the caller's.
+static bool add_faces(const ContactFaces *faces, ResultHead *head, double **points, Error *err)
+{
+    int64_t count = (int64_t)faces->count * faces->width;
+    if (count == 0) return true;
+    TRY(*points = NEW_ARRAY(double, count, err));
+    for (int64_t k = 0; k < count; k++) (*points)[k] = faces->point[k];
+    head->faces[FACES_NODES].rows = faces->count;
+    head->faces[FACES_NODES].width = faces->width;
+    head->faces[FACES_NODES].values = *points;
+    head->faces[FACES_CORNERS].rows = faces->corner_count;
+    head->faces[FACES_CORNERS].width = 2;
+    head->faces[FACES_CORNERS].values = faces->corner;
+cleanup:
+    return error_is_clean(err);
+}
+
 // mu_M and l_c are NaN in the head: they are known at the end only.
 static bool open_history(Simulation *simulation, Error *err)
 {
@@ -36,6 +54,7 @@ static bool open_history(Simulation *simulation, Error *err)
         .units = scene->units == UNITS_SI ? "si" : "normalised",
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
+        .remembers = simulation->contact.state != NULL,
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_TRAILING] = simulation->model.scales.trailing,
@@ -50,20 +69,26 @@ static bool open_history(Simulation *simulation, Error *err)
                     [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
                     [NUMBER_ROD_LOW] = NAN,
                     [NUMBER_ROD_HIGH] = NAN,
+                    [NUMBER_ROD_BREADTH] = NAN,
                     [NUMBER_MU_M] = NAN,
                     [NUMBER_L_C] = NAN}};
     if (scene->rod.kind != ROD_NONE) {
         double middle = 0, width = 0;
         model_rod_strip(scene, simulation->model.height, &middle, &width);
-        head.numbers[NUMBER_ROD_LOW] = middle - 0.5 * width;
-        head.numbers[NUMBER_ROD_HIGH] = middle + 0.5 * width;
+        const double *face = model->interface.rod_face;
+        head.numbers[NUMBER_ROD_LOW] = scene->rod.whole ? face[0] : middle - 0.5 * width;
+        head.numbers[NUMBER_ROD_HIGH] = scene->rod.whole ? face[1] : middle + 0.5 * width;
+        if (scene->rod.breadth > 0) head.numbers[NUMBER_ROD_BREADTH] = scene->rod.breadth;
     }
+    double *points = NULL;
     char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));
+    TRY(add_faces(&model->interface.faces, &head, &points, err));
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->contact, &simulation->history, err));
 cleanup:
+    memory_free(points);
     memory_free(pads);
     return error_is_clean(err);
 }
@@ -90,9 +115,9 @@ static bool open_fields(Simulation *simulation, Error *err)
                      .at_events = scene->output.fields_at_events};
     if (scene->output.fields_film) {
         double V = fabs(scene->rod.velocity), U = scene->time.until_U;
-        double way = U > 0 ? U : V * scene->time.until_t;
+        double way = U > 0 ? U : V * scene->time.until_t, step = scene->output.film_step;
         def.at_events = true;
-        def.every_U = def.every_slip = way / FILM_PARTS;
+        def.every_U = def.every_slip = step > 0 ? step : way / FILM_PARTS;
     }
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
@@ -111,6 +136,8 @@ bool output_open(Simulation *simulation, Error *err)
     Window *window = &simulation->window;
     WindowDef def = scene_window(scene);
     *window = window_of(&def, &simulation->events);
+    if (scene->output.compare[0])   // not found out when all is computed
+        TRY(scene_blame(scene, "output.compare", open_check(scene->output.compare, err), err));
     if (scene->output.history) {
         TRY(open_history(simulation, err));
         recorders_add(!def.given                     ? &simulation->recorders
@@ -162,6 +189,8 @@ bool output_draw_figures(Simulation *simulation, Error *err)
         if (has_data(simulation, wanted->name[k])) names[count++] = wanted->name[k];
     if (count == 0) return true;
     PictureRequest request = {.figures = names, .figure_count = count};
+    const char *compare = simulation->scene.output.compare;
+    if (compare[0]) request.style.compare = compare;
     double started = clock_seconds();
     if (!pictures_draw(simulation->folder.path, &request, err)) return false;
     simulation->figures = count;

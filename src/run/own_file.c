@@ -12,10 +12,13 @@ static const char *const RESULT_FILES[] = {
     "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5",  "report.html"};
 static const char *const FIELDS[] = {"bulk_", ".vtu", "interface_", ".vtp"};
 
-#define FIGURE_FILE(id, name, words) name ".png", name ".pdf", name ".svg",
+#define FIGURE_FILE(id, name, words)                                                               \
+    name ".png", name ".pdf", name ".svg", name ".csv", name "-compared.csv",
 #define FIELD_FILE(id, name, ...) FIGURE_FILE(id, "field-" name, )   // of a quantity
-static const char *const FIGURES[] = {
-    RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE) "accuracy.png", "accuracy.json"};
+#define CONTACT_FILE(id, name, ...) FIGURE_FILE(id, "contact-plane-" name, )
+static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE)
+                                          CONTACT_QUANTITIES(CONTACT_FILE) "accuracy.png",
+                                      "accuracy.json"};
 
 const char *own_file_name(int32_t k)
 {

@@ -11,8 +11,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Processor time. Some minutes: far above what the longest history takes; of a film hours.
-enum { SECONDS_MAX = 600, FILM_SECONDS_MAX = 36000 };
+// Processor time. Some minutes: far above what the longest history takes.
+enum { SECONDS_MAX = 600 };
 
 bool pictures_draw(const char *folder, const PictureRequest *request, Error *err)
 {
@@ -25,7 +25,7 @@ bool amontons_picture_option(PictureStyle *style, const char *name, const char *
     return picture_option_set(style, name, value, err);
 }
 
-static bool check_folder(const char *folder, Error *err)
+bool pictures_check_folder(const char *folder, Error *err)
 {
     struct stat status;
     if (stat(folder, &status) != 0)
@@ -59,34 +59,7 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
                       .advice = "its history is damaged",
                       .read = draw_apart,
                       .context = &draw};
-    return check_folder(folder, err) && apart_do(&work, err);
-}
-
-typedef struct FilmWork {
-    const char *folder;
-    const FilmRequest *request;
-} FilmWork;
-
-static bool film_apart(void *context, FILE *reply, Error *err)
-{
-    const FilmWork *film = context;
-    (void)reply;
-    RenderFilmFunction render =
-        (RenderFilmFunction)module_function("render", "amontons_render_film", err);
-    return render && render(film->folder, film->request, err);
-}
-
-bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
-{
-    FilmWork film = {folder, request};
-    ApartWork work = {.path = folder,
-                      .reader = "HDF5 or VTK",
-                      .seconds = FILM_SECONDS_MAX,
-                      .advice = "its history is damaged",
-                      .stop = request->stop,
-                      .read = film_apart,
-                      .context = &film};
-    return check_folder(folder, err) && apart_do(&work, err);
+    return pictures_check_folder(folder, err) && apart_do(&work, err);
 }
 
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
@@ -95,11 +68,6 @@ bool amontons_render_plot_file(const char *plot, const char *picture, const Pict
     RenderPlotFunction render =
         (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
     TRY(render);
-    if (style && style->compare)
-        FAIL(err, ERROR_INPUT,
-             "%s: measurements are drawn beside the force or slip-map of a result: compare goes "
-             "with a result's folder",
-             plot);
     TRY(render(plot, picture, style, err));
 cleanup:
     return error_is_clean(err);

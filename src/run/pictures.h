@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pictures of a result whose history this process has written itself. Called by run/output.
+// Pictures of a result whose history this process has written itself. Called by run/output
+// and run/film.
 #ifndef AMONTONS_RUN_PICTURES_H
 #define AMONTONS_RUN_PICTURES_H
 
@@ -7,5 +8,8 @@
 
 // As amontons_render_result, but always in this process.
 bool pictures_draw(const char *folder, const PictureRequest *request, Error *err);
+
+// ERROR_INPUT: it is no folder.
+bool pictures_check_folder(const char *folder, Error *err);
 
 #endif

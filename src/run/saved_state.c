@@ -32,7 +32,8 @@ enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
 static bool key_counts(const char *key)
 {
     static const char *const free[] = {"title",           "mesh.file",       "friction.file",
-                                       "contact.profile", "reduction.cache", "output.figures"};
+                                       "contact.profile", "reduction.cache", "output.figures",
+                                       "output.compare"};
     for (size_t k = 0; k < sizeof free / sizeof free[0]; k++)
         if (strcmp(key, free[k]) == 0) return false;
     return strncmp(key, "time.until", strlen("time.until")) != 0;

@@ -19,8 +19,6 @@
 #include "scene/programs.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 // Static balance of moments is asked of frames in which inertia has no part: the longest step was
 // taken there, and the last rapid event, the last state that was not certified and the rod's start
@@ -46,7 +44,8 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(&simulation->recorders, &simulation->events, events_record);
     TRY(drops_create(&simulation->model.interface, &simulation->events,
                      simulation->scene.time.periodic_tolerance, &simulation->drops, err));
-    simulation->drops.mu_static = simulation->model.law.mu_static;
+    bool remembers = simulation->control.scheme.memory.laws != NULL;
+    simulation->drops.mu_static = remembers ? NAN : simulation->model.law.mu_static;
     recorders_add(&simulation->recorders, &simulation->drops, drops_record);
     simulation->steady =
         steady_of(&simulation->events, model_friction_slip(&simulation->model) +

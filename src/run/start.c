@@ -5,6 +5,7 @@
 #include "run/start.h"
 
 #include "base/clock.h"
+#include "contact/friction_state.h"
 #include "model/step_rule.h"
 #include "scene/programs.h"
 #include "stepping/relaxation.h"
@@ -32,6 +33,7 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
     def.relax_step = model->scales.time;
+    def.slip_per_mu = model_slip_per_mu(model);
     simulation->t_end = step_rule_end(scene);
     bool held = scene->start.rod == START_ROD_HELD;
     RodKind kind = held ? ROD_KINDS[scene->rod.kind] : ROD_AWAY;
@@ -40,7 +42,8 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     Block block = {.system = &model->system,
                    .interface = &model->interface,
                    .law = &simulation->law,
-                   .rod = &simulation->rod};
+                   .rod = &simulation->rod,
+                   .stage_laws = model->node_laws};
     TRY(step_control_create(&block, &def, &simulation->control, err));
 cleanup:
     return error_is_clean(err);
@@ -103,7 +106,10 @@ bool start_relax(Simulation *simulation, Error *err)
                          .duration_max = scene->start.duration_max * model->scales.time,
                          .may_go_on = may_go_on,
                          .self = simulation};
-    if (scene->start.friction == START_FRICTION_OFF) simulation->law = friction_constant(0);
+    if (scene->start.friction == START_FRICTION_OFF)
+        simulation->law = friction_constant(0);
+    else if (friction_creeps(&model->law))   // no block ever settles on what never sticks
+        simulation->law = friction_constant(model->law.own.memory.reference);
     if (scene->start.state == START_RELAXED)
         TRY(relax(&simulation->control, &def, &simulation->relaxation_steps, err));
     simulation->law = model->law;
@@ -115,6 +121,7 @@ bool start_relax(Simulation *simulation, Error *err)
     if (scene->rod.kind != ROD_NONE && !held) touch_rod(simulation);
     if (scene->start.velocity_x != 0 || scene->start.velocity_z != 0)
         set_moving(model, &simulation->control.now);
+    friction_states_reset(&simulation->control.scheme.memory, &simulation->control.now);
     step_control_restart(&simulation->control);
 cleanup:
     simulation->timing.relax = clock_seconds() - started;

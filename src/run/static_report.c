@@ -10,7 +10,6 @@
 #include "record/field_files.h"
 #include "scene/keys.h"
 
-#include <math.h>
 #include <stdio.h>
 
 enum { PATH_SIZE = 1200 };
@@ -62,17 +61,6 @@ typedef struct Column {
     const double *values;
     int64_t rows;
 } Column;
-
-static bool write_columns(ArrayFile *file, const Column *columns, int32_t count, Error *err)
-{
-    for (int32_t k = 0; k < count; k++) {
-        if (!array_file_add_series(file, &columns[k].series, err)) return false;
-        if (!array_file_append(file, columns[k].series.name, columns[k].values, columns[k].rows,
-                               err))
-            return false;
-    }
-    return true;
-}
 
 // number: [nodes], stress: of the solution; contact: [4][contacts] node, status, x, weight.
 static bool write_arrays(const char *folder, const Model *model, const StaticSolution *solution,
@@ -127,7 +115,8 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
          contacts}};
     snprintf(path, sizeof path, "%s/static.h5", folder);
     TRY((file = array_file_create(path, err)));
-    TRY(write_columns(file, columns, (int32_t)(sizeof columns / sizeof columns[0]), err));
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        TRY(array_file_write(file, &columns[k].series, columns[k].values, 0, columns[k].rows, err));
 cleanup:
     memory_free(number);
     memory_free(contact);

@@ -8,6 +8,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "fem/element_group.h"
 #include "contact/contact_check.h"
 #include "model/contact_laws.h"
@@ -286,6 +287,11 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
     ResultFolder place = {0};
     *summary = (StaticSummary){0};
     dense_use_one_thread();
+    if (friction_remembers(&scene->friction, 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: friction.law: what holds at rest goes by what the contacts remember; `%s` is for "
+             "`amontons run`",
+             scene->path, friction_law_name(&scene->friction));
     TRY(result_folder_claim(folder, overwrite, &place, err));
     TRY(model_read_mesh(&model, err));
     TRY(model_build_bulk(&model, err));

@@ -4,6 +4,7 @@
 #include "scene/check.h"
 
 #include "amontons.h"
+#include "contact/friction_make.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
 #include "scene/window.h"
@@ -132,7 +133,8 @@ static bool check_friction(const Check *check)
     if (weakens && mu_kinetic > mu_static)
         return blame(check, "friction.mu_kinetic", "%g is more than mu_static (%g)", mu_kinetic,
                      mu_static);
-    if (weakens && !(scene->friction.critical_velocity > 0))
+    bool fades = friction_use(&scene->friction, "critical_velocity") == FRICTION_MUST;
+    if (fades && !(scene->friction.critical_velocity > 0))
         return blame(check, "friction.critical_velocity",
                      "a weakening law needs it; allowed: a number > 0");
     return true;
@@ -318,6 +320,8 @@ static bool check_output(const Check *check)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need "
                      "output.history: true");
+    if (scene->output.compare[0] && scene->output.figures.count == 0)
+        return blame(check, "output.compare", "output.figures names no picture to draw it in");
     for (int32_t k = 0; k < scene->output.figures.count; k++) {
         if (strcmp(scene->output.figures.name[k], "field") == 0 && !scene->output.fields)
             return blame(check, "output.figures",

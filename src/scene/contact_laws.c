@@ -5,6 +5,8 @@
 
 #include "base/memory.h"
 #include "contact/friction_look.h"
+#include "contact/friction_make.h"
+#include "contact/friction_state.h"
 #include "scene/own_law.h"
 
 #include <stdio.h>
@@ -50,9 +52,18 @@ cleanup:
 }
 
 // What is not the scene's law must be one of the built-in laws, or a formula of its own.
-static bool check_item(const SceneContactLaw *item, const FrictionLaw *law, Error *err)
+static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law,
+                       const FrictionLaw *law, Error *err)
 {
     bool own = friction_is_own(law), formula = friction_use(law, "formula") == FRICTION_MUST;
+    bool creeps = law->kind == FRICTION_RATE_STATE;
+    if (friction_remembers(law, 0) && law->kind != scene_law->kind)
+        FAIL(err, ERROR_INPUT,
+             "`%s` takes numbers that friction gives, so friction.law has to be the same",
+             friction_law_name(law));
+    if (creeps && (item->has_static || item->has_kinetic || item->has_critical))
+        FAIL(err, ERROR_INPUT, "`%s` can be scaled here (along), or replaced by another law",
+             friction_law_name(law));
     if (own && !formula)
         FAIL(err, ERROR_INPUT,
              "a %s is for the whole contact; here it can be scaled (along), or replaced by another "
@@ -64,7 +75,8 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *law, Erro
     if (!own && law->mu_kinetic > law->mu_static)
         FAIL(err, ERROR_INPUT, "mu_kinetic: %g is more than mu_static (%g)", law->mu_kinetic,
              law->mu_static);
-    if (!own && friction_has_drop(law) && !(law->critical_velocity > 0))
+    bool fades = friction_use(law, "critical_velocity") == FRICTION_MUST;
+    if (!own && fades && !(law->critical_velocity > 0))
         FAIL(err, ERROR_INPUT, "critical_velocity: a weakening law needs it");
 cleanup:
     return error_is_clean(err);
@@ -83,9 +95,10 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, Friction
                          .mu_kinetic = item->mu_kinetic,
                          .critical_velocity = item->critical_velocity};
     if (!friction_has_drop(law)) law->mu_kinetic = law->mu_static;
-    TRY(check_item(item, law, err));
+    TRY(check_item(item, &scene->friction, law, err));
     if (friction_is_own(law))
         TRY(friction_own_law(&source, law, &key, err) && friction_look(law, err));
+    TRY(scene_remember(scene, law, &key, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -38,13 +38,20 @@ static void write_tractions(const Scene *scene, JsonWriter *json, const char *na
     json_end(json);
 }
 
+// The word of the scene.
+static const char *support_direction(const SceneSupport *support)
+{
+    if (support->x && support->z) return support->y ? "all" : "both";
+    return support->x ? "x" : support->y ? "y" : "z";
+}
+
 static void write_supports(const Scene *scene, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
     for (int32_t i = 0; i < scene->load.support_count; i++) {
         json_begin_object(json, NULL);
         json_text(json, "group", scene->load.supports[i].group);
-        json_text(json, "direction", scene_support_direction(&scene->load.supports[i]));
+        json_text(json, "direction", support_direction(&scene->load.supports[i]));
         json_end(json);
     }
     json_end(json);
@@ -103,9 +110,17 @@ static void write_file(const char *path, JsonWriter *json, const char *name, con
     json_text(json, name, file);
 }
 
-// name: the last word of the key. An output.fields that is a map never comes here: its keys follow
-// by themselves.
-static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
+static bool is_file(const char *key)
+{
+    static const char *const files[] = {"mesh.file", "friction.file", "contact.profile",
+                                        "output.compare"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++)
+        if (strcmp(key, files[k]) == 0) return true;
+    return false;
+}
+
+// Of an output.fields that is a map the keys follow by themselves.
+void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
     const void *field = (const char *)scene + key->offset;
     switch (key->type) {
@@ -144,7 +159,7 @@ static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *jso
         write_materials(field, json, name);
         return;
     case KEY_FIELDS:
-        json_text(json, name, "none");
+        json_text(json, name, scene->output.fields ? "as below" : "none");
         return;
     }
 }
@@ -181,14 +196,10 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
             json_begin_object(json, open[depth++]);
             rest = dot + 1;
         }
-        if (strcmp(keys[k].name, "mesh.file") == 0)
-            write_file(scene->mesh.file, json, rest, folder);
-        else if (strcmp(keys[k].name, "friction.file") == 0)
-            write_file(scene->own_friction.file, json, rest, folder);
-        else if (strcmp(keys[k].name, "contact.profile") == 0)
-            write_file(scene->contact.profile, json, rest, folder);
+        if (is_file(keys[k].name))
+            write_file((const char *)scene + keys[k].offset, json, rest, folder);
         else
-            write_value(&keys[k], scene, json, rest);
+            scene_write_value(&keys[k], scene, json, rest);
     }
     for (; depth >= 0; depth--) json_end(json);
 }

@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "render/render.h"
 
-#include <math.h>
 #include <string.h>
 
 // Choices stand in the order of their enums in scene/scene.h and contact/friction_law.h.
@@ -19,6 +18,7 @@ static const char *const law_choices[] = {
 #undef X
         NULL};
 static const char *const interpolation_choices[] = {"cubic", "linear", NULL};
+static const char *const evolution_choices[] = {"ageing", "slip", NULL};
 static const char *const rod_ends_choices[] = {"exact", "nodes", NULL};
 static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
@@ -73,7 +73,7 @@ static const SceneKey keys[] = {
     {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
      .sentence =
          "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` "
-         "are one's own.",
+         "are one's own; `ageing`, `slip-weakening` and `rate-and-state` remember.",
      .choices = law_choices},
     {"friction.mu_static", KEY_NUMBER, offsetof(Scene, friction.mu_static), "1", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Local coefficient mu_S at rest; one's own law has it."},
@@ -112,6 +112,40 @@ static const SceneKey keys[] = {
      .sentence =
          "Laws `formula` and `plugin`: slip rate beyond which mu stays, and up to which it is "
          "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
+    {"friction.slip_distance", KEY_NUMBER, offsetof(Scene, own_friction.slip_distance), "length",
+     RANGE_POSITIVE, NULL, .may_lack = true,
+     .sentence = "Laws with memory: slip D_c over which contacts lose what they had."},
+    {"friction.healing_time", KEY_NUMBER, offsetof(Scene, own_friction.healing_time), "time",
+     RANGE_POSITIVE, NULL, .may_lack = true,
+     .sentence = "Law `ageing`: theta_0 of 1 + beta ln(1 + theta/theta_0); `slip-weakening`: time "
+                 "t_h in which strength comes back at rest, but for 1/e."},
+    {"friction.healing", KEY_NUMBER, offsetof(Scene, own_friction.healing), "1", RANGE_NOT_NEGATIVE,
+     NULL, .may_lack = true,
+     .sentence = "Law `ageing`: beta, by which part of mu friction grows each time that the age "
+                 "is e times as much."},
+    {"friction.direct_effect", KEY_NUMBER, offsetof(Scene, own_friction.direct_effect), "1",
+     RANGE_POSITIVE, NULL, .may_lack = true,
+     .sentence = "Law `rate-and-state`: a, by which mu rises at once when slip is e times as "
+                 "fast."},
+    {"friction.evolution_effect", KEY_NUMBER, offsetof(Scene, own_friction.evolution_effect), "1",
+     RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
+     .sentence = "Law `rate-and-state`: b, by which mu falls again over slip_distance; above a "
+                 "friction weakens."},
+    {"friction.mu_reference", KEY_NUMBER, offsetof(Scene, own_friction.mu_reference), "1",
+     RANGE_POSITIVE, NULL, .may_lack = true,
+     .sentence = "Law `rate-and-state`: f_0, mu of steady slip at reference_velocity."},
+    {"friction.reference_velocity", KEY_NUMBER, offsetof(Scene, own_friction.reference_velocity),
+     "velocity", RANGE_POSITIVE, NULL, .may_lack = true,
+     .sentence = "Law `rate-and-state`: V_0, for mu_reference."},
+    {"friction.evolution", KEY_CHOICE, offsetof(Scene, own_friction.evolution), "1", RANGE_ANY,
+     NULL, .may_lack = true,
+     .sentence = "Law `rate-and-state`: contacts strengthen at rest (`ageing`; if not given) or "
+                 "by slip alone (`slip`).",
+     .choices = evolution_choices},
+    {"friction.rest", KEY_NUMBER, offsetof(Scene, own_friction.rest), "time", RANGE_POSITIVE, NULL,
+     .may_lack = true,
+     .sentence = "Laws with memory: how long the contacts have rested when the rod begins to move; "
+                 "if not given, they are as in steady slip at rod.velocity."},
     {"friction.along", KEY_TEXT, offsetof(Scene, own_friction.along), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, "
@@ -289,8 +323,7 @@ static const SceneKey keys[] = {
     {"output.fields", KEY_FIELDS, offsetof(Scene, output.fields), "1", RANGE_ANY, "none",
      .sentence = "Fields of the block for ParaView (fields.pvd): `none`, or when to write them."},
     {"output.fields.every_U", KEY_NUMBER, offsetof(Scene, output.fields_every_U), "length",
-     RANGE_NOT_NEGATIVE, "0",
-     .sentence = "A file each time the rod has moved this far; 0: not by U."},
+     RANGE_NOT_NEGATIVE, "0", .sentence = "A file each time the rod has moved this far; 0: none."},
     {"output.fields.every_t", KEY_NUMBER, offsetof(Scene, output.fields_every_t), "time",
      RANGE_NOT_NEGATIVE, "0",
      .sentence = "A file each time this much time has passed; 0: not by time."},
@@ -322,22 +355,12 @@ static const SceneKey keys[] = {
      .sentence = "true: history.h5 has the steps of the window only; else all."},
     {"output.figures", KEY_NAMES, offsetof(Scene, output.figures), "1", RANGE_ANY, "[]",
      .sentence = "The pictures to draw at the end.", .choices = figure_choices},
+    {"output.compare", KEY_TEXT, offsetof(Scene, output.compare), "1", RANGE_ANY, NULL,
+     .may_lack = true, .sentence = "Measurements (.csv) to be drawn beside it, with the misfit."},
 };
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 _Static_assert((int)KEY_COUNT <= (int)SCENE_KEYS_MAX, "Scene.given is too short");
-
-typedef struct Range {
-    double low, high;   // high is allowed
-    bool low_allowed;
-    const char *words;
-} Range;
-
-static const Range ranges[] = {
-#define X(range, low, low_allowed, high, words) [range] = {low, high, low_allowed, words},
-    SCENE_RANGES(X)
-#undef X
-};
 
 const SceneKey *scene_keys(int32_t *count)
 {
@@ -401,49 +424,4 @@ const char *scene_key_nearest(const char *name)
     int32_t nearest = text_nearest(name, names, COUNT);
     if (nearest < 0) nearest = text_nearest(last_word(name), words, COUNT);
     return nearest < 0 ? NULL : names[nearest];
-}
-
-// Never for what is not finite.
-bool scene_range_holds(SceneRange range, double value)
-{
-    const Range *within = &ranges[range];
-    if (!isfinite(value)) return false;
-    if (value < within->low || value > within->high) return false;
-    return value != within->low || within->low_allowed;
-}
-
-const char *scene_range_words(SceneRange range)
-{
-    return ranges[range].words;
-}
-
-static void join_choices(const char *const *choices, char *words, int32_t size)
-{
-    int32_t used = (int32_t)strlen(words);
-    for (int32_t k = 0; choices[k] && used < size; k++)
-        used += snprintf(words + used, (size_t)(size - used), "%s%s", k ? ", " : "", choices[k]);
-}
-
-// The list of choices is joined behind the words; what does not fit into `size` is cut.
-void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
-{
-    static const char *const by_type[] = {
-        [KEY_FLAG] = "true or false",
-        [KEY_TEXT] = "a text of at most 511 bytes",
-        [KEY_NAME] = "a name of 1 to 63 bytes",
-        [KEY_CHOICE] = "one of ",
-        [KEY_NUMBERS] = "a list of at most 64 numbers, each ",
-        [KEY_NAMES] = "a name or a list of at most 32 names",
-        [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
-        [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
-        [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
-        [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
-        [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
-        [KEY_FIELDS] = "none, film, or a map of every_U, every_t, every_step, at_events, film",
-    };
-    const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
-    bool names = key->type == KEY_NAMES && key->choices, none = scene_key_may_be_none(key);
-    snprintf(words, (size_t)size, "%s%s%s", none ? "none, or " : "", names ? "a list of: " : text,
-             key->type == KEY_NUMBERS ? ranges[key->range].words : "");
-    if (key->choices) join_choices(key->choices, words, size);
 }

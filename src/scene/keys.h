@@ -88,6 +88,9 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size);
 // The value of `key` in `scene` as it would be written in YAML.
 void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32_t size);
 
+// The same as an item called `name`.
+void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name);
+
 // Every parameter after defaults, as the object `name` of the document: the scene's own keys,
 // nested as in YAML, so that it can be read again as a scene. mesh.file as seen from `folder`, in
 // which the document stands.

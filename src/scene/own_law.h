@@ -5,10 +5,15 @@
 
 #include "scene/scene.h"
 
-// Completes scene->friction where it is a table, a formula or a plug-in; else does nothing.
+// Completes scene->friction where it is a table, a formula or a plug-in, or has memory; else does
+// nothing.
 // *key: of the map `friction`, which is wrong (ERROR_INPUT, with the velocity where the law is not
 // one to work with).
 bool scene_own_law(Scene *scene, const char **key, Error *err);
+
+// Completes a law with memory, which has its kind and its numbers; does nothing to others. *key as
+// above.
+bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Error *err);
 
 // The slip rate up to which a formula or plug-in is asked: friction.velocity_max, or that of sound.
 double scene_fastest_slip(const Scene *scene);

@@ -110,8 +110,10 @@ typedef struct Scene {
         double fields_every_U, fields_every_t;
         bool fields_every_step, fields_at_events, fields_film;
         SceneWindow window;
+        double film_step;   // no key: between two files of a film, length; 0: by time.until
         bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of render's RENDER_FIGURES
+        char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file
     } output;
     bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
     int32_t line[SCENE_KEYS_MAX];   // where, in the file `path`, from 1; 0: not in that file
@@ -126,8 +128,7 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
                 Scene *scene, Error *err);
 
 // Passes on whether a use of the value of `key` was `done`. If not, the error is wrong input, and
-// says where that value stands: "FILE:LINE: KEY: ...", without a line where the file does not give
-// it.
+// says where it stands: "FILE:LINE: KEY: ...", without a line where the file does not give it.
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err);
 
 // `key` as after --set, the value a node of another document (a study's), which errors show.
@@ -137,8 +138,7 @@ typedef struct SceneSetting {
     YamlNode node;
 } SceneSetting;
 
-// A scene file that is read once, for many scenes that differ in their settings.
-typedef struct SceneSource SceneSource;
+typedef struct SceneSource SceneSource;   // a file read once, for many scenes of other settings
 bool scene_source_open(const char *path, SceneSource **source, Error *err);
 void scene_source_close(SceneSource *source);   // also of one half opened
 bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,

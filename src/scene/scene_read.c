@@ -332,6 +332,7 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     TRY(resolve_file(path, "mesh.file", scene->mesh.file, err));
     TRY(resolve_file(path, "friction.file", scene->own_friction.file, err));
     TRY(resolve_file(path, "contact.profile", scene->contact.profile, err));
+    TRY(resolve_file(path, "output.compare", scene->output.compare, err));
     done = scene_profile_read(scene, &profile, err);
     scene_profile_destroy(&profile);
     TRY(scene_blame(scene, "contact.profile", done, err));

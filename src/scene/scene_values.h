@@ -47,8 +47,6 @@ typedef struct SceneSupport {
     char group[GROUP_NAME_SIZE];
     bool x, y, z;
 } SceneSupport;
-// The word of the scene: "x", "y", "z", "both" (x and z) or "all".
-const char *scene_support_direction(const SceneSupport *support);
 
 // The numbers of a material, in the order of scene/materials.
 enum {
@@ -73,6 +71,7 @@ typedef struct SceneMaterials {
 } SceneMaterials;
 
 typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
+typedef enum SceneEvolution { EVOLUTION_AGEING, EVOLUTION_SLIP } SceneEvolution;
 
 // What the map `friction` has beside the kind of law and its three numbers.
 typedef struct SceneOwnFriction {
@@ -81,6 +80,11 @@ typedef struct SceneOwnFriction {
     char formula[SCENE_TEXT_SIZE];
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
+    // Of laws with memory (contact/friction_memory).
+    double slip_distance, healing_time, healing;
+    double direct_effect, evolution_effect, mu_reference, reference_velocity;
+    SceneEvolution evolution;
+    double rest;   // of the contacts before the rod moves, time; 0: not given
     char along[SCENE_TEXT_SIZE];   // factor on mu, a formula of x; empty: 1
 } SceneOwnFriction;
 

@@ -60,15 +60,15 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// part S + (1 - part) S_C - W on F, part < 1, is positive definite; S that of `rung`. Parts of
-// condensed operators are less than their parts condensed: with open nodes the test is a little
-// stricter between its ends.
+// part S + (1 - part) S_C - W - M(reach) on F, part < 1, is positive definite; S that of `rung`.
+// Parts of condensed operators are less than their parts condensed: with open nodes the test is a
+// little stricter between its ends.
 static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *rung,
-                        double part)
+                        double part, double reach)
 {
     MovingSet *moving = &certificate->moving;
     moving_set_find(moving, state, false);
-    if (!moving->weakens) return true;   // S itself is never indefinite
+    if (!moving->weakens && !moving->remembers) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
     if (certificate->damping)
         damping = close_matrix(certificate, state, &certificate->damping_contact);
@@ -78,15 +78,16 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     if (part > 0) moving_set_gather(moving, own, part, 1, certificate->matrix);
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
-    moving_set_subtract_weakening(moving, certificate->matrix);
+    moving_set_subtract_weakening(moving, 0, certificate->matrix);
+    moving_set_subtract_memory(moving, reach, certificate->matrix);
     certificate->checks++;
     return dense_cholesky(certificate->matrix, moving->count);
 }
 
-bool certificate_holds(Certificate *certificate, const State *state)
+bool certificate_holds(Certificate *certificate, const State *state, double reach)
 {
     double started = clock_seconds();
-    bool holds = is_definite(certificate, state, NULL, 0);
+    bool holds = is_definite(certificate, state, NULL, 0, reach);
     certificate->seconds += clock_seconds() - started;
     return holds;
 }
@@ -100,7 +101,7 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, L
     bool less = ladder_fill(ladder);   // BETWEEN_RUNGS is that of neighbours
     for (int32_t k = 0; less && k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) less = is_definite(certificate, state, rung, part);
+        if (rung) less = is_definite(certificate, state, rung, part, 0);
     }
     certificate->seconds += clock_seconds() - started;
     return less;
@@ -117,36 +118,38 @@ static void fill_coupled(Certificate *certificate, const double *closed)
 
 // x'J x > 0 for all x: no eigenvalue of J has a real part below 0, so that det J > 0. At half the
 // cost of LU.
-static bool is_positive(Certificate *certificate, const double *closed)
+static bool is_positive(Certificate *certificate, const double *closed, double reach)
 {
     MovingSet *moving = &certificate->moving;
     moving_set_gather_symmetric(moving, closed, certificate->matrix);
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
-    moving_set_subtract_weakening(moving, certificate->matrix);
+    moving_set_subtract_weakening(moving, reach, certificate->matrix);
     return dense_cholesky(certificate->matrix, moving->count);
 }
 
 // det J > 0 at the s of `rung`; what moves has been found. false, too: nothing holds the open
 // nodes.
-static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *rung)
+static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *rung,
+                        double reach)
 {
     const double *closed = close_matrix(certificate, state, rung);
     int32_t *pivots = certificate->pivots, count = certificate->moving.count;
     if (!closed) return false;
     certificate->checks++;
-    if (is_positive(certificate, closed)) return true;
+    if (is_positive(certificate, closed, reach)) return true;
     fill_coupled(certificate, closed);
-    moving_set_subtract_weakening(&certificate->moving, certificate->matrix);
+    moving_set_subtract_weakening(&certificate->moving, reach, certificate->matrix);
     return dense_lu(certificate->matrix, count, pivots) &&
            dense_lu_sign(certificate->matrix, count, pivots) > 0;
 }
 
-bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung)
+bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung,
+                               double reach)
 {
     double started = clock_seconds();
     moving_set_find(&certificate->moving, state, false);
-    bool resolves = is_resolved(certificate, state, rung);
+    bool resolves = is_resolved(certificate, state, rung, reach);
     certificate->seconds += clock_seconds() - started;
     return resolves;
 }
@@ -159,7 +162,7 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
     moving_set_find(&certificate->moving, state, false);
     for (int32_t k = 0; k < ladder->rung_count && !found; k++) {
         ContactMatrix *rung = k == resolved ? NULL : ladder_contact(ladder, k);
-        found = rung && !is_resolved(certificate, state, rung);
+        found = rung && !is_resolved(certificate, state, rung, ladder_reach(ladder, k));
     }
     certificate->seconds += clock_seconds() - started;
     return found;

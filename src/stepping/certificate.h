@@ -26,6 +26,15 @@
 //     concave.) With a = cos(arctan(pi/log g)) what oscillates grows by less than g in half a
 //     period.
 //
+// Friction that remembers has W(s) = W + memory/(s + fading) (stepping/moving_set), memory and
+// fading diagonal. The second test takes W(s) of its own s. In place of the first, for a step dt
+// with h = gamma dt:
+//
+//   * S_C[F,F] - W - M positive definite, M = h memory/sqrt(1 + (h fading)^2): |lambda| < 1/h for
+//     all that grows, so that the step resolves it. (For x = exp(lambda t) u with Re lambda >= 0,
+//     |lambda| >= 1/h, the real part of u*(lambda m + c + k/lambda - memory/(lambda + fading))u is
+//     at least u*(C - W - M)u, as |lambda + fading|^2 >= 1/h^2 + fading^2: it cannot be 0.)
+//
 // a = 0 is the first test. Both leave out that pressure follows slip. Dampers of soft rod nodes
 // belong to C; their springs are left out, which only makes the tests stricter. Called by
 // stepping/step_control.
@@ -49,11 +58,13 @@ typedef struct Certificate {
 bool certificate_create(const Block *block, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
 
-// The slip set of `state` cannot gain energy.
-bool certificate_holds(Certificate *certificate, const State *state);
+// The slip set of `state` cannot gain energy. Where friction remembers: |lambda| < 1/reach of all
+// that grows, reach: gamma dt of a step, time.
+bool certificate_holds(Certificate *certificate, const State *state, double reach);
 
-// det J > 0: no single real rate of growth lies above 1/(gamma dt), dt that of `rung`.
-bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung);
+// det J > 0: no single real rate of growth lies above 1/reach, reach: gamma dt of `rung`.
+bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung,
+                               double reach);
 
 // det J > 0 fails on some rung that is built; on rung `resolved` it is known to hold (-1: on none).
 bool certificate_finds_runaway(Certificate *certificate, const State *state, Ladder *ladder,

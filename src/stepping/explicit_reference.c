@@ -5,10 +5,10 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>
-#include <string.h>
 
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err)
 {
@@ -119,6 +119,20 @@ static void resolve_slip(const ExplicitReference *scheme, int32_t i, double stre
     }
 }
 
+// The law of node i in this step; and its state at the end of it.
+static void start_memory(const ExplicitReference *scheme, int32_t i, const State *state)
+{
+    if (scheme->def.stage_laws)
+        friction_set_stage(&scheme->def.stage_laws[i], state->theta[i], 0.5 * scheme->def.step);
+}
+
+static void end_memory(const ExplicitReference *scheme, int32_t i, State *state)
+{
+    if (!scheme->def.stage_laws) return;
+    double speed = slip_size(scheme->def.interface, i, state->slip_rate);
+    state->theta[i] = 2 * friction_state(&scheme->def.stage_laws[i], speed) - state->theta[i];
+}
+
 // Contact node i; returns the power it dissipates.
 static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
 {
@@ -134,6 +148,7 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     double initial = interface_gap(scheme->def.interface, i);
     double gap = start[last] + initial, bound = -gap / step;
     scheme->bound[t + last] = bound;
+    start_memory(scheme, i, state);
     if (v[last] >= bound) {
         state->status[i] = CONTACT_OPEN;
         for (int32_t d = 0; d <= last; d++) reaction[d] = 0;
@@ -149,6 +164,7 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         slip_rate[d] = v[d];
         power -= mean_power(reaction[d], before[d], v[d]);
     }
+    end_memory(scheme, i, state);
     return power;
 }
 

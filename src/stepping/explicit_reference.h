@@ -16,6 +16,9 @@
 //                which has the direction of the free v_t
 //     rod        v'_x >= (target(t_n+1) - u_n)/dt,  r_x >= 0, complementary; bonded: =
 //
+// What friction remembers is stepped by the midpoint rule, theta' = theta + dt g(|v'_t|, (theta +
+// theta')/2), and friction takes the mean, too: both stand at the time of v', half a step on.
+//
 // A rod on a spring couples its nodes: first its own velocity is found, for which their forces and
 // the spring's are in balance at t_n+1.
 // Where weakening outruns the node's inertia, (dt/m) r_n |mu'| > 1, a node could both stick and
@@ -36,6 +39,7 @@ typedef struct ExplicitDef {
     const Rod *rod;
     const LoadCourse *course;   // NULL: the load stays
     double step;   // dt, time
+    FrictionLaw *stage_laws;   // as in Block (stepping/state); NULL: nothing is remembered
 } ExplicitDef;
 
 typedef struct ExplicitReference {

@@ -9,8 +9,8 @@
 // A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
 // one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w:
 // the soft ends of its strip are led by it. Of each shift's space only pairs whose residual is
-// below RESIDUAL are believed; neighbouring shifts see some of them twice, and keep_rate drops
-// the second.
+// below RESIDUAL_LIMIT are believed; neighbouring shifts see some of them twice, and keep_rate
+// drops the second.
 #include "stepping/growth.h"
 
 #include "base/dense.h"
@@ -21,8 +21,9 @@
 #include <string.h>
 
 // Shifts of the scan from one of Arnoldi's to the next, whose spaces overlap; vectors of a space.
-enum { STRIDE = 3, VECTORS = 40 };
-static const double RESIDUAL = 1e-8;   // of an eigenpair that is believed: |P u| against its terms
+enum { STRIDE = 3, VECTORS_LIMIT = 40 };
+static const double RESIDUAL_LIMIT =
+    1e-8;   // of an eigenpair that is believed: |P u| against its terms
 static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative: such agree to 1e-7,
     // others differ by 1e-4
 static const double NO_RATE = 1e-7;   // |theta| s below it is 0: of a rod, which has no mass, or of
@@ -41,12 +42,12 @@ struct Growth {
     double *step;   // [interface_count]
     double *g, *border;   // [interface_count]
     double *rhs, *image;   // [dof_count]
-    double *basis;   // [state_size * (VECTORS + 1)] orthonormal
-    double *eigen_work;   // [dense_eigen_work(VECTORS)]
+    double *basis;   // [state_size * (VECTORS_LIMIT + 1)] orthonormal
+    double *eigen_work;   // [dense_eigen_work(VECTORS_LIMIT)]
     double *mode_re, *mode_im, *real_mode;   // [interface_count]
-    double projected[(VECTORS + 1) * VECTORS];   // Hessenberg
-    double square[VECTORS * VECTORS], ritz[VECTORS * VECTORS];
-    double theta_re[VECTORS], theta_im[VECTORS], dots[VECTORS];
+    double projected[(VECTORS_LIMIT + 1) * VECTORS_LIMIT];   // Hessenberg
+    double square[VECTORS_LIMIT * VECTORS_LIMIT], ritz[VECTORS_LIMIT * VECTORS_LIMIT];
+    double theta_re[VECTORS_LIMIT], theta_im[VECTORS_LIMIT], dots[VECTORS_LIMIT];
 };
 
 static int64_t state_size(const Growth *growth)
@@ -61,8 +62,8 @@ GrowthDef growth_def(double length, double speed, int32_t contact_count)
     return (GrowthDef){.slowest = speed / (4 * length), .fastest = speed * contact_count / length};
 }
 
-// The basis is the largest: 2 dof_count (VECTORS + 1) doubles, 41 vectors of twice the reduced
-// bulk's size.
+// The basis is the largest: 2 dof_count (VECTORS_LIMIT + 1) doubles, 41 vectors of twice the
+// reduced bulk's size.
 static bool allocate(Growth *growth, Error *err)
 {
     int64_t m = growth->interface->count, n = growth->system->dof_count;
@@ -73,8 +74,8 @@ static bool allocate(Growth *growth, Error *err)
     growth->border = NEW_ARRAY(double, m, err);
     growth->rhs = NEW_ARRAY(double, n, err);
     growth->image = NEW_ARRAY(double, n, err);
-    growth->basis = NEW_ARRAY(double, state_size(growth) * (VECTORS + 1), err);
-    growth->eigen_work = NEW_ARRAY(double, dense_eigen_work(VECTORS), err);
+    growth->basis = NEW_ARRAY(double, state_size(growth) * (VECTORS_LIMIT + 1), err);
+    growth->eigen_work = NEW_ARRAY(double, dense_eigen_work(VECTORS_LIMIT), err);
     growth->mode_re = NEW_ARRAY(double, m, err);
     growth->mode_im = NEW_ARRAY(double, m, err);
     growth->real_mode = NEW_ARRAY(double, m, err);
@@ -162,7 +163,7 @@ static bool factor_moving(Growth *growth, int32_t k)
     moving_set_couple(moving, schur, growth->matrix);
     moving_set_turn(moving, false, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
-    moving_set_subtract_weakening(moving, growth->matrix);
+    moving_set_subtract_weakening(moving, 0, growth->matrix);
     return dense_lu(growth->matrix, moving->count, growth->pivots);
 }
 
@@ -256,15 +257,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Fills `projected` [VECTORS + 1 rows]; *count: the dimension reached, *rest: its last residual.
-// Arnoldi: column j of `projected` has the products of step j, below its diagonal the length of
-// what was new.
+// Fills `projected` [VECTORS_LIMIT + 1 rows]; *count: the dimension reached, *rest: its last
+// residual. Arnoldi: column j of `projected` has the products of step j, below its diagonal the
+// length of what was new.
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
-    int64_t size = state_size(growth), rows = VECTORS + 1;
+    int64_t size = state_size(growth), rows = VECTORS_LIMIT + 1;
     TRY(start_basis(growth, k, err));
     memset(growth->projected, 0, sizeof growth->projected);
-    for (*count = 0; *count < VECTORS;) {
+    for (*count = 0; *count < VECTORS_LIMIT;) {
         int32_t j = (*count)++;
         double *next = growth->basis + size * (j + 1), *column = growth->projected + rows * j;
         TRY(apply_inverse(growth, k, growth->basis + size * j, next, err));
@@ -359,7 +360,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
 {
     int32_t count = 0;
     double rest = 0, s = growth->shift[k];
-    int64_t rows = VECTORS + 1;
+    int64_t rows = VECTORS_LIMIT + 1;
     if (!factor_moving(growth, k)) return true;   // s is itself a rate; other shifts see it
     TRY(build_basis(growth, k, &count, &rest, err));
     for (int32_t j = 0; j < count; j++)
@@ -374,7 +375,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
         const double *re = growth->ritz + (int64_t)count * j, *im = pair ? re + count : NULL;
         double last = hypot(re[count - 1], pair ? im[count - 1] : 0);
         if (pair) j++;
-        if (!(rest * last <= RESIDUAL * sqrt(square))) continue;
+        if (!(rest * last <= RESIDUAL_LIMIT * sqrt(square))) continue;
         if (s * sqrt(square) < NO_RATE) continue;
         // lambda = s + 1/theta; of a pair the one with im > 0 is kept, whose vector is conjugate.
         GrowthRate found = {.re = s + x / square, .im = fabs(y) / square};

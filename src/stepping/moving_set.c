@@ -2,6 +2,7 @@
 #include "stepping/moving_set.h"
 
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -67,7 +68,8 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
     const FrictionLaw *law = friction_at(set->law, i);
     double speed = slip_size(set->interface, i, state->slip_rate);
-    double mu = friction_coefficient(law, speed), d[TANGENTS_MAX];
+    FrictionRates rates = friction_rates(law, speed, state->theta[i]);
+    double mu = rates.mu, d[TANGENTS_MAX];
     MovingUnknown *moving = add_unknown(set, t);
     find_direction(set, state, i, d);
     moving->normal = n;
@@ -77,16 +79,19 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
         add_across(set, t, n, mu * state->reaction[n], speed);
         moving[1].friction = d[1] * mu;
     }
-    double slope = friction_slope(law, speed);
+    double slope = rates.mu_speed;
     *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
+    moving->memory = -rates.mu_state * rates.rate_speed * state->reaction[n];
+    moving->fading = -rates.rate_state;
     set->weakens = set->weakens || moving->weakening > 0;
+    set->remembers = set->remembers || moving->memory != 0;
 }
 
 void moving_set_find(MovingSet *set, const State *state, bool with_open)
 {
     const Interface *interface = set->interface;
     set->count = set->turned_count = 0;
-    set->weakens = false;
+    set->weakens = set->remembers = false;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (status_slips(state->status[i])) add_slipping(set, state, i);
         if (!with_open || state->status[i] != CONTACT_OPEN) continue;
@@ -200,7 +205,21 @@ void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix)
         matrix[a * set->count + a] += set->list[a].damper + reach * set->list[a].spring;
 }
 
-void moving_set_subtract_weakening(const MovingSet *set, double *matrix)
+void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix)
 {
-    for (int64_t a = 0; a < set->count; a++) matrix[a * set->count + a] -= set->list[a].weakening;
+    for (int64_t a = 0; a < set->count; a++) {
+        const MovingUnknown *moving = &set->list[a];
+        double remembered = moving->memory * reach / (1 + reach * moving->fading);
+        matrix[a * set->count + a] -= moving->weakening + remembered;
+    }
+}
+
+void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix)
+{
+    for (int64_t a = 0; set->remembers && a < set->count; a++) {
+        const MovingUnknown *moving = &set->list[a];
+        if (moving->memory > 0)
+            matrix[a * (set->count + 1)] -= moving->memory * reach /
+                                            hypot(1, reach * moving->fading);
+    }
 }

@@ -21,6 +21,16 @@
 // first unknown is then along the slip, with weakening and damper of the plane, its second across,
 // with the damper mu r_n/s. Pressure follows slip along d only.
 //
+// Where friction remembers (contact/friction_memory) a disturbance theta' of its state follows that
+// of the slip rate: d theta'/dt = g_v v'_t + g_theta theta', and friction changes by mu_v v'_t +
+// mu_theta theta'. On exp(s t) that is a weakening that depends on s,
+//
+//     w(s) = -r_n (mu_v + mu_theta g_v/(s - g_theta)) = w + memory/(s + fading),
+//     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
+//
+// a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
+// `fading`.
+//
 // A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).
 // Called by stepping/certificate and stepping/growth.
@@ -37,6 +47,8 @@ typedef struct MovingUnknown {
     double damper;   // of a soft rod node that touches: lag / softness; of a node whose friction
         // strengthens: mu' r_n; across slip: mu r_n/s; force * time / length
     double spring;   // of the same: 1 / softness, force / length
+    double memory;   // of a slipping tangent: -mu_theta g_v r_n, force / length; 0: no memory
+    double fading;   // -g_theta, 1/time
 } MovingUnknown;
 
 typedef struct MovingSet {
@@ -50,6 +62,7 @@ typedef struct MovingSet {
     double *friction;   // likewise
     int32_t count;   // |F|
     bool weakens;   // some weakening is above 0
+    bool remembers;   // some memory is not 0
     int32_t turned_count;   // slipping nodes in space
     int32_t *turned;   // [turned_count] which of F is their first unknown; owned, like the next
     double *direction;   // [turned_count * 2] d
@@ -79,6 +92,10 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
 // diagonal.
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
-void moving_set_subtract_weakening(const MovingSet *set, double *matrix);
+// That at s = 1/reach, time; 0: at once, whatever is remembered.
+void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix);
+// The most that what is remembered weakens at any s with |s| >= 1/reach and Re s >= 0: memory
+// |1/(s + fading)|.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix);
 
 #endif

@@ -29,13 +29,14 @@ bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *s
     scheme->predictor = NEW_ARRAY(double, system->dof_count, err);
     scheme->g = NEW_ARRAY(double, interface->count, err);
     scheme->bound = NEW_ARRAY(double, interface->count, err);
-    if (!error_is_clean(err)) return false;
+    if (!error_is_clean(err) || !friction_states_create(block, &scheme->memory, err)) return false;
     return contact_solver_create(interface, contact_solver_def(), &scheme->solver, err);
 }
 
 void sdirk_destroy(Sdirk *scheme)
 {
     contact_solver_destroy(&scheme->solver);
+    friction_states_destroy(&scheme->memory);
     memory_free(scheme->rhs);
     memory_free(scheme->force);
     memory_free(scheme->viscous);
@@ -257,8 +258,10 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     if (scheme->course) add_scaled(factor - 1, system->load, dofs, scheme->rhs);
     fill_bounds(scheme, scheme->predictor, time, trial->scaled);
     pull_rod(scheme, trial->rung, time);
+    friction_states_start_stage(&scheme->memory, tableau, trial->step, i, trial->from);
     TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
     if (!trial->outcome->solved) goto cleanup;
+    friction_states_end_stage(&scheme->memory, i, to->slip_rate, to->theta);
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
     find_viscous(scheme, momentum, elastic, &contact, trial->scaled);
@@ -291,11 +294,14 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
                    .outcome = outcome};
     if (!ladder_rung(scheme->ladder, k, err)) goto cleanup;
     guess_contact(from, to);
+    friction_states_begin(&scheme->memory, from);
     for (int32_t i = 0; i < scheme->tableau.stages; i++) {
         TRY(solve_one_stage(scheme, &trial, i, err));
         if (!outcome->solved) goto cleanup;
     }
     outcome->error = estimate_error(scheme, from, to, trial.step);
+    double forgets = friction_states_error(&scheme->memory, &scheme->tableau, trial.step, to);
+    if (forgets > outcome->error) outcome->error = forgets;
     bool audited = scheme->steps++ % AUDIT_EVERY == 0;
     outcome->residual = audited ? end_residual(scheme, to) : 0;
 cleanup:
@@ -335,5 +341,6 @@ void sdirk_archive(Sdirk *scheme, Archive *archive)
     archive_numbers(archive, scheme->bound, scheme->interface->count);
     archive_number(archive, &scheme->reach);
     archive_count(archive, &scheme->steps);
+    friction_states_archive(&scheme->memory, archive);
     solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
 }

@@ -14,6 +14,7 @@
 
 #include "contact/contact_solver.h"
 #include "stepping/energy.h"
+#include "stepping/friction_states.h"
 #include "stepping/ladder.h"
 #include "stepping/load_course.h"
 #include "stepping/tableau.h"
@@ -27,6 +28,7 @@ typedef struct Sdirk {
     Rod *rod;
     const LoadCourse *course;   // set once the rod moves; NULL: the load stays; not owned
     ContactSolver solver;   // owned, like all that follows
+    FrictionStates memory;   // of friction; nothing where none remembers
     double *rhs, *force, *viscous;   // [dof_count] work
     double *predictor;   // [dof_count] work: u_i*
     double *g, *bound;   // [interface_count] work; bound: of the last stage
@@ -42,7 +44,8 @@ typedef struct Sdirk {
 
 typedef struct StepOutcome {
     bool solved;   // false: a contact problem had no solution; `to` has no meaning
-    double error;   // size of the estimated local error of u (bulk_operator_size), length
+    double error;   // size of the estimated local error of u (bulk_operator_size), or of what
+        // friction remembers, if that is larger; length
     double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only
         // every 32nd step is looked at, the others say 0
     StagePower power[TABLEAU_STAGES_MAX];   // of the stages

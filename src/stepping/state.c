@@ -21,6 +21,7 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
     state->inertia = NEW_ARRAY(double, state->dof_count, err);
     state->slip_rate = NEW_ARRAY(double, state->interface_count, err);
     state->reaction = NEW_ARRAY(double, state->interface_count, err);
+    state->theta = NEW_ARRAY(double, state->contact_count, err);
     state->status = NEW_ARRAY(uint8_t, state->contact_count, err);
     state->rod_touches = NEW_ARRAY(uint8_t, state->rod_count, err);
     if (!error_is_clean(err)) return false;
@@ -37,6 +38,7 @@ void state_destroy(State *state)
     memory_free(state->inertia);
     memory_free(state->slip_rate);
     memory_free(state->reaction);
+    memory_free(state->theta);
     memory_free(state->status);
     memory_free(state->rod_touches);
     *state = (State){0};
@@ -56,6 +58,7 @@ void state_copy(const State *from, State *to)
     memcpy(to->inertia, from->inertia, bulk_bytes);
     memcpy(to->slip_rate, from->slip_rate, interface_bytes);
     memcpy(to->reaction, from->reaction, interface_bytes);
+    memcpy(to->theta, from->theta, (size_t)from->contact_count * sizeof(double));
     memcpy(to->status, from->status, (size_t)from->contact_count);
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
 }
@@ -72,6 +75,7 @@ void state_archive(State *state, Archive *archive)
     archive_numbers(archive, state->inertia, state->dof_count);
     archive_numbers(archive, state->slip_rate, state->interface_count);
     archive_numbers(archive, state->reaction, state->interface_count);
+    archive_numbers(archive, state->theta, state->contact_count);
     archive_octets(archive, state->status, state->contact_count);
     archive_octets(archive, state->rod_touches, state->rod_count);
 }

@@ -46,6 +46,8 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     TRY(oscillation_record_create(block, def->watch_time, &control->oscillations, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
     TRY(state_create(block->system, block->interface, &control->next, err));
+    control->scheme.memory.slip_per_mu = def->slip_per_mu;
+    friction_states_reset(&control->scheme.memory, &control->now);
     step_control_restart(control);
 cleanup:
     return error_is_clean(err);
@@ -64,13 +66,13 @@ void step_control_destroy(StepControl *control)
 
 void step_control_settle(StepControl *control)
 {
-    control->settles = true;
+    control->settles = control->scheme.memory.frozen = true;
     control->coarsest = 0;
 }
 
 void step_control_restart(StepControl *control)
 {
-    control->settles = false;
+    control->settles = control->scheme.memory.frozen = false;
     control->now.time = 0;
     control->counters = (StepCounters){0};
     control->looked_steps = 0;
@@ -136,10 +138,11 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
 }
 
 // May `state` be left or reached by a step that does not resolve waves? What oscillates on is
-// small, as certified or as seen so far, and nothing grows without oscillating.
+// small, as certified or as seen so far, and nothing grows without oscillating. Nothing is known of
+// that where friction remembers.
 static bool may_skip_waves(StepControl *control, const State *state)
 {
-    return control->oscillations.duration > 0 &&
+    return control->oscillations.duration > 0 && !control->scheme.memory.act &&
            (oscillation_record_covers(&control->oscillations, state) ||
             oscillations_stay_small(control, state)) &&
            certificate_excludes_runaway(&control->certificate, state, &control->ladder);
@@ -157,12 +160,13 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     bool last = k + 1 >= control->ladder.rung_count;
     if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
     if (!control->def.use_certificate) return STEP_ACCEPTED;
-    *certified = certificate_holds(&control->certificate, &control->next);
+    double reach = ladder_reach(&control->ladder, k);
+    *certified = certificate_holds(&control->certificate, &control->next, reach);
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
         return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
     bool resolved = certificate_step_resolves(&control->certificate, &control->next,
-                                              ladder_contact(&control->ladder, k));
+                                              ladder_contact(&control->ladder, k), reach);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
@@ -182,7 +186,8 @@ static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdi
         double shrink = pow(allowed, 1 / estimate_order(control));
         target = ladder_find(&control->ladder, ladder_step(&control->ladder, k) * shrink);
     }
-    if (verdict == STEP_UNCERTIFIED) {
+    // With memory what a state withstands goes by the step: one half as long may do.
+    if (verdict == STEP_UNCERTIFIED && !control->scheme.memory.act) {
         int32_t resolving = wave_rung(control);
         target = resolving < k + UNCERTIFIED_DROP ? resolving : k + UNCERTIFIED_DROP;
     }
@@ -198,7 +203,13 @@ static int32_t next_rung(StepControl *control, int32_t k, double error, bool ret
     // What a step longer than the waves led to was asked already.
     bool free = k < resolving || next >= resolving || control->certified ||
                 may_skip_waves(control, &control->now);
-    return free ? next : resolving;
+    if (!free) return resolving;
+    bool longer = next < k && next < resolving && control->scheme.memory.act &&
+                  control->def.use_certificate;
+    if (longer && !certificate_holds(&control->certificate, &control->now,
+                                     ladder_reach(&control->ladder, next)))
+        return k;
+    return next;
 }
 
 // The coarsest built rung that does not overshoot; the chosen one when none is, or one is made.
@@ -345,7 +356,8 @@ bool step_control_advance_explicit(StepControl *control, ExplicitReference *sche
            (size_t)control->now.interface_count * sizeof(double));
     control->scheme.reach = scheme->def.step;
     if (control->def.use_certificate)
-        control->certified = certificate_holds(&control->certificate, &control->now);
+        control->certified =
+            certificate_holds(&control->certificate, &control->now, scheme->def.step);
 cleanup:
     return error_is_clean(err);
 }

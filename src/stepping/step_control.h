@@ -30,6 +30,7 @@ typedef struct StepControlDef {
     double watch_time;   // oscillations are resolved so long before they are stepped over, time; 0:
         // always
     double energy_tolerance;   // of the ledger, relative to what was turned over; 0: not asked
+    double slip_per_mu;   // of friction that remembers: what an error of mu counts as, length
     bool use_certificate;   // off only to study what it prevents
 } StepControlDef;
 

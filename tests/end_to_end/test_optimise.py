@@ -73,6 +73,12 @@ class Optimise(unittest.TestCase):
         self.assertEqual(int(re.search(r"(\d+) points computed", anew)[1]), len(self.table("out")))     # each, and once
         self.assertTrue((self.folder / "out/figures/course.png").stat().st_size > 10000)
         self.assertTrue((self.folder / "out/figures/along_load.pressure.png").exists())
+        done = subprocess.run([PROGRAM, "report", "out", "-o", "page.html"], cwd=self.folder, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "page.html").read_text()     # its answer, the mesh of the best, its command
+        for wanted in ("Report of a search", "the highest of", "src='data:image/png;base64,", "optimise STUDY.yaml"):
+            self.assertIn(wanted, page)
+        self.assertEqual(page.count("<figure"), 5)     # the mesh, course, along two keys, ranking
 
     def test_over_points_of_vary(self):
         """A design is worth what its worst point is; the table has a row for each."""
@@ -89,6 +95,33 @@ best: {designs: 4}
         said, value = re.search(r"worst of 2 points each:\n  load.pressure=(\S+): (\S+)", said).groups()
         self.assertEqual(float(said), float(best))
         self.assertAlmostEqual(float(value), min(worst[best]), delta=0.5 * 10.0**-len(value.partition(".")[2]))
+
+    def test_several_aims(self):
+        """`front`: of all rows of the table just those that no other design is at least as good as at both points. `deviation`: the
+        least of the standard deviations of the rows."""
+        text = HEAD + """search: {rod.velocity: {log: [1e-6, 1e-4]}, mesh.set.length: {linear: [0.5, 2]}}
+vary: {load.pressure: [0.003, 0.012]}
+best: {over: front, designs: 9}
+"""
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        values = {}
+        for row in self.table("out"):
+            values.setdefault((row["rod.velocity"], row["mesh.set.length"]), []).append(float(row["mu_max"]))
+        front = {key for key, mine in values.items()
+                 if not any(other != mine and all(a >= b for a, b in zip(other, mine)) for other in values.values())}
+        listed = re.findall(r"^  rod.velocity=(\S+) mesh.set.length=([\d.]+): \S+, \S+", said.split("by values alone:")[1].split("\nmu_max,")[0],
+                            re.M)
+        self.assertEqual({(float(a), float(b)) for a, b in listed}, {(float(a), float(b)) for a, b in front})
+        self.assertTrue(1 < len(front) < len(values))
+        self.assertGreater((self.folder / "out/figures/front.png").stat().st_size, 10000)
+        text = text.replace("over: front", "over: deviation")
+        self.assertIn("say `order: lowest`", self.call("optimise", text, "-o", "none", status=2).stderr)
+        said = self.call("optimise", text.replace("by: mu_max", "by: mu_max, order: lowest"), "-j", "2", "-o", "least").stdout
+        values = {}
+        for row in self.table("least"):
+            values.setdefault((float(row["rod.velocity"]), float(row["mesh.set.length"])), []).append(float(row["mu_max"]))
+        best = min(values, key=lambda key: abs(values[key][0] - values[key][1]))
+        self.assertIn(f"standard deviation of 2 points each:\n  rod.velocity={best[0]:g} mesh.set.length={best[1]:g}: ", said)
 
     def test_decides(self):
         """With `refine` the leaders are computed again with half the error."""
@@ -137,7 +170,9 @@ best: {designs: 8}
                 (HEAD, "nothing to search"),
                 (HEAD + "best: {designs: 3}\n", "best: only of a study with `search`"),
                 (SEARCH.replace("rank: {by: mu_max}\n", ""), "what is best"),
-                (SEARCH.replace("by: mu_max", "by: mu_M, refine: 1%"), "halves accuracy.mu")):
+                (SEARCH.replace("by: mu_max", "by: mu_M, refine: 1%"), "halves accuracy.mu"),
+                (SEARCH.replace("by: mu_max", "by: mu_M, refine: 1%").replace("best: {", "best: {over: front, "), "does not go with `refine`"),
+                (SEARCH.replace("best: {", "best: {over: all, "), "worst, mean, deviation or front|worst, mean, deviation, front")):
             said = self.call("optimise", text.replace("SEED", "1"), "-o", "out", status=2).stderr
             self.assertRegex(said, wanted)
         said = self.call("sweep", SEARCH.replace("SEED", "1"), "-o", "out", status=2).stderr

@@ -26,6 +26,7 @@ INPUTS = {
     "study.yaml": STUDY + "rank: {by: results.mu_max}\nplot: {x: load.pressure, y: results.mu_max}\n",
     "fit.yaml": "scene: plain.yaml\nset: {time.until: {U: 0.004}}\nsearch: {material.young: {log: [0.8, 1.2]}}\n"
                 "fit: {measured: measured.csv, designs: 4}\n",
+    "lengths.csv": "F_T/F_N,l/L\n0.1,0.5\n",
     "measured.csv": "load.pressure,mu_max,mu_max_error\n0.003,0.35,0.05\n",
     "table.yaml": STUDY + "keep: table\n", "plot.yaml": cases.PLOT,
     "block.geo": cases.ROOT / "meshes/block.geo", "block.msh": cases.square()}
@@ -42,6 +43,7 @@ COMMANDS = {
     "accuracy": ["run", "plain.yaml", "-o", "bar", "--to", "50%", "--quiet", "--set", "mesh={file: block.geo}",
                  "time.until={U: 0.008}", "output.history=true", "output.figures=[force]"],
     "plot": ["render", "plot.yaml"],
+    "data": ["render", "out", "--figure", "slip-map", "--figure", "precursors", "--figure", "front-speed", "--compare", "lengths.csv"],
     "pdf": ["render", "out", "--format", "pdf", "--figure", "force"],
     "svg": ["render", "out", "--format", "svg", "--figure", "force"],
     "report": ["report", "out"],

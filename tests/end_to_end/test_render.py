@@ -24,7 +24,7 @@ from sanitizer_fixture import begin_again_with
 MODULES = os.environ["AMONTONS_MODULES"]
 FIGURES = ("force", "slip-map", "contact-density")
 INK, CURVE, RED, BLUE = (20, 20, 26), (13, 69, 140), (191, 31, 31), (20, 89, 179)
-STICK, OPEN = (214, 217, 222), (140, 143, 148)
+STICK, OPEN = (249, 250, 251), (140, 143, 148)
 DECADES = (-2, 3.5)   # of the fixture's slip map: the fastest slip is 2040 V
 ERROR_INPUT, ERROR_FILE, ERROR_LIBRARY = 1, 2, 4
 
@@ -37,12 +37,13 @@ class Error(ctypes.Structure):
 class Style(ctypes.Structure):
     _fields_ = [("format", ctypes.c_char_p), ("width", ctypes.c_double), ("dpi", ctypes.c_double),
                 ("dark", ctypes.c_bool), ("overwrite", ctypes.c_bool), ("height", ctypes.c_double),
-                *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "pixels",
+                *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "pixels", "line",
                                                        "compare", "warnings"))]
 
 
 class Field(ctypes.Structure):
-    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool)]
+    _fields_ = [("of", ctypes.c_char_p), ("at", ctypes.c_char_p), ("edges", ctypes.c_bool),
+                ("cut", ctypes.c_char_p)]
 
 
 class Request(ctypes.Structure):
@@ -161,7 +162,7 @@ class Pictures(unittest.TestCase):
     def test_all_figures_in_time(self):
         self.assertEqual(self.result, (0, ""))
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "figures"))),
-                         sorted(name + ".png" for name in FIGURES))
+                         sorted([name + ".png" for name in FIGURES] + ["force.csv", "slip-map.csv"]))
         self.assertLess(self.seconds, 3)   # of processor time: a second each
 
     def test_size_and_metadata(self):
@@ -652,7 +653,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_figure(self):
         fixture.make(self.folder)
-        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, field, field-strip",
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, contact-plane, precursors, front-speed, field, field-strip",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):

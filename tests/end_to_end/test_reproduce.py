@@ -19,9 +19,10 @@ import numpy as np
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
 PAPER = SOURCE / "validation" / "paper"
-sys.path.insert(0, str(PAPER))
+sys.path[:0] = [str(PAPER), str(PAPER.parent)]
 sys.dont_write_bytecode = True
 
+import bars        # noqa: E402
 import fronts      # noqa: E402
 import interface   # noqa: E402
 import paper_report   # noqa: E402
@@ -54,6 +55,36 @@ class Theory(InFolder):
         for part in (0.01, 0.3, 1, 20):
             P = theory.B.pressure(0.04, part)
             self.assertAlmostEqual(theory.B.critical_part(0.04, P) / part, 1, places=9)
+
+
+class Answers(unittest.TestCase):
+    """Figure 2 is drawn from bars.md."""
+
+    def test_table_is_read(self):
+        rows = bars.read_table("## Title\n\n| P | mu_M | mu_hold | warned of |\n|---|---|---|---|\n| 1e-05 | 0.3 ± 0.02 | none |  |\n"
+                               "| 2.5e-4 | 0.2, not known | 0.25 ± 0.01 | error bar not met |\n")
+        self.assertEqual([row["P"] for row in rows], [1e-5, 2.5e-4])
+        self.assertEqual([row["mu_M"] for row in rows], [(0.3, 0.02), (0.2, None)])
+        self.assertEqual([row["mu_hold"] for row in rows], ["none", (0.25, 0.01)])
+
+    def test_page_is_read(self):
+        """Every row of the page that is published has its mu_M, and a sweep's own rows read alike."""
+        for title, text in bars.sections(PAPER / "bars.md").items():
+            rows = bars.read_table(text)
+            self.assertGreater(len(rows), 20, title)
+            self.assertTrue(all(row["mu_M"] == "none" or row["mu_M"][0] > 0 for row in rows), title)
+        read = bars.read_rows([{"mu_M": "0.3", "mu_M_error": "0.02", "mu_hold": "", "mu_hold_error": "", "warnings": ""},
+                               {"mu_M": "0.2", "mu_M_error": "0.01", "mu_hold": "0.2", "mu_hold_error": "",
+                                "warnings": "error bar not met: the mesh's part of it is not known"}])
+        self.assertEqual([(row["mu_M"], row["mu_hold"]) for row in read], [((0.3, 0.02), "none"), ((0.2, None), (0.2, None))])
+
+    def test_beside_the_line(self):
+        row = {"mesh.set.length": 1, "load.pressure": 0.05, "mu_M": (theory.A.mu(1, 0.05) / 1.25, 0.01)}
+        self.assertIn("| 25 |", paper_report.line_against([row], theory.A))
+        pairs = [SimpleNamespace(length=1, P=P, fine=SimpleNamespace(mu=mu)) for P, mu in ((0.05, 0.2), (0.1, 0.3))]
+        rows = [{"mesh.set.length": 1, "load.pressure": P, "mu_M": mu} for P, mu in ((0.05, (0.201, 0.002)), (0.1, (0.31, 0.004)))]
+        self.assertIn("Of 2 points the windows' mean (below) is within the bar at 1, at most 2.5 bars off",
+                      paper_report.windows_against(rows, pairs))
 
 
 class Parts(InFolder):

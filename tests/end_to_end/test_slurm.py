@@ -138,6 +138,19 @@ class Sweep(unittest.TestCase):
         self.assertEqual(self.table("pool"), self.table())
         self.assertGreater(len(list((self.folder / "out/slurm").glob("*.out"))), 4)
 
+    def test_a_fit(self):
+        """Designs at each of two conditions that were measured; the same numbers as by processes here."""
+        self.study(STUDY[:STUDY.index("vary:")].replace("set: {", "set: {time.until.U: 0.003, ") +
+                   "search: {friction.mu_static: {linear: [0.3, 0.5]}}\nfit: {measured: measured.csv, designs: 4}\n")
+        (self.folder / "measured.csv").write_text("load.pressure,mu_max,mu_max_error\n0.003,0.38,0.02\n0.006,0.34,0.02\n")
+        for words in (["-o", "pool"], ["-o", "out", "--slurm"]):
+            done = subprocess.run([PROGRAM, "fit", "study.yaml", "-j", "2", *words], cwd=self.folder, env=self.place, capture_output=True,
+                                  text=True, timeout=200)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.table("pool"), self.table())
+        self.assertEqual((self.folder / "pool/fit.csv").read_text(), (self.folder / "out/fit.csv").read_text())
+        self.assertGreater(len(list((self.folder / "out/slurm").glob("*.out"))), 7)
+
     def test_cancelled_element(self):
         process = self.held()
         job, index = self.elements("PENDING")[3]

@@ -284,5 +284,60 @@ class Refusals(InFolder):
         self.assertFalse((self.folder / "result" / "stability.json").exists())
 
 
+SPACE = f"""material: {{poisson: 0.34, plane: strain}}
+friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
+load: {{pressure: 0.003}}
+rod: {{height: 0.25, width: 0.06, velocity: 2e-5}}
+mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 16, nz: 8}}}}
+time: {{until: {{U: 0.02, periodic: true}}}}
+output: {{figures: [], fields: none, history: false}}
+"""
+
+
+class InSpace(InFolder):
+    def points(self, *settings):
+        path = self.folder / "scene.yaml"
+        path.write_text(SPACE)
+        words = [word for setting in settings for word in ("--set", setting)]
+        done = stability("--from", "start", "-o", self.folder / "stable", "--overwrite", scene=path, coarse=words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.folder / "stable/stability.json").read_text())["points"]
+
+    def test_held_across_is_plane_strain(self):
+        """One cell across, held there: the same path, and all modes of the plane are among those of space, where both rows may also
+        slip against each other: nothing grows slower than in the plane, and what runs away in both has one rate."""
+        flat = self.points("reduction.use=never")
+        deep = self.points(f"mesh={{file: {SOURCE}/meshes/block3d.geo, set: {{length: 1, breadth: 0.3, height: 0.5, nx: 16, ny: 1, nz: 8}}}}",
+                           "load.supports=[{group: left, direction: y}, {group: right, direction: y}]", "reduction.use=never")
+        self.assertEqual([2 * point["slipping"] for point in flat], [point["slipping"] for point in deep])
+        alike = 0
+        for plane, space in zip(flat, deep):
+            for key in ("U", "mu", "mu_at_V", "slipping_over_A"):
+                self.assertAlmostEqual(space[key] / plane[key], 1, delta=1e-6, msg=key)
+            self.assertGreater(space["rate_re"], plane["rate_re"] - 1e-5 * abs(plane["rate_re"]) - 1e-6)
+            if plane["load"] and space["load"] and max(plane["load"], space["load"]) < 1e3:
+                self.assertGreater(space["load"], plane["load"] * (1 - 1e-5))   # parabolas between shifts
+                alike += abs(space["load"] / plane["load"] - 1) < 1e-5
+        self.assertGreaterEqual(alike, 8)
+        runs_away = [(plane["real_rate"], space["real_rate"]) for plane, space in zip(flat, deep) if plane["real_rate"]]
+        self.assertAlmostEqual(runs_away[0][1] / runs_away[0][0], 1, delta=1e-5)
+
+    def test_run(self):
+        """Of a block that slides by itself: mu at V and the area that slips before, as runs have them."""
+        path = self.folder / "scene.yaml"
+        path.write_text(SPACE)
+        cube = ["--set", f"mesh={{file: {SOURCE}/meshes/block3d.geo, set: {{length: 0.5, breadth: 0.5, height: 0.5, nx: 8, ny: 8, nz: 8}}}}"]
+        done = stability("-o", self.folder / "stable", scene=path, coarse=cube)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("of the contact slips, its front at", done.stdout)
+        found = json.loads((self.folder / "stable/stability.json").read_text())["results"]
+        subprocess.run([PROGRAM, "run", path, *cube, "-q", "-o", self.folder / "run"], check=True, timeout=240)
+        run = json.loads((self.folder / "run/run.json").read_text())["results"]
+        self.assertAlmostEqual(found["mu_M"] / run["mu_M"], 1, delta=0.02)
+        self.assertAlmostEqual(found["A_c_at_V_over_A"], run["A_c_over_A"], delta=0.15)
+        with h5py.File(self.folder / "stable/stability.h5") as file:
+            self.assertEqual(len(file["nodes/y"]), 81)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -29,9 +29,8 @@ static bool report_says(const char *folder, const char *text)
     return strstr(bytes, text) != NULL;
 }
 
-static void test_cache(void **state)
+TEST(test_cache)
 {
-    (void)state;
     char place[PLACE_SIZE], cache[PLACE_SIZE];
     if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // hundreds of fsyncs
     place_make(place);
@@ -65,10 +64,4 @@ static void test_cache(void **state)
     amontons_scene_destroy(scene);
     place_remove(cache);
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cache)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,32 +130,26 @@ static int32_t run_at_all_sizes(const char *output)
     return failed;
 }
 
-static void test_history(void **state)
+TEST(test_history)
 {
-    (void)state;
     assert_true(run_at_all_sizes("output={history: true, fields: none}") >= 6);
 }
 
-static void test_fields(void **state)
+TEST(test_fields)
 {
-    (void)state;
     assert_true(run_at_all_sizes("output={history: false, fields: {every_t: 20}}") >= 3);
 }
 
-static void test_report_only(void **state)
+TEST(test_report_only)
 {
-    (void)state;
     int32_t failed = run_at_all_sizes("output={history: false, fields: none}");
     assert_true(failed >= 2 && failed <= 5);
 }
 
-int main(void)
+FIXTURE(group_begin)
 {
     signal(SIGXFSZ, SIG_IGN);   // then write() fails with EFBIG
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_history),
-        cmocka_unit_test(test_fields),
-        cmocka_unit_test(test_report_only),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }
+
+GROUP_BETWEEN(group_begin, NULL);

@@ -44,23 +44,20 @@ static int32_t fail_everywhere(const char *const *more, const char *folder)
     return failed;
 }
 
-static void test_full(void **state)
+TEST(test_full)
 {
-    (void)state;
     int32_t failed = fail_everywhere((const char *const[]){"reduction.use=never", NULL}, NULL);
     assert_true(failed > 50);
 }
 
-static void test_reduced(void **state)
+TEST(test_reduced)
 {
-    (void)state;
     int32_t failed = fail_everywhere((const char *const[]){"reduction.use=always", NULL}, NULL);
     assert_true(failed > 50);
 }
 
-static void test_results(void **state)
+TEST(test_results)
 {
-    (void)state;
     char place[PLACE_SIZE];
     if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // hundreds of fsyncs
     place_make(place);
@@ -69,14 +66,4 @@ static void test_results(void **state)
     assert_true(failed > 100);
     assert_true(place_has(place, "run.json") && place_has(place, "history.h5"));
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_full),
-        cmocka_unit_test(test_reduced),
-        cmocka_unit_test(test_results),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,6 @@
 #include "tests/fuzz/fuzz.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 static const char KEY[] = "0123456789abcdef0123456789abcdef";
 enum { HEAD = 64, KEY_SIZE = HASH_TEXT_SIZE - 1, ROOM = 1 << 16 };   // one block

@@ -7,7 +7,6 @@
 #include "base/hash.h"
 #include "tests/fuzz/fuzz.h"
 
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 

@@ -32,9 +32,8 @@ static void random_statuses(Random *random, HandContact *hand)
 static HandContact hand, other;   // large; a test runs alone
 
 // Up to 40 nodes and 4 rod nodes, the three laws in turn, friction and weakening small against S.
-static void test_large_problems(void **state)
+TEST(test_large_problems)
 {
-    (void)state;
     Random random = {.state = 31};
     int32_t seen[4] = {0}, touching = 0;
     for (int32_t trial = 0; trial < 150; trial++) {
@@ -79,9 +78,8 @@ static FrictionLaw random_table(Random *random, double spacing, bool straight, d
 // The same with tables that weaken and strengthen, half of them to more than at rest, of cubics and
 // of lines with a kink at each point. Every other problem is small and has changes so steep that
 // the path must be followed.
-static void test_own_laws(void **state)
+TEST(test_own_laws)
 {
-    (void)state;
     Random random = {.state = 32};
     int32_t pieces[8] = {0};
     int64_t rescued = 0;
@@ -234,9 +232,8 @@ static Tally tally_small_problems(FrictionLaw law, double coupling, double diago
 
 // Constant friction with everything coupled: nothing is given up, though problems may have several
 // solutions or none that statuses change towards.
-static void test_small_coulomb_problems(void **state)
+TEST(test_small_coulomb_problems)
 {
-    (void)state;
     const struct {
         double mu, diagonal;
     } cases[] = {{0.3, 0.5}, {0.8, 0.5}, {1.2, 3}, {3, 3}, {3, 0.5}, {5, 0.5}, {5, 0.1}};
@@ -249,9 +246,8 @@ static void test_small_coulomb_problems(void **state)
 
 // Weakening, tangents and normals apart: nothing is given up, also where it is too strong for S and
 // there are several solutions.
-static void test_small_weakening_problems(void **state)
+TEST(test_small_weakening_problems)
 {
-    (void)state;
     const double velocities[] = {8, 2, 0.5, 0.125};
     int32_t several = 0;
     for (int32_t k = 0; k < 8; k++) {
@@ -266,9 +262,8 @@ static void test_small_weakening_problems(void **state)
 
 // Friction that rises above what holds at rest: at once; after a fall; before it falls to less. Of
 // the last the fall is too strong for S now and then.
-static void test_small_rising_problems(void **state)
+TEST(test_small_rising_problems)
 {
-    (void)state;
     static const double velocity[] = {0, 0.3, 1},
                         mu[][3] = {{0.3, 0.5, 0.9}, {0.5, 0.3, 0.8}, {0.3, 0.9, 0.2}};
     for (int32_t k = 0; k < 6; k++) {
@@ -300,9 +295,8 @@ static void hard_problem(Random *random, int32_t trial)
 }
 
 // Solved, rightly, by the path where Newton's statuses do not settle.
-static void test_hard_problems(void **state)
+TEST(test_hard_problems)
 {
-    (void)state;
     Random random = {.state = 33};
     int64_t rescued = 0, steps = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
@@ -320,9 +314,8 @@ static void test_hard_problems(void **state)
 
 // A caller with shorter steps at hand is told soon: statuses that go round in a cycle, and
 // equations that come no nearer, are seen long before the limits. What is solved is solved rightly.
-static void test_gives_up_soon(void **state)
+TEST(test_gives_up_soon)
 {
-    (void)state;
     Random random = {.state = 33};
     int64_t unsolved = 0, iterations = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
@@ -339,18 +332,4 @@ static void test_gives_up_soon(void **state)
                   (double)iterations / (double)unsolved);
     assert_true(unsolved > 50);
     assert_true(iterations < 45 * unsolved);   // 70 without looking
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_large_problems),
-        cmocka_unit_test(test_own_laws),
-        cmocka_unit_test(test_small_coulomb_problems),
-        cmocka_unit_test(test_small_weakening_problems),
-        cmocka_unit_test(test_small_rising_problems),
-        cmocka_unit_test(test_hard_problems),
-        cmocka_unit_test(test_gives_up_soon),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,9 +43,8 @@ static void random_problem(Random *random, int32_t trial)
 }
 
 // Friction and weakening small against S: one solution, from whatever guess.
-static void test_large_problems(void **state)
+TEST(test_large_problems)
 {
-    (void)state;
     Random random = {.state = 131};
     int32_t seen[4] = {0}, touching = 0;
     for (int32_t trial = 0; trial < 90; trial++) {
@@ -98,9 +97,8 @@ static void make_solution(Random *random, double *velocity, double *reaction)
     }
 }
 
-static void test_known_solutions(void **state)
+TEST(test_known_solutions)
 {
-    (void)state;
     Random random = {.state = 133};
     double velocity[HAND_UNKNOWNS], reaction[HAND_UNKNOWNS];
     for (int32_t trial = 0; trial < 90; trial++) {
@@ -121,9 +119,8 @@ static void test_known_solutions(void **state)
 
 // Weakening up to a hundred times faster than S resists, and friction up to 1.2: there may be many
 // solutions; one is found, often by sweeps only.
-static void test_hard_problems(void **state)
+TEST(test_hard_problems)
 {
-    (void)state;
     Random random = {.state = 132};
     int64_t rescued = 0;
     for (int32_t trial = 0; trial < 500; trial++) {
@@ -142,14 +139,4 @@ static void test_hard_problems(void **state)
     }
     print_message("%d of 500 by sweeps\n", (int)rescued);
     assert_true(rescued > 20);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_large_problems),
-        cmocka_unit_test(test_known_solutions),
-        cmocka_unit_test(test_hard_problems),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,9 +81,8 @@ static void check_contact(const BlockRig *rig, const Sdirk *scheme, const State 
     }
 }
 
-static void test_every_step(void **state)
+TEST(test_every_step)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 71};
     int32_t solved = 0, unsolved = 0, seen[4] = {0};
@@ -131,12 +130,4 @@ static void test_every_step(void **state)
     }
     assert_true(solved > 100 * unsolved);
     for (int k = 0; k < 4; k++) assert_true(seen[k] > 300);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_step),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

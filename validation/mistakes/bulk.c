@@ -3,6 +3,7 @@
 #include "mistake.h"
 
 #include "reduction/interface_operator.h"
+#include "fem/assembly.h"
 #include "fem/material.h"
 
 #include <stdio.h>
@@ -17,6 +18,11 @@ InterfaceOperator *__real_interface_operator_create(BulkOperator *system, Operat
                                                     Error *err);
 InterfaceOperator *__wrap_interface_operator_create(BulkOperator *system, OperatorTerms terms,
                                                     Error *err);
+
+void __real_boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
+                                 double *weight);
+void __wrap_boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
+                                 double *weight);
 
 Mistake mistake_made(void)
 {
@@ -49,6 +55,15 @@ Moduli __wrap_material_viscous(const Material *material)
     if (mistake == MISTAKE_SHEAR_VISCOSITY)
         moduli = (Moduli){2 * material->eta1, material->eta2 - material->eta1};
     return moduli;
+}
+
+// One node in the middle of the list has half of what it should.
+void __wrap_boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
+                                 double *weight)
+{
+    __real_boundary_add_weights(mesh, boundary, shadow, weight);
+    if (shadow && mistake_made() == MISTAKE_HALF_WEIGHT)
+        weight[boundary->nodes[boundary->node_count / 2]] /= 2;
 }
 
 // Only matrices of steps: those without mass are of equilibria and certificates.

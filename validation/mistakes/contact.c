@@ -235,6 +235,35 @@ cleanup:
     return solved;
 }
 
+// In space: friction of a slipping node as large as it is, but against `before`, the velocities of
+// the solve before, or along the drive alone. [interface->count]
+static void turn_friction(const ContactProblem *problem, const double *before,
+                          ContactSolution *solution)
+{
+    for (int32_t i = 0; i < problem->interface->contact_count; i++) {
+        int32_t t = interface_tangent(problem->interface, i);
+        double *force = solution->reaction + t, size = hypot(force[0], force[1]);
+        double speed = before ? hypot(before[t], before[t + 1]) : 0;
+        if (!status_slips(solution->status[i]) || (before && speed == 0)) continue;
+        force[0] = before ? -size * before[t] / speed : force[0];
+        force[1] = before ? -size * before[t + 1] / speed : 0;
+    }
+}
+
+static bool solve_turned(ContactSolver *solver, const ContactProblem *problem,
+                         ContactSolution *solution, bool last)
+{
+    Error err = {0};
+    int32_t count = problem->interface->count;
+    double *before = NEW_ARRAY(double, count, &err);
+    if (!before) return false;
+    memcpy(before, solution->velocity, (size_t)count * sizeof *before);
+    bool solved = __real_contact_solve(solver, problem, solution);
+    if (problem->interface->dim > 2) turn_friction(problem, last ? before : NULL, solution);
+    memory_free(before);
+    return solved;
+}
+
 bool __wrap_contact_solve(ContactSolver *solver, const ContactProblem *problem,
                           ContactSolution *solution)
 {
@@ -242,6 +271,8 @@ bool __wrap_contact_solve(ContactSolver *solver, const ContactProblem *problem,
     bool slip_only = mistake == MISTAKE_CONSISTENT_SLIP;
     if (mistake == MISTAKE_SMOOTHED_STICK) return solve_smoothed(solver, problem, solution);
     if (mistake == MISTAKE_GLUED_CONTACT) return solve_glued(solver, problem, solution);
+    if (mistake == MISTAKE_LAST_DIRECTION || mistake == MISTAKE_NO_ACROSS)
+        return solve_turned(solver, problem, solution, mistake == MISTAKE_LAST_DIRECTION);
     if (slip_only || mistake == MISTAKE_UNLUMPED_CONTACT)
         return solve_means(solver, problem, solution, slip_only);
     return __real_contact_solve(solver, problem, solution);

@@ -22,6 +22,9 @@
     X(MISTAKE_GLUED_CONTACT, "glued-contact") /* what touched does not leave */                    \
     X(MISTAKE_HALF_SLIP_RATE, "half-slip-rate") /* mu(v/2) */                                      \
     X(MISTAKE_STAGE_MATRIX, "stage-matrix") /* K twice in the matrix of a stage */                 \
+    X(MISTAKE_LAST_DIRECTION, "last-direction") /* friction along the slip of the solve before */  \
+    X(MISTAKE_NO_ACROSS, "no-across") /* no friction across the drive */                           \
+    X(MISTAKE_HALF_WEIGHT, "half-weight") /* of one contact node */                                \
     /* of scenes.c, in words in scenes.py */                                                       \
     X(MISTAKE_REGION_DENSITY, "region-density")                                                    \
     X(MISTAKE_REGION_VISCOSITY, "region-viscosity")                                                \
@@ -39,7 +42,11 @@
     X(MISTAKE_WINDOW_FIRST, "window-first")                                                        \
     X(MISTAKE_WINDOW_FORGOTTEN, "window-forgotten")                                                \
     X(MISTAKE_STATES_FORGOTTEN, "states-forgotten")                                                \
-    X(MISTAKE_STATE_ROUNDED, "state-rounded")
+    X(MISTAKE_STATE_ROUNDED, "state-rounded")                                                      \
+    X(MISTAKE_MEMORY_LAGGED, "memory-lagged")                                                      \
+    X(MISTAKE_MEMORY_KEPT, "memory-kept")                                                          \
+    X(MISTAKE_MEMORY_FRESH, "memory-fresh")                                                        \
+    X(MISTAKE_MEMORY_EVOLUTION, "memory-evolution")
 
 typedef enum Mistake {
 #define X(symbol, name) symbol,

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`amontons optimise` over pads (search.yaml) against a full grid and against random designs of equal cost, three seeds each; the
-best of each once more with an error bar, and the search once more on cells half as long.
+best of each once more on cells half as long and with an error bar, and the search once more on cells half as long.
 
     validation/pads/search_study.py [-o results/pads-search] [-j N]
 
-A call that is stopped goes on where it was. `--part search|grid|random|fine|bars` does one part of it."""
+A call that is stopped goes on where it was. `--part search|grid|random|values|fine|bars` does one part of it (values and bars: of
+the parts that are asked for with them)."""
 import argparse
 import csv
 import itertools
@@ -18,10 +19,12 @@ HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
 SEEDS = (1, 2, 3)
+PARTS = ("search", "grid", "random", "fine", "values", "bars")
 KEYS = ("mesh.set.n", "mesh.set.fill", "mesh.set.pad_height", "mesh.set.first_gap", "rod.height")
 # At least as many designs as a search computes: 52, and some 20 along the keys, more where these find a better best.
 GRID = ((2, 4, 6), (0.45, 0.6, 0.75), (0.03, 0.09), (0.63, 1.6), (0.15, 0.25, 0.35))
 COUNT = 108
+FINER = (1, 2, 3)   # mesh.set.refine: cells so many times as short
 PLAIN = {"mesh.set.n": 1, "mesh.set.fill": 1, "mesh.set.pad_height": 0.05, "mesh.set.first_gap": 1, "rod.height": 0.25}
 
 
@@ -84,13 +87,21 @@ def design_of(row):
     return {key: float(row[key]) for key in KEYS}
 
 
+def show_values(study, names, designs):
+    """mu_hold on meshes of cells so many times as short, and how far it is usually off there."""
+    print("| by | " + " | ".join(f"mu_hold, cells 1/{refine}" for refine in FINER) + " |\n|" + "---|" * (len(FINER) + 1))
+    found = [study.cases(f"values-{refine}", designs, f"  mesh.set.refine: {refine}\n") for refine in FINER]
+    for name, *rows in zip(names, *found):
+        print(f"| {name} | " + " | ".join(f"{float(row['mu_hold']):.4f} ± {float(row['mu_hold_known_to']):.4f}" for row in rows) + " |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, default=SOURCE / "results/pads-search")
     parser.add_argument("-j", "--jobs", type=int, default=2)
-    parser.add_argument("--part", action="append", choices=("search", "grid", "random", "fine", "bars"))
+    parser.add_argument("--part", action="append", choices=PARTS)
     given = parser.parse_args()
-    study, wanted = Study(given.output, given.jobs), given.part or ("search", "grid", "random", "fine", "bars")
+    study, wanted = Study(given.output, given.jobs), given.part or PARTS
     found = {}
     if "search" in wanted:
         for seed in SEEDS:
@@ -103,10 +114,11 @@ def main():
     if "fine" in wanted:
         found["search, seed 1, cells half as long"] = study.search(1, "  mesh.set.refine: 2\n")
     best = {name: best_of(rows) for name, rows in found.items()}
-    bars = {}
+    bars, designs = {}, [design_of(row) for row, _ in best.values()] + [PLAIN]
+    if "values" in wanted:
+        show_values(study, list(best) + ["plain block"], designs)
     if "bars" in wanted:
-        designs = [design_of(row) for row, _ in best.values()] + [PLAIN]
-        rows = study.cases("bars", designs, "  accuracy: {mu: 2%, within: 60}\n")
+        rows = study.cases("bars", designs, "  accuracy: {mu: 2%, within: 240}\n  mesh.set.refine: 2\n")
         bars = {tuple(design.values()): row for design, row in zip(designs, rows)}
     print("| by | designs | best mu_hold | within 1 % of it after | n, fill, height, first gap, rod | with a bar | over the plain block |")
     print("|---|---|---|---|---|---|---|")

@@ -3,21 +3,29 @@
 """The split-pad study: all sweeps, the stability analysis, tables and figures, from one command.
 
     validation/pads/study.py [-o DIR] [-j N] [--program PROGRAM] [--publish]
+    validation/pads/study.py --draw [--publish]
 
 DIR (default results/pads) gets a folder a sweep, tables.md and figures/*.png; what is there already
-is not computed again. --publish copies tables and figures beside this file, for README.md. Needs h5py
-(python3-h5py) for the figure of the loads in time.
+is not computed again. Answers with error bars are those of bars.py, which it calls (20 minutes of one processor).
+--publish copies tables and figures beside this file, for README.md. --draw: figures of mu alone, from the tables beside this file.
+Needs h5py (python3-h5py) for the figure of the loads in time.
 """
 import argparse
 import csv
 import json
+import math
 import shutil
 import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE.parent))
+sys.dont_write_bytecode = True
+import bars   # noqa: E402
+
 SWEEPS = ("count-b", "height-b", "gap-b", "fine-b", "check-b", "check",   # long ones first
           "height", "plain-b", "grooves", "count", "fill", "gap", "plain")
 FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape", "shape-b")
@@ -131,48 +139,137 @@ def stress(P):
     return f"{P:g}" if P >= 1e-3 else f"{float(mantissa):g}e{int(power)}"
 
 
-def near(a, b):
-    return abs(a / b - 1) < 1e-9
-
-
 def of_pressure(points, P):
     return [p for p in points if near(p.P, P)]
 
 
-def curve(label, points, x, color, **more):
-    """mu_hold against x, bars up to the highest drop where drops repeat."""
-    return {"label": label, "x": [x(p) for p in points], "y": [p.hold for p in points],
-            "low": [p.hold for p in points], "high": [p.high if p.high and p.period else p.hold for p in points],
-            "color": color, "marker": "circle", "line": "thin", **more}
+# --- figures of mu: drawn from the tables that are published --------------------------------------
+
+def tables_of(page):
+    """{title: rows} of tables.md; a number with its error is a pair."""
+    texts = page.read_text(encoding="utf-8").split("### ")[1:]
+    return {text.split("\n")[0].split(";")[0]: bars.read_table(text) for text in texts}
+
+
+def value(cell):
+    return cell[0] if isinstance(cell, tuple) else cell if isinstance(cell, float) else None
+
+
+def near(a, b):
+    return abs(a / b - 1) < 1e-9
+
+
+def with_bars(label, rows, x, over, color, **more):
+    """mu_hold over `over`, (value, bar); open where nothing is known of its error."""
+    series = []
+    for known in (True, False):
+        at = [row for row in rows if (row["mu_hold"][1] is not None) == known]
+        if not at:
+            continue
+        y = [row["mu_hold"][0] / over[0] for row in at]
+        error = [y[k] * math.hypot(row["mu_hold"][1] / row["mu_hold"][0], over[1] / over[0]) if known else 0
+                 for k, row in enumerate(at)]
+        series.append({"label": label if not series else "", "x": [row[x] for row in at], "y": y, "color": color,
+                       "low": [v - e for v, e in zip(y, error)], "high": [v + e for v, e in zip(y, error)],
+                       "marker": "circle", "line": "none", "filled": known, **({} if known else {"marker": "cross"}), **more})
+    return series
+
+
+def one_mesh(rows, x, over, color):
+    return {"x": [row[x] for row in rows], "y": [value(row["mu_hold"]) / over for row in rows if value(row["mu_hold"])],
+            "color": color, "marker": "none", "line": "thin"}
 
 
 def level(value, x, color):
     return {"x": x, "y": [value, value], "color": color, "marker": "none", "line": "dashed"}
 
 
+def at_pressure(rows, P):
+    return [row for row in rows if near(row.get("P", row.get("load.pressure")), P)]
+
+
+def draw_count(study, name, tables, answers, pressures):
+    """Marks: answers with bars; thin: one mesh; dashed: the block without gaps, with its bar at its end."""
+    table = tables[f"Number of pads, equal contact length 0.6 L (set {'A' if name == 'count' else 'B'})"]
+    of_pads, plain = answers
+    content = []
+    for color, P in enumerate(pressures, start=1):
+        whole = at_pressure(plain, P)[0]["mu_hold"]
+        content += with_bars(f"~{{P}} = {stress(P)}", at_pressure(of_pads, P), "mesh.set.n", (1, 0), color)
+        content += [one_mesh([row for row in at_pressure(table, P) if row["n"] != "none"], "n", 1, color),
+                    level(whole[0], [0.2, 12.4], color),
+                    {"x": [0.2], "y": [whole[0]], "low": [whole[0] - whole[1]], "high": [whole[0] + whole[1]], "color": color,
+                     "marker": "square", "line": "none"}]
+    content[-3]["label"], content[-2]["label"] = "one mesh", "without gaps"
+    study.plot(name, title=f"mu_hold against the number of pads, set {'A' if name == 'count' else 'B'}", height=0.8,
+               x={"label": "pads ~{n}", "range": [0, 12.6]},
+               y={"label": f"{MU}_{{hold}}", "range": [0.2, 0.4] if name == "count" else [0.4, 1.1]}, series=content)
+
+
+def draw_shape(study, tables, found):
+    """mu_hold over that of the block without gaps: heights of pads, depths of grooves."""
+    content, color = [], 0
+    heights = found["Height of the pads, with error bars"] + [
+        {**row, "mesh.set.pad_height": 0.05} for row in found["Pads of set A with error bars"]]
+    for P in (0.003, 0.006):
+        whole = at_pressure(found["The block without gaps, with error bars"], P)[0]["mu_hold"]
+        single = value(next(row for row in at_pressure(tables["Number of pads, equal contact length 0.6 L (set A)"], P)
+                            if row["n"] == "none")["mu_hold"])
+        for what, rows, x, table, y, keep in (
+                *((f"{n} pads", heights, "mesh.set.pad_height", tables["Varied: pad_height (set A)"], "pad_height",
+                   lambda row, n=n: n in (row.get("n"), row.get("mesh.set.n"))) for n in (4, 8)),
+                ("7 grooves", found["Shallow grooves with error bars"], "mesh.set.depth", tables["Shallow grooves"], "depth",
+                 lambda row: row.get("mesh.set.grooves", row.get("grooves")) == 7
+                 and row.get("mesh.set.width", row.get("width")) == 0.05)):
+            color += 1
+            content += with_bars(f"~{{P}} = {stress(P)}, {what}", [row for row in at_pressure(rows, P) if keep(row)], x, whole, color,
+                                 marker="circle" if "pads" in what else "square")
+            content.append(one_mesh([row for row in at_pressure(table, P) if keep(row)], y, single, color))
+    content[-1]["label"] = "one mesh"
+    study.plot("shape", title="mu_hold over that of the block without gaps", height=0.85,
+               x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
+               y={"label": f"{MU}_{{hold}} over that without gaps", "range": [0.5, 1.1]}, series=content + [level(1, [0, 0.155], 0)])
+
+
+def draw_shape_b(study, tables):
+    """One mesh each, and no bars: L of set B is 0.04."""
+    content = []
+    for P in (SET_B[0], SET_B[2]):
+        whole = value(next(row for row in at_pressure(tables["Number of pads, equal contact length 0.6 L (set B)"], P)
+                           if row["n"] == "none")["mu_hold"])
+        for n in (2, 4):
+            rows = [{**row, "x": row["pad_height"] / 0.04}
+                    for row in at_pressure(tables["Varied: pad_height (set B)"], P) if row["n"] == n]
+            content.append({**one_mesh(rows, "x", whole, len(content) + 1), "label": f"~{{P}} = {stress(P)}, {n} pads",
+                            "marker": "circle" if n == 2 else "square", "filled": False})
+    study.plot("shape-b", title="mu_hold over that of the block without gaps, set B: one mesh each, no bars", height=0.7,
+               x={"label": "height of pads / ~{L}", "range": [0, 0.16]},
+               y={"label": f"{MU}_{{hold}} over that without gaps", "range": [0.7, 1.05]}, series=content + [level(1, [0, 0.155], 0)])
+
+
+def draw(study, page):
+    """What tables.md (`page`) and bars.md say; bars of 95 %."""
+    tables, texts = tables_of(page), bars.sections(HERE / "bars.md")
+    found = {title: bars.read_table(text) for title, text in texts.items()}
+    draw_count(study, "count", tables, (found["Pads of set A with error bars"], found["The block without gaps, with error bars"]),
+               SET_A)
+    draw_count(study, "count-b", tables, (found["Pads of set B with error bars"],
+                                          found["The block without gaps of set B, with error bars"]), SET_B)
+    draw_shape(study, tables, found)
+    draw_shape_b(study, tables)
+
+
 # --- how many pads --------------------------------------------------------------------------------
 
-def study_count(study, name, points, plain, pressures, title):
-    content, rows = [], []
-    for color, P in enumerate(pressures, start=1):
+def study_count(study, points, plain, pressures, title):
+    rows = []
+    for P in pressures:
         here, whole = of_pressure(points, P), of_pressure(plain, P)[0]
-        open_ones = [p for p in here if not p.period and p.mean_error is not None]
-        content += [curve(f"~{{P}} = {stress(P)}", here, lambda p: p.n, color),
-                    level(whole.hold, [0.6, 12.4], color)]
-        if open_ones:
-            content.append({"label": "", "x": [p.n for p in open_ones], "y": [p.mean for p in open_ones], "color": color,
-                            "low": [p.mean - p.mean_error for p in open_ones], "line": "none",
-                            "high": [p.mean + p.mean_error for p in open_ones], "marker": "square",
-                            "filled": False})
         rows += [[stress(P), "none" if p is whole else p.n, p.low_end(), p.average(), p.drops, p.period, p.mu,
                   p.first_pad, p.branches(), p.l_c] for p in [whole] + here]
     study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
                 ["P", "n", "mu_hold", "mean of drops", "drops", "period", "mu_M", "first whole pad",
                  "drops (pads that slide)", "l_c/L"], rows)
-    low, high = (0.2, 0.4) if name == "count" else (0.4, 1.1)
-    study.plot(name, title=f"mu against the number of pads, {title}", height=0.8,
-               x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU, "range": [low, high]},
-               series=content)
 
 
 # --- which pad goes, and why ----------------------------------------------------------------------
@@ -311,23 +408,6 @@ def shape_table(study, points, key, title):
                                              "mu_M", "first whole pad", "drops (pads that slide)", "l_c/L"], rows)
 
 
-def study_heights_b(study, heights, plain):
-    """mu_hold over that of the plain block, set B."""
-    content, color = [], 0
-    for P in (SET_B[0], SET_B[2]):
-        whole = of_pressure(plain, P)[0].hold
-        for n in (2, 4):
-            here = sorted((p for p in of_pressure(heights, P) if p.n == n), key=lambda p: p.mesh["pad_height"])
-            color += 1
-            content.append({"label": f"~{{P}} = {stress(P)}, {n} pads", "y": [p.hold / whole for p in here],
-                            "x": [p.mesh["pad_height"] / p.mesh["length"] for p in here], "color": color,
-                            "marker": "circle" if n == 2 else "square", "line": "thin", "filled": P < 1e-4})
-    study.plot("shape-b", title="mu_hold over that of the block without gaps, set B", height=0.7,
-               x={"label": "height of pads / ~{L}", "range": [0, 0.16]},
-               y={"label": f"{MU} / {MU} without gaps", "range": [0.7, 1.05]},
-               series=content + [level(1, [0, 0.155], 0)])
-
-
 def study_shapes(study, points, plain):
     for name, key in (("height", "pad_height"), ("gap", "gap"), ("fill", "fill")):
         shape_table(study, points[name], key, "set A")
@@ -343,24 +423,6 @@ def study_shapes(study, points, plain):
     study.table("Shallow grooves; change against the block without", [
         "P", "grooves", "width", "depth", "mu_hold", "change", "mu_M", "first whole pad", "period",
         "drops (pads that slide)", "l_c/L"], rows)
-    content, color = [], 0
-    for P in (0.003, 0.006):
-        whole = of_pressure(plain, P)[0].hold
-        for label, of, key, keep in (
-                [(f"{n} pads", points["height"], "pad_height", lambda p, n=n: p.n == n) for n in (4, 8)] +
-                [(f"{g} grooves", points["grooves"], "depth", lambda p, g=g: near(p.mesh["width"], 0.05) and
-                  p.mesh["grooves"] == g) for g in (7,)]):
-            here = sorted((p for p in of_pressure(of, P) if keep(p) and p.hold),
-                          key=lambda p: p.mesh[key])
-            color = color % 7 + 1
-            content.append({"label": f"~{{P}} = {stress(P)}, {label}", "x": [p.mesh[key] for p in here],
-                            "y": [p.hold / whole for p in here], "color": color, "line": "thin",
-                            "marker": "circle" if "pads" in label else "square",
-                            "filled": P < 0.005})
-    study.plot("shape", title="mu_hold over that of the block without gaps", height=0.85,
-               x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
-               y={"label": f"{MU} / {MU} without gaps", "range": [0.5, 1.1]},
-               series=content + [level(1, [0, 0.155], 0)])
 
 
 # --- how sure -------------------------------------------------------------------------------------
@@ -418,9 +480,11 @@ def study_check(study, points, name):
 
 
 def publish(folder):
-    shutil.copy(folder / "tables.md", HERE / "tables.md")
+    if (folder / "tables.md").exists():
+        shutil.copy(folder / "tables.md", HERE / "tables.md")
     for name in FIGURES:
-        shutil.copy(folder / "figures" / f"{name}.png", HERE / f"{name}.png")
+        if (folder / "figures" / f"{name}.png").exists():
+            shutil.copy(folder / "figures" / f"{name}.png", HERE / f"{name}.png")
 
 
 def main():
@@ -429,12 +493,22 @@ def main():
     reader.add_argument("-j", "--jobs", type=int, default=2)
     reader.add_argument("--program", type=Path, default=ROOT / "amontons")
     reader.add_argument("--publish", action="store_true")
+    reader.add_argument("--draw", action="store_true")
     words = reader.parse_args()
     words.output.mkdir(parents=True, exist_ok=True)
     study = Study(words.program.resolve(), words.output, words.jobs)
+    if words.draw:
+        draw(study, HERE / "tables.md")
+    else:
+        compute(study)
+    if words.publish:
+        publish(words.output)
+
+
+def compute(study):
     points = study.sweeps(SWEEPS)
-    study_count(study, "count", points["count"], points["plain"], SET_A, "set A")
-    study_count(study, "count-b", points["count-b"], points["plain-b"], SET_B, "set B")
+    study_count(study, points["count"], points["plain"], SET_A, "set A")
+    study_count(study, points["count-b"], points["plain-b"], SET_B, "set B")
     a, b = runaways(study, "pads", SET_A, 10), runaways(study, "pads-b", SET_B, 1)
     runaway_table(study, "pads", a, points["count"])
     runaway_table(study, "pads-b", b, points["count-b"])
@@ -443,12 +517,11 @@ def main():
     study_loads(study, points["count"])
     study_transfer(study)
     study_shapes(study, points, points["plain"])
-    study_heights_b(study, points["height-b"], points["plain-b"])
     study_check(study, points["check"], "Set A")
     study_check(study, points["count-b"] + points["check-b"] + points["fine-b"], "Set B")
-    (words.output / "tables.md").write_text("\n".join(study.lines), encoding="utf-8")
-    if words.publish:
-        publish(words.output)
+    (study.folder / "tables.md").write_text("\n".join(study.lines), encoding="utf-8")
+    subprocess.run([HERE.parent / "bars.py", HERE, "-j", str(study.jobs)], check=True)
+    draw(study, study.folder / "tables.md")
 
 
 if __name__ == "__main__":

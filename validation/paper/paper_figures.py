@@ -18,31 +18,31 @@ def plain(values):
 
 # --- figures 2a, 2b, 3a ---------------------------------------------------------------------------
 
-def curves_of_pressure(pairs, both, material, filled):
-    """Marks: the finer mesh of each point; dashed: the coarser, where `both` differ; thin: 1D theory."""
-    series = []
-    for k, length in enumerate(sorted({pair.length for pair in pairs})):
-        at = [pair for pair in pairs if pair.length == length]
-        P, fine = [pair.P for pair in at], [pair.fine for pair in at]
-        series.append({"label": f"~{{L}} = {length:g}", "x": P, "y": [w.mu for w in fine], "low": [w.low for w in fine],
-                       "high": [w.high for w in fine], "color": k + 1, "marker": MARKERS[k], "filled": filled})
-        if both:
-            series.append({"x": P, "y": [pair.coarse.mu for pair in at], "color": k + 1, "line": "dashed"})
-        range_of_P = np.geomspace(min(P) / 1.3, max(P) * 1.3, 120)
-        series.append({"x": plain(range_of_P), "y": plain(material.mu(length, p) for p in range_of_P), "color": k + 1,
+def curves_of_pressure(rows, material, filled):
+    """Marks: answers with error bars (bars.read_table), crosses where the bar is not known; thin: 1D theory."""
+    series, unknown = [], []
+    for k, length in enumerate(sorted({row["mesh.set.length"] for row in rows})):
+        at = [row for row in rows if row["mesh.set.length"] == length and row["mu_M"] != "none"]
+        known = [(row["load.pressure"], *row["mu_M"]) for row in at if row["mu_M"][1] is not None]
+        series.append({"label": f"~{{L}} = {length:g}", "x": [P for P, _, _ in known], "y": [mu for _, mu, _ in known],
+                       "low": [mu - bar for _, mu, bar in known], "high": [mu + bar for _, mu, bar in known], "line": "none",
+                       "color": k + 1, "marker": MARKERS[k], "filled": filled})
+        unknown += [(row["load.pressure"], row["mu_M"][0]) for row in at if row["mu_M"][1] is None]
+        range_of_P = np.geomspace(min(row["load.pressure"] for row in at) / 1.3, max(row["load.pressure"] for row in at) * 1.3, 120)
+        series.append({"x": plain(range_of_P), "y": plain(material.mu(length, P) for P in range_of_P), "color": k + 1,
                        "line": "thin"})
     series[-1]["label"] = "1D theory"
-    if both:
-        series[-2]["label"] = "half as many cells"
+    if unknown:
+        series.append({"label": "bar not known", "x": [P for P, _ in unknown], "y": [mu for _, mu in unknown], "color": GREY,
+                       "marker": "cross", "filled": False, "line": "none"})
     return series
 
 
-def figure_2(place, name, pairs, both, material, filled):
-    top = material.mu_static * 1.07
+def figure_2(place, name, rows, material, filled):
     place.draw(name, {
-        "title": f"mu_M against pressure, set {material.name}",
-        "x": {"label": P_LABEL, "scale": "log"}, "y": {"label": MU_LABEL, "range": [0, top]},
-        "legend": "lower-left", "series": curves_of_pressure(pairs, both, material, filled)})
+        "title": f"mu_M against pressure, set {material.name}; bars: 95 %",
+        "x": {"label": P_LABEL, "scale": "log"}, "y": {"label": MU_LABEL, "range": [0, material.mu_static * 1.07]},
+        "legend": "lower-left", "series": curves_of_pressure(rows, material, filled)})
 
 
 def figure_3a(place, found):

@@ -26,6 +26,9 @@ from interface import History, same
 from windows import windows
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import bars   # noqa: E402
+
 COARSE = ["mesh.set.nx=20", "mesh.set.nz=20"]
 
 
@@ -138,7 +141,13 @@ def pressure_parts(place, parts):
         pairs = list(pool.map(lambda one: pressure_pairs(place, f"fig2{one[0].lower()}", one[1], cells), sets))
     for (name, material, filled), (even, found[name]) in zip(sets, pairs):
         study, key = f"fig2{name.lower()}", name.lower()
-        figures.figure_2(place, study, found[name], not place.quick, material, filled)
+        if place.quick:   # one mesh, no bars
+            rows = [{"mesh.set.length": pair.length, "load.pressure": pair.P,
+                     "mu_M": (pair.fine.mu, None) if np.isfinite(pair.fine.mu) else "none"} for pair in found[name]]
+        else:
+            rows = bars.read_rows(place.sweep(f"{study}-bars"))
+            parts[f"block_{key}"] = report.line_against(rows, material) + report.windows_against(rows, found[name])
+        figures.figure_2(place, study, rows, material, filled)
         parts[f"even_{key}"] = report.even_table(even, finer=not place.quick)
         if not place.quick:
             parts[key] = report.pair_table(found[name])
@@ -146,6 +155,15 @@ def pressure_parts(place, parts):
     figures.figure_3a(place, {name: [pair.fine for pair in pairs] for name, pairs in found.items()})
     parts.update(cells=cells)
     return {name: [pair.fine for pair in pairs] for name, pairs in found.items()}
+
+
+def draw_figure_2(place):
+    """From bars.md, as it lies beside this file."""
+    texts = bars.sections(HERE / "bars.md")
+    for name, material, filled in (("a", theory.A, False), ("b", theory.B, True)):
+        rows = bars.read_table(texts[f"Figure 2{name} of the paper with error bars, set {material.name}"])
+        figures.figure_2(place, f"fig2{name}", rows, material, filled)
+        print(report.line_against(rows, material))
 
 
 def line_and_profiles(place, parts):
@@ -187,7 +205,11 @@ def main():
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="points computed at a time")
     parser.add_argument("--quick", action="store_true", help="20 cells, and nothing finer: a look, in a minute")
     parser.add_argument("--fresh", action="store_true", help="compute again what an earlier call (of another build) left")
-    place, parts, started = Place(parser.parse_args()), {}, time.monotonic()
+    parser.add_argument("--draw", action="store_true", help="figure 2 alone, from bars.md, and its comparison with the 1D theory")
+    options = parser.parse_args()
+    place, parts, started = Place(options), {}, time.monotonic()
+    if options.draw:
+        return draw_figure_2(place)
     dynamic = pressure_parts(place, parts)
     line_and_profiles(place, parts)
     velocity_parts(place, parts)

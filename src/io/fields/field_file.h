@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Fields on a mesh for ParaView: .vtu (bulk), .vtp (the interface as lines) and the .pvd that lists
-// them against time. Written by VTK's own XML writers, in a module opened on first use: appended,
-// in zlib's blocks (the mesh compressed, values at nodes stored), 64-bit headers. Called by
-// record/field_files.
+// Fields on a mesh for ParaView: .vtu (bulk), .vtp (the interface as lines, in space as polygons)
+// and the .pvd that lists them against time. Written by VTK's own XML writers, in a module opened
+// on first use: appended, in zlib's blocks (the mesh compressed, values at nodes stored), 64-bit
+// headers. Called by record/field_files.
 #ifndef AMONTONS_IO_FIELDS_FIELD_FILE_H
 #define AMONTONS_IO_FIELDS_FIELD_FILE_H
 
@@ -12,7 +12,8 @@
 // Both write beside `path` and rename, so that the final name never has half a file. Errors
 // (ERROR_FILE) name the path and the cause (full disk, no permission, no such folder).
 bool field_file_write_vtu(const char *path, const FieldGrid *grid, Error *err);
-bool field_file_write_vtp(const char *path, const FieldGrid *grid, Error *err);   // cells: lines
+bool field_file_write_vtp(const char *path, const FieldGrid *grid,
+                          Error *err);   // cells: all lines, or polygons
 
 typedef struct FieldSeriesEntry {
     double time;

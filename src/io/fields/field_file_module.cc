@@ -8,6 +8,7 @@ extern "C" {
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -196,11 +197,15 @@ bool write(vtkXMLWriter *writer, const FieldGrid &grid, const FieldOutput &outpu
 bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
 {
     if (output.format == FIELD_VTP) {
-        vtkNew<vtkPolyData> lines;
-        fill(lines, grid);
-        lines->SetLines(make_cells(grid));
+        vtkNew<vtkPolyData> contact;
+        fill(contact, grid);
+        const bool lines = !grid.cell_types || grid.cell_types[0] == VTK_LINE;
+        if (lines)
+            contact->SetLines(make_cells(grid));
+        else
+            contact->SetPolys(make_cells(grid));
         vtkNew<vtkXMLPolyDataWriter> writer;
-        writer->SetInputDataObject(lines);
+        writer->SetInputDataObject(contact);
         return write(writer, grid, output, err);
     }
     vtkNew<vtkUnstructuredGrid> cells;

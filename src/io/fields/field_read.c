@@ -99,6 +99,23 @@ cleanup:
     return error_is_clean(err);
 }
 
+// All elements have the dimension of the first one; from VTK's order of nodes to gmsh's.
+static bool take_order(FieldFrame *frame, Error *err)
+{
+    frame->dim = frame->element_count > 0 ? element_dim((ElementKind)frame->kind[0]) : 2;
+    for (int32_t e = 0; e < frame->element_count; e++) {
+        ElementKind kind = (ElementKind)frame->kind[e];
+        int32_t *nodes = frame->element_nodes + frame->first_node[e], vtk[ELEMENT_NODES_MAX];
+        if (element_dim(kind) != frame->dim)
+            FAIL(err, ERROR_FILE, "it has cells of two and of three dimensions");
+        memcpy(vtk, nodes, (size_t)element_node_count(kind) * sizeof *vtk);
+        for (int32_t k = 0; k < element_node_count(kind); k++)
+            nodes[element_vtk_node(kind, k)] = vtk[k];
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 enum { PLANE_STRESSES = 3 };   // of a node; in space twice as many
 
 static bool take_values(const FieldPart *part, int32_t components, const FieldFrame *frame,
@@ -106,10 +123,6 @@ static bool take_values(const FieldPart *part, int32_t components, const FieldFr
 {
     memory_free(*values);
     *values = NULL;
-    if (components == PLANE_STRESSES && part->components == 2 * PLANE_STRESSES)
-        FAIL(err, ERROR_INPUT,
-             "it is of a block in space, whose inside is not drawn here: open fields.pvd in "
-             "ParaView");
     if (part->components != components || part->count != frame->node_count)
         FAIL(err, ERROR_FILE, "its array %s is not one of %d numbers a node", part->name,
              components);
@@ -123,13 +136,15 @@ cleanup:
 static bool take_part(void *context, const FieldPart *part, Error *err)
 {
     FieldFrame *frame = context;
+    int32_t stresses = frame->dim > 2 ? 2 * PLANE_STRESSES : PLANE_STRESSES;
     const struct {
         const char *name;
         int32_t components;
         double **values;
-    } arrays[] = {{"points", 3, &frame->position},   {"displacement", 3, &frame->displacement},
-                  {"velocity", 3, &frame->velocity}, {"stress_elastic", 3, &frame->stress_elastic},
-                  {"stress", 3, &frame->stress},     {"von_mises", 1, &frame->von_mises}};
+    } arrays[] = {
+        {"points", 3, &frame->position},      {"displacement", 3, &frame->displacement},
+        {"velocity", 3, &frame->velocity},    {"stress_elastic", stresses, &frame->stress_elastic},
+        {"stress", stresses, &frame->stress}, {"von_mises", 1, &frame->von_mises}};
     if (part->count > COUNT_MAX) FAIL(err, ERROR_FILE, "it has more than %d nodes", COUNT_MAX);
     if (strcmp(part->name, "points") == 0) frame->node_count = (int32_t)part->count;
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
@@ -144,7 +159,11 @@ static bool take_part(void *context, const FieldPart *part, Error *err)
         if (!whole) FAIL(err, ERROR_FILE, "its cells are damaged");
         return take_indices(part, frame->node_count, &frame->element_nodes, err);
     }
-    if (strcmp(part->name, "types") == 0) return take_kinds(part, frame, err);
+    if (strcmp(part->name, "types") == 0) {
+        TRY(take_kinds(part, frame, err));
+        TRY(take_order(frame, err));
+        frame->stresses = frame->dim > 2 ? 2 * PLANE_STRESSES : PLANE_STRESSES;
+    }
 cleanup:
     return error_is_clean(err);
 }

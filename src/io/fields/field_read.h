@@ -17,16 +17,19 @@ typedef struct FieldTime {
 // (memory_free). ERROR_INPUT where there is none.
 bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Error *err);
 
-// The block at one time. Vectors have three components, the third 0; stresses xx, zz, xz.
+// The block at one time. Vectors have three components: (x, z, 0), in space (x, y, z). Stresses are
+// xx, zz, xz; in space xx, yy, zz, xy, yz, xz.
 typedef struct FieldFrame {
+    int32_t dim;   // of the block: 2, in space 3
+    int32_t stresses;   // of a node: 3, in space 6
     int32_t node_count;
     double *position, *displacement, *velocity;   // [node_count * 3] owned, like all
-    double *stress_elastic, *stress;   // [node_count * 3] without and with the viscous part
+    double *stress_elastic, *stress;   // [node_count * stresses] without and with the viscous part
     double *von_mises;   // [node_count]
     int32_t element_count;
     uint8_t *kind;   // [element_count] ElementKind
     int32_t *first_node;   // [element_count + 1] offsets into element_nodes
-    int32_t *element_nodes;
+    int32_t *element_nodes;   // in gmsh's order
 } FieldFrame;
 
 // Checked: nothing points outside. ERROR_FILE names `path`.

@@ -41,6 +41,11 @@
     X("running", "")                                                                               \
     X("lock", "")                                                                                  \
     X("*.lock", "")                                                                                \
+    X("figures/force.csv", "F_T/F_N\n")                                                            \
+    X("figures/slip-map.csv", ",x")                                                                \
+    X("figures/precursors.csv", "F_T/F_N,l/L\n")                                                   \
+    X("figures/front-speed.csv", "x/L,v/c_R\n")                                                    \
+    X("figures/*-compared.csv", ",computed")                                                       \
     X("figures/*.json", "{\n  \"title\": \"")                                                      \
     X("figures/*.h5", "description")                                                               \
     X("*.html", "<meta name='generator' content='amontons ")                                       \

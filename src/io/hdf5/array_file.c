@@ -89,6 +89,17 @@ bool array_file_append(ArrayFile *file, const char *name, const double *values, 
     return file->module->append(file->hdf5, name, values, rows, err);
 }
 
+bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *values,
+                      int32_t stride, int64_t rows, Error *err)
+{
+    TRY(array_file_add_series(file, series, err));
+    if (stride == 0) return array_file_append(file, series->name, values, rows, err);
+    for (int64_t k = 0; k < rows; k++)
+        TRY(array_file_append(file, series->name, values + k * stride, 1, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 bool array_file_flush(ArrayFile *file, Error *err)
 {
     return file->module->flush(file->hdf5, err);

@@ -37,6 +37,9 @@ bool array_file_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t 
 // nearest that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                        Error *err);
+// A series with all its rows. stride: doubles from one row to the next; 0: they stand without gaps.
+bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *values,
+                      int32_t stride, int64_t rows, Error *err);
 bool array_file_flush(ArrayFile *file, Error *err);   // a reader finds all that was appended so far
 bool array_file_sync(ArrayFile *file, Error *err);   // and also after a power cut
 // Of the series only the first `rows` rows stay. ERROR_FILE: it has fewer, or there is none.

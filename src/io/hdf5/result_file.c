@@ -12,7 +12,7 @@
 
 enum { FORMAT_VECTORS = 2 };   // the latest; 1 says nothing of itself
 
-// Of any of the four tables.
+// Of any of the five tables.
 typedef struct ResultRow {
     const char *name;   // in the file, with its folder
     ArrayType type;   // as stored; attributes are always doubles
@@ -31,6 +31,12 @@ static const ResultRow series_rows[] = {
 static const ResultRow nodes_rows[] = {
 #define X(symbol, name, type, unit, description) {name, type, COLUMNS_NODES, unit, description},
     RESULT_NODES(X)
+#undef X
+};
+
+static const ResultRow faces_rows[] = {
+#define X(symbol, name, type, unit, description) {name, type, COLUMNS_ONE, unit, description},
+    RESULT_FACES(X)
 #undef X
 };
 
@@ -164,8 +170,15 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
         TRY(add_row(file, &nodes_rows[k], 1, head->tangents, err));
         TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
     }
+    for (int32_t k = 0; k < RESULT_FACES_COUNT; k++) {
+        if (head->faces[k].rows == 0) continue;
+        TRY(add_row(file, &faces_rows[k], head->faces[k].width, 1, err));
+        TRY(array_file_append(file, faces_rows[k].name, head->faces[k].values, head->faces[k].rows,
+                              err));
+    }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         if (k == SERIES_ROD_WAY && !head->rod_on_spring) continue;
+        if (k == SERIES_STATE && !head->remembers) continue;
         TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head->tangents,
                     err));
     }
@@ -198,7 +211,8 @@ cleanup:
 bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
 {
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        if (k == SERIES_ROD_WAY && !array_file_has(file, series_rows[k].name)) continue;
+        bool may_lack = k == SERIES_ROD_WAY || k == SERIES_STATE;
+        if (may_lack && !array_file_has(file, series_rows[k].name)) continue;
         TRY(array_file_cut(file, series_rows[k].name, rows, err));
     }
 cleanup:
@@ -251,6 +265,25 @@ static bool read_column(ArrayFile *file, const char *name, double **values, int3
              width);
     }
     *count = (int32_t)rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool result_file_has_faces(ArrayFile *file)
+{
+    return array_file_has(file, faces_rows[FACES_NODES].name);
+}
+
+bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
+                            int32_t *width, Error *err)
+{
+    int64_t count = 0;
+    *rows = *width = 0;
+    *values = NULL;
+    if (!array_file_has(file, faces_rows[faces].name)) return true;
+    TRY(array_file_read(file, faces_rows[faces].name, values, &count, width, err));
+    if (count > INT32_MAX) FAIL(err, ERROR_FILE, "%s is too long", faces_rows[faces].name);
+    *rows = (int32_t)count;
 cleanup:
     return error_is_clean(err);
 }

@@ -26,9 +26,14 @@ typedef struct ResultHead {
     double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
     bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
     bool rod_on_spring;   // SERIES_ROD_WAY is written, too
+    bool remembers;   // SERIES_STATE is
     int32_t contact_count;
     int32_t tangents;   // directions of slip: 0 or 1 in the plane, 2 in space
     const double *nodes[RESULT_NODES_COUNT];
+    struct {
+        int32_t rows, width;   // 0: the array is left out
+        const double *values;   // [rows * width]
+    } faces[RESULT_FACES_COUNT];
 } ResultHead;
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err);
 // The history of RESULT, finished or not, to go on with; without the tables and numbers of an end.
@@ -45,6 +50,10 @@ bool result_file_read_series(ArrayFile *file, ResultSeries series, double **valu
 bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values, int32_t *count,
                             Error *err);
 bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes);   // y and line: in space
+bool result_file_has_faces(ArrayFile *file);
+// *values [rows * width]; an array that is absent has no rows.
+bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
+                            int32_t *width, Error *err);
 bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
                             Error *err);
 // Columns [table_count] of one table, owned by the caller also after a failure; count: rows of all.

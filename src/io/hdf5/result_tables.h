@@ -41,6 +41,9 @@ typedef enum ResultColumns {
       "tau: friction stress on the block, positive against the drive (towards -x)")                \
     X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
       "0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not")                  \
+    X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
+      "theta of friction that remembers (`slip-weakening`: the part of strength that is there, "   \
+      "1); absent where nothing is remembered")                                                    \
     X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
@@ -58,6 +61,14 @@ typedef enum ResultColumns {
       "1: on the line along the middle of the contact that fronts are read off; in space only")    \
     X(NODES_WEIGHT, "nodes/weight", ARRAY_FLOAT64, "length", "integral of the shape function")     \
     X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which contact curve the node is on, from 0")
+
+// What the contact is drawn by, in space only. X(symbol, name, stored type, unit, description)
+#define RESULT_FACES(X)                                                                            \
+    X(FACES_NODES, "faces/nodes", ARRAY_INT32, "1",                                                \
+      "faces of the contact by their points: contact nodes, behind them faces/corners; -1: no "    \
+      "more")                                                                                      \
+    X(FACES_CORNERS, "faces/corners", ARRAY_FLOAT64, "length",                                     \
+      "x and y of corners that touch nothing, as those of TET10; absent: none")
 
 // Tables known at the end of a run (absent in a killed one). X(symbol, name, unit, description)
 #define RESULT_TABLES(X)                                                                           \
@@ -96,6 +107,8 @@ typedef enum ResultColumns {
     X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
       "lowest z of the strip that the rod pushes; absent: none")                                   \
     X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \
+    X(NUMBER_ROD_BREADTH, "rod_breadth", "length",                                                 \
+      "how broad it is in space; absent: as the face")                                             \
     X(NUMBER_MU_M, "mu_macroscopic", "1", "mu_M; absent until known")                              \
     X(NUMBER_L_C, "critical_length", "length",                                                     \
       "l_c from the dynamics; absent until known, and with several pads")
@@ -111,6 +124,12 @@ typedef enum ResultNodes {
     RESULT_NODES(X) RESULT_NODES_COUNT
 #undef X
 } ResultNodes;
+
+typedef enum ResultFaces {
+#define X(symbol, name, type, unit, description) symbol,
+    RESULT_FACES(X) RESULT_FACES_COUNT
+#undef X
+} ResultFaces;
 
 typedef enum ResultTable {
 #define X(symbol, name, unit, description) symbol,

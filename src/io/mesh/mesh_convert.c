@@ -9,6 +9,7 @@
 #include "io/mesh/mesh_raw.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "base/text.h"
 #include "io/mesh/element_faces.h"
 #include "io/mesh/raw_elements.h"
@@ -52,12 +53,6 @@ typedef struct TagAt {
     int64_t number, source;
 } TagAt;
 
-static int compare_tags(const void *a, const void *b)
-{
-    const TagAt *first = a, *second = b;
-    return (first->number > second->number) - (first->number < second->number);
-}
-
 // All nodes, none marked yet: index is -1 throughout.
 static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, Error *err)
 {
@@ -67,7 +62,7 @@ static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, 
         FAIL(err, ERROR_INPUT, "%s: %lld nodes are too many", path, (long long)raw->node_count);
     table->count = (int32_t)raw->node_count;
     for (int32_t k = 0; k < table->count; k++) tags[k] = (TagAt){raw->node_number[k], k};
-    qsort(tags, (size_t)table->count, sizeof *tags, compare_tags);
+    qsort(tags, (size_t)table->count, sizeof *tags, order_int64);
     TRY((table->number = NEW_ARRAY(int64_t, table->count, err)));
     TRY((table->source = NEW_ARRAY(int64_t, table->count, err)));
     TRY((table->index = NEW_ARRAY(int32_t, table->count, err)));
@@ -91,19 +86,12 @@ static void table_destroy(NodeTable *table)
 // The place of a tag in the table, -1: none. Tags mostly have no holes: that is tried first.
 static int32_t table_find(const NodeTable *table, int64_t number)
 {
-    int32_t low = 0, high = table->count - 1;
     if (table->count == 0) return -1;
     int64_t guess = number - table->number[0];
-    if (guess >= 0 && guess <= high && table->number[guess] == number) return (int32_t)guess;
-    while (low <= high) {
-        int32_t middle = low + (high - low) / 2;
-        if (table->number[middle] == number) return middle;
-        if (table->number[middle] < number)
-            low = middle + 1;
-        else
-            high = middle - 1;
-    }
-    return -1;
+    if (guess >= 0 && guess < table->count && table->number[guess] == number) return (int32_t)guess;
+    const int64_t *found =
+        bsearch(&number, table->number, (size_t)table->count, sizeof number, order_int64);
+    return found ? (int32_t)(found - table->number) : -1;
 }
 
 // Marks the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
@@ -225,13 +213,6 @@ cleanup:
 
 // --- groups -------------------------------------------------------------------------------------
 
-// Of node indices, ascending.
-static int compare_indices(const void *a, const void *b)
-{
-    int32_t first = *(const int32_t *)a, second = *(const int32_t *)b;
-    return (first > second) - (first < second);
-}
-
 // By dimension, then by number: the order promised in io/mesh/mesh_file.h.
 static int compare_groups(const void *a, const void *b)
 {
@@ -257,7 +238,7 @@ static bool store_group_nodes(const RawElements *elements, const NodeTable *tabl
             int32_t at = table_find(table, elements->items[k].nodes[a]);
             if (at >= 0 && table->index[at] >= 0) group->nodes[count++] = table->index[at];
         }
-    qsort(group->nodes, (size_t)count, sizeof *group->nodes, compare_indices);
+    qsort(group->nodes, (size_t)count, sizeof *group->nodes, order_int32);
     for (int32_t k = 0; k < count; k++)
         if (k == 0 || group->nodes[k] != group->nodes[k - 1])
             group->nodes[group->node_count++] = group->nodes[k];
@@ -296,16 +277,9 @@ cleanup:
 // The element with gmsh's number, which ascend; -1: none, a copy that was dropped.
 static int32_t find_element(const MeshFile *mesh, int64_t number)
 {
-    int32_t low = 0, high = mesh->element_count - 1;
-    while (low <= high) {
-        int32_t middle = low + (high - low) / 2;
-        if (mesh->element_number[middle] == number) return middle;
-        if (mesh->element_number[middle] < number)
-            low = middle + 1;
-        else
-            high = middle - 1;
-    }
-    return -1;
+    const int64_t *found = bsearch(&number, mesh->element_number, (size_t)mesh->element_count,
+                                   sizeof number, order_int64);
+    return found ? (int32_t)(found - mesh->element_number) : -1;
 }
 
 // The elements of a region, by the entities that it is made of: copies of an element are on the
@@ -328,7 +302,7 @@ static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const
                 group->blurred = true;
         }
     }
-    qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), compare_indices);
+    qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), order_int32);
 cleanup:
     return error_is_clean(err);
 }

@@ -5,7 +5,6 @@
 #include "base/text.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
@@ -44,7 +43,9 @@ int32_t element_vtk_node(ElementKind kind, int32_t k)
 {
     static const uint8_t mid_sides[] = {8,  11, 13, 9,  16, 18, 19, 17, 10, 12,
                                         14, 15, 22, 23, 21, 24, 20, 25, 26};
+    static const uint8_t outwards[] = {0, 2, 1, 3, 5, 4};   // VTK's wedge begins seen from outside
     if (kind == ELEMENT_TET10 && k >= 8) return 17 - k;
+    if (kind == ELEMENT_WEDGE6) return outwards[k];
     return kind == ELEMENT_HEX27 && k >= 8 ? mid_sides[k - 8] : k;
 }
 

@@ -4,6 +4,7 @@
 #include "io/mesh/raw_elements.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,13 +63,6 @@ static bool has_region(const MeshRaw *raw, int32_t dim)
     return false;
 }
 
-// By element tag.
-static int compare_numbers(const void *a, const void *b)
-{
-    const RawElement *first = a, *second = b;
-    return (first->number > second->number) - (first->number < second->number);
-}
-
 // By node tags, so that copies of one element come together; among copies the lowest tag first.
 static int compare_nodes(const void *a, const void *b)
 {
@@ -76,7 +70,7 @@ static int compare_nodes(const void *a, const void *b)
     if (first->count != second->count) return first->count < second->count ? -1 : 1;
     for (int32_t k = 0; k < first->count; k++)
         if (first->nodes[k] != second->nodes[k]) return first->nodes[k] < second->nodes[k] ? -1 : 1;
-    return compare_numbers(a, b);
+    return order_int64(a, b);
 }
 
 // Format 2.2 writes an element once for each of its physical groups: keeps the first copy.
@@ -125,8 +119,7 @@ static void sort_elements(RawElements *elements, bool may_repeat)
     if (may_repeat) drop_copies(elements);
     for (int32_t k = 1; k < elements->count; k++)
         if (elements->items[k - 1].number > elements->items[k].number) {
-            qsort(elements->items, (size_t)elements->count, sizeof *elements->items,
-                  compare_numbers);
+            qsort(elements->items, (size_t)elements->count, sizeof *elements->items, order_int64);
             break;
         }
 }

@@ -11,6 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { DIGITS = 9, PLAIN = 4 };   // PLAIN: zeros before the first digit of 0.00012
+
+static const double LEAST = 1e-290;   // smaller is 0
+
 struct CsvWriter {
     PartFile file;
     Error first;   // the first failure
@@ -81,6 +85,29 @@ void csv_number(CsvWriter *csv, double value)
         if (strtod(digits, NULL) == value) break;
     }
     csv_text(csv, digits);
+}
+
+// As %.9g, but that zeros at the end stay and a tenth power stands where the point would be far.
+// The digits are those of the value times a power of ten, which is off by one in 2^53.
+void csv_rounded(CsvWriter *csv, double value)
+{
+    char text[24], *end = text + sizeof text, *at = end;
+    begin_cell(csv);
+    if (!isfinite(value)) return;
+    if (fabs(value) < LEAST) value = 0;
+    int32_t power = value == 0 ? 0 : (int32_t)floor(log10(fabs(value)));   // of the first digit
+    bool plain = power >= -PLAIN && power < DIGITS;
+    int64_t digits = llround(fabs(value) * pow(10, DIGITS - 1 - power));
+    int32_t behind = DIGITS - 1 - (plain ? power : 0);   // digits behind the point
+    for (int32_t k = 0; digits > 0 || k <= behind; ++k, digits /= 10) {
+        if (k == behind && k > 0) *--at = '.';
+        *--at = (char)('0' + digits % 10);
+    }
+    if (value < 0) *--at = '-';
+    put(csv, at, (size_t)(end - at));
+    if (plain) return;
+    snprintf(text, sizeof text, "e%d", power);
+    put(csv, text, strlen(text));
 }
 
 void csv_end_row(CsvWriter *csv)

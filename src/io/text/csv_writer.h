@@ -15,6 +15,8 @@ CsvWriter *csv_create(const char *path, Error *err);
 void csv_text(CsvWriter *csv, const char *text);   // a cell, quoted where it must be
 // A cell with as few digits, 6 at least, as give the same double again; empty when not finite.
 void csv_number(CsvWriter *csv, double value);
+// A cell with nine digits, ten times as fast: of a long table.
+void csv_rounded(CsvWriter *csv, double value);
 void csv_end_row(CsvWriter *csv);
 bool csv_finish(CsvWriter *csv, Error *err);   // fsync, rename; frees `csv` either way
 void csv_abandon(CsvWriter *csv);   // frees it and leaves no file; NULL is fine

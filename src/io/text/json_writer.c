@@ -27,6 +27,7 @@ typedef struct JsonLevel {
 
 struct JsonWriter {
     PartFile file;
+    bool in_flow;   // json_create_flow
     Error first;   // the first failure
     char *text;   // [capacity], of which `length` are written; owned
     int64_t length, capacity;
@@ -61,11 +62,19 @@ static void append_new_line(JsonWriter *json)
     for (int32_t column = 0; column < INDENT * json->depth; column++) append_text(json, " ");
 }
 
+// In YAML's flow style a word stands without quotes.
+static bool is_bare(const JsonWriter *json, const char *value)
+{
+    static const char bare[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./";
+    return json->in_flow && *value && !value[strspn(value, bare)];
+}
+
 // A JSON string, escaped by RFC 8259, section 7, and DEL. A file name may hold any bytes: those
 // that are not UTF-8, at which a parser would stop, become the replacement character.
 static void append_escaped(JsonWriter *json, const char *value)
 {
-    append_text(json, "\"");
+    const char *quote = is_bare(json, value) ? "" : "\"";
+    append_text(json, quote);
     const unsigned char *next = (const unsigned char *)value;
     while (*next) {
         int32_t length = text_utf8_length((const char *)next);
@@ -86,7 +95,7 @@ static void append_escaped(JsonWriter *json, const char *value)
             append_bytes(json, (const char *)next, length);
         next += length > 0 ? length : 1;
     }
-    append_text(json, "\"");
+    append_text(json, quote);
 }
 
 // Comma, line and key before a value or before the bracket of a level.
@@ -99,7 +108,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
     if (json->depth > 0 && level->is_list == (key != NULL))
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
                   key ? "a key inside a list" : "no key inside an object");
-    if (!is_plain) level->one_line = false;   // from here on
+    if (!is_plain && !json->in_flow) level->one_line = false;   // from here on
     if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
     if (json->depth > 0 && !level->one_line) append_new_line(json);
     level->count++;
@@ -119,7 +128,8 @@ static void begin_level(JsonWriter *json, const char *key, bool is_list)
                   "%s: more than %d levels of nesting", json->file.path, DEPTH_MAX);
         return;
     }
-    json->levels[++json->depth] = (JsonLevel){.is_list = is_list, .one_line = is_list};
+    json->levels[++json->depth] =
+        (JsonLevel){.is_list = is_list, .one_line = is_list || json->in_flow};
 }
 
 // The file is opened at once: a folder that cannot be written to shows before anything is computed.
@@ -135,6 +145,13 @@ JsonWriter *json_create(const char *path, Error *err)
 cleanup:
     json_abandon(json);
     return NULL;
+}
+
+JsonWriter *json_create_flow(Error *err)
+{
+    JsonWriter *json = json_create(NULL, err);
+    if (json) json->in_flow = true;
+    return json;
 }
 
 void json_begin_object(JsonWriter *json, const char *key)
@@ -172,8 +189,10 @@ void json_text(JsonWriter *json, const char *key, const char *value)
 void json_number(JsonWriter *json, const char *key, double value)
 {
     char digits[32] = "null";
-    // 15 digits are always right, 17 always enough (IEEE 754 double): the fewest that read back.
-    for (int32_t precision = 15; isfinite(value) && precision <= 17; precision++) {
+    // 15 digits are always right, 17 always enough (IEEE 754 double): the fewest that read back. As
+    // words, 1e+06 is shorter than 1000000.
+    for (int32_t precision = json->in_flow ? 6 : 15; isfinite(value) && precision <= 17;
+         precision++) {
         snprintf(digits, sizeof digits, "%.*g", precision, value);
         if (strtod(digits, NULL) == value) break;
     }
@@ -219,7 +238,8 @@ cleanup:
 char *json_take(JsonWriter *json, Error *err)
 {
     char *text = NULL;
-    append_bytes(json, "\n", 2);   // with the end of the text
+    append_text(json, json->in_flow ? "" : "\n");
+    append_bytes(json, "", 1);   // the end of the text
     TRY(end_document(json, err));
     text = json->text;
     json->text = NULL;

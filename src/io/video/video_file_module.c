@@ -12,7 +12,6 @@
 #include <libswscale/swscale.h>
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>

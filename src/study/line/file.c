@@ -8,7 +8,6 @@
 #include "io/text/json_writer.h"
 #include "scene/keys.h"
 
-#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -107,20 +106,6 @@ static bool write_numbers(const Model1dSimulation *simulation, const Model1dSumm
     return json_finish(json, err);
 }
 
-// One member of every point as a series; offset: of the member in Model1dPoint.
-static bool write_curve(ArrayFile *file, const ArraySeries *series, const Model1dSimulation *from,
-                        size_t offset, Error *err)
-{
-    TRY(array_file_add_series(file, series, err));
-    for (int32_t k = 0; k < from->point_count; k++) {
-        const char *point = (const char *)&from->points[k];
-        TRY(array_file_append(file, series->name, (const double *)(const void *)(point + offset), 1,
-                              err));
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
 static bool write_curves(ArrayFile *file, const Model1dSimulation *simulation, Error *err)
 {
     static const struct {
@@ -135,9 +120,12 @@ static bool write_curves(ArrayFile *file, const Model1dSimulation *simulation, E
     for (size_t k = 0; k < sizeof curves / sizeof curves[0]; k++) {
         ArraySeries series = {curves[k].name, ARRAY_FLOAT64, 1, curves[k].unit,
                               curves[k].description};
-        if (!write_curve(file, &series, simulation, curves[k].offset, err)) return false;
+        const char *first = (const char *)simulation->points + curves[k].offset;
+        TRY(array_file_write(file, &series, (const double *)(const void *)first,
+                             sizeof(Model1dPoint) / sizeof(double), simulation->point_count, err));
     }
-    return true;
+cleanup:
+    return error_is_clean(err);
 }
 
 // u_0 and, for each of the table's fronts, u_a.

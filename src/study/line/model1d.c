@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "run/result_folder.h"
 
 #include <math.h>
@@ -43,6 +44,11 @@ static bool check_scene(const Scene *scene, Error *err)
     if (scene->rod.stiffness > 0)
         FAIL(err, ERROR_INPUT, "%s: rod.stiffness: the 1D model's rod goes where it is driven",
              path);
+    if (friction_remembers(&scene->friction, 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: friction.law: the 1D model's closed forms are of friction that depends on slip "
+             "rate alone; `%s` remembers (`amontons run` takes it)",
+             path, friction_law_name(&scene->friction));
     if (!(friction_drop(&scene->friction) > 0))
         FAIL(err, ERROR_INPUT,
              "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it needs a "

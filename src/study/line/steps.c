@@ -35,6 +35,7 @@ static bool open_history(Model1dSimulation *simulation, Error *err)
                                    [NUMBER_C_RAYLEIGH] = NAN,
                                    [NUMBER_ROD_LOW] = NAN,
                                    [NUMBER_ROD_HIGH] = NAN,
+                                   [NUMBER_ROD_BREADTH] = NAN,
                                    [NUMBER_MU_M] = NAN,
                                    [NUMBER_L_C] = NAN}};
     return history_create(simulation->options->folder, &head, &simulation->chain.interface,

@@ -14,6 +14,8 @@ typedef struct ChooserSpace {
     const double *least, *most;   // [count]
     const bool *whole;   // [count] whole numbers
     uint32_t seed;
+    int32_t known;   // values that are known to begin with
+    const double *places, *values;   // [known * count], [known]
 } ChooserSpace;
 
 typedef struct Chooser Chooser;   // the module's own

@@ -32,16 +32,24 @@ dlib::function_spec space_of(const ChooserSpace &space)
                                std::vector<bool>(space.whole, space.whole + space.count));
 }
 
+std::vector<dlib::function_evaluation> known_of(const ChooserSpace &space)
+{
+    std::vector<dlib::function_evaluation> known;
+    for (int32_t k = 0; k < space.known; k++)
+        known.emplace_back(vector_of(&space.places[k * space.count], space.count), space.values[k]);
+    return known;
+}
+
 }   // namespace
 
 struct Chooser {
     dlib::global_function_search search;
     std::map<int32_t, dlib::function_evaluation_request> waiting;
     int32_t chosen = 0;
-    explicit Chooser(const ChooserSpace &space) : search(space_of(space))
+    explicit Chooser(const ChooserSpace &space)
+        : search({space_of(space)}, {known_of(space)}, relative_noise)
     {
         search.set_seed(space.seed);
-        search.set_relative_noise_magnitude(relative_noise);
     }
 };
 

@@ -16,7 +16,8 @@ bool designs_create(const Study *study, int32_t conditions, char *const *texts, 
     *designs = (Designs){.study = study,
                          .lowest = study->rank.lowest || study->search.fits,
                          .conditions = conditions > 0 ? conditions : 1,
-                         .texts = texts};
+                         .texts = texts,
+                         .aim = -1};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
     TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->conditions, err));
@@ -149,6 +150,33 @@ static void judge_mean(const Designs *designs, const DesignPoint *points, Design
     design->bar = sqrt(square) / designs->conditions;
 }
 
+// Of s^2 = sum (v_i - mean)^2 / n: ds/dv_i = (v_i - mean)/(n s).
+static void judge_deviation(const Designs *designs, const DesignPoint *points, Design *design)
+{
+    int32_t n = designs->conditions;
+    double square = 0, bar = 0;
+    judge_mean(designs, points, design);
+    double mean = design->value;
+    for (int32_t c = 0; c < n; c++) square += pow(points[c].value - mean, 2) / n;
+    for (int32_t c = 0; c < n; c++) {
+        double share = square > 0 ? pow(points[c].value - mean, 2) / (n * square) : 1.0 / n;
+        bar += share * points[c].bar * points[c].bar / n;
+    }
+    design->value = sqrt(square);
+    design->bar = sqrt(bar);
+}
+
+static void judge_aim(const Designs *designs, const DesignPoint *points, Design *design)
+{
+    if (designs->aim < 0) {
+        judge_mean(designs, points, design);
+        return;
+    }
+    design->deciding = designs->aim;
+    design->value = points[designs->aim].value;
+    design->bar = points[designs->aim].bar;
+}
+
 DesignPoint *designs_points(const Designs *designs, int32_t design)
 {
     return &designs->points[(int64_t)design * designs->conditions];
@@ -165,7 +193,12 @@ void designs_judge(Designs *designs, int32_t d)
         design->has_bar = design->has_bar && points[c].has_bar;
     for (int32_t c = 0; c < designs->conditions; c++)
         if (isnan(points[c].value)) return;
-    (designs->study->search.mean ? judge_mean : judge_worst)(designs, points, design);
+    static void (*const judges[])(const Designs *, const DesignPoint *,
+                                  Design *) = {[OVER_WORST] = judge_worst,
+                                               [OVER_MEAN] = judge_mean,
+                                               [OVER_DEVIATION] = judge_deviation,
+                                               [OVER_FRONT] = judge_aim};
+    judges[designs->study->search.over](designs, points, design);
 }
 
 int32_t designs_best(const Designs *designs)

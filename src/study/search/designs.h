@@ -16,7 +16,7 @@ typedef struct Design {
     bool settled;   // a smaller accuracy is of no use
     double value, bar;   // what is searched for, of a fit the misfit; NaN: none; its error
     bool has_bar;   // an error bar, with the mesh's part; else what is usual of such a mesh
-    int32_t deciding;   // point of `vary` whose value it is; of a mean 0
+    int32_t deciding;   // point of `vary` whose value it is; 0: of none alone
 } Design;
 
 // What a point came to.
@@ -29,6 +29,7 @@ typedef struct Designs {
     const Study *study;   // not owned
     bool lowest;   // is best
     int32_t count;
+    int32_t aim;   // of a front: a condition, whose value counts alone; -1: the mean of all
     int32_t conditions;   // at which each design is computed: points of `vary`, or ...
     char *const *texts;   // ... [conditions] "load.pressure: 0.003", not owned; NULL: `vary`
     Design *list;   // [DESIGNS_MAX] owned
@@ -51,7 +52,7 @@ char *designs_text(const Designs *designs, const Design *list, int32_t count, Er
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
 DesignPoint *designs_points(const Designs *designs, int32_t design);   // [conditions]
-// value and bar of a design from its points: of the worst, or the mean; NaN where a point has none.
+// value and bar of a design from its points, by `over`; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
 int32_t designs_best(const Designs *designs);   // -1: none has a value
 // Whether a is better than b, by values alone.

@@ -197,7 +197,7 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
     Fit *fit = NEW_ARRAY(Fit, 1, err);
     TRY(fit);
     TRY(open_fit(fit, path, options, err));
-    TRY(search_designs(&fit->search, err));
+    TRY(search_designs(&fit->search, fit->search.study->search.designs, err));
     TRY(refine_regions(fit, err));
     summarise(fit, summary);
     TRY(fit_report(fit, summary, err));

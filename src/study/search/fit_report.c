@@ -2,15 +2,12 @@
 #include "study/search/fit_report.h"
 
 #include "base/dense.h"
-#include "base/memory.h"
 #include "io/text/csv_writer.h"
 #include "study/search/fit_figures.h"
 #include "study/search/search_answer.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WORST_SHOWN = 3, EIGEN_WORK_MAX = 4096 };
 static const double OFF = 2;   // errors, from which on a measurement is said not to fit

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// study read -> designs chosen, in rounds of as many as are computed side by side (search) -> those
-// along each key through the best -> the best decided with smaller error bars -> answer, figures.
+// study read -> designs chosen, in rounds of as many as are computed side by side (search), in turn
+// with those along each key through the best -> the best decided with smaller error bars ->
+// answer, figures.
 #include "study/search/optimise_report.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum {
+    // Parts of the search; between them designs along the keys through the best so far, which lead
+    // out of where the library has settled. Of 160 searches for the best pads, on a smooth model of
+    // 726 of them with their scatter, one part came above 0.302 in 68, two in 81, three in 91, four
+    // in 94 (87, 99, 106 and 112 designs).
+    PARTS = 3,
     SECTION_POINTS = 5,   // along a key
     LEADERS = 4,   // computed with a smaller error at a time
     BESTS_MAX = 3,   // times that deciding may come to another design
@@ -143,10 +148,45 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool has_front(const Search *search)
+{
+    return search->study->search.over == OVER_FRONT;
+}
+
+// What counts from here on.
+static void set_aim(Search *search, int32_t aim)
+{
+    search->designs.aim = aim;
+    for (int32_t d = 0; d < search->designs.count; d++) designs_judge(&search->designs, d);
+}
+
+// Of a front a part for the mean of its aims, and one for each alone.
+static int32_t count_parts(const Search *search)
+{
+    return has_front(search) ? 1 + search->designs.conditions : PARTS;
+}
+
+static bool search_in_parts(Search *search, Error *err)
+{
+    int32_t chosen = 0, wanted = search->study->search.designs, parts = count_parts(search);
+    for (int32_t part = 1; part <= parts; part++) {
+        int32_t until = wanted * part / parts;
+        if (has_front(search)) set_aim(search, part - 2);
+        TRY(search_designs(search, until - chosen, err));
+        chosen = until;
+        int32_t best = designs_best(&search->designs);
+        if (best >= 0) TRY(compute_sections(search, best, err));
+    }
+    if (has_front(search)) set_aim(search, -1);
+cleanup:
+    return error_is_clean(err);
+}
+
 static bool finish_search(Search *search, Error *err)
 {
     int32_t best = designs_best(&search->designs);
-    for (int32_t k = 0, last = -1; k < BESTS_MAX && best >= 0 && best != last; k++) {
+    for (int32_t k = has_front(search) ? BESTS_MAX : 0, last = -1;
+         k < BESTS_MAX && best >= 0 && best != last; k++) {
         TRY(compute_sections(search, best, err));
         TRY(decide(search, err));
         last = best;
@@ -168,9 +208,14 @@ static bool open_study(Optimise *self, const char *path, const SweepOptions *opt
     TRY(search_open(search, path, options, false, err));
     const StudyRank *rank = &search->study->rank;
     if (!rank->wanted) FAIL(err, ERROR_INPUT, "%s: what is best? say `rank: {by: mu_hold}`", path);
+    if (search->study->search.over == OVER_DEVIATION && !rank->lowest)
+        FAIL(err, ERROR_INPUT,
+             "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
+    if (search->study->search.over == OVER_FRONT && rank->refine > 0)
+        FAIL(err, ERROR_INPUT, "%s: best: `over: front` does not go with `refine`", path);
     search->judge = (SearchJudge){take_value, judge_design, tell_as_it_is, self};
     TRY(search_begin(search, 0, NULL, err));
-    search->planned += search->designs.conditions * (SECTION_POINTS - 1) *
+    search->planned += search->designs.conditions * count_parts(search) * (SECTION_POINTS - 1) *
                        search->study->search.key_count;
 cleanup:
     return error_is_clean(err);
@@ -215,7 +260,7 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     Optimise *self = NEW_ARRAY(Optimise, 1, err);
     TRY(self);
     TRY(open_study(self, path, options, err));
-    TRY(search_designs(&self->search, err));
+    TRY(search_in_parts(&self->search, err));
     if (self->search.designs.count > 0) TRY(note_accuracy(self, err));
     TRY(finish_search(&self->search, err));
     summarise(&self->search, summary);

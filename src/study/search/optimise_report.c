@@ -2,13 +2,12 @@
 #include "study/search/optimise_report.h"
 
 #include "base/memory.h"
+#include "study/search/front.h"
 #include "study/search/search_answer.h"
 #include "study/search/search_figure.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { OTHERS_SHOWN = 5 };
 
@@ -52,7 +51,11 @@ static void print_gain(const Search *search, const OptimiseSummary *summary, int
     design_words(search->study, &search->designs.list[search->start], words);
     fprintf(out, "  the scene as it is, %s: ", words);
     print_estimate(&search->designs.list[search->start], out);
-    fprintf(out, "; the best differs by %+.1f %% +- %.1f %%\n", 100 * (ratio - 1), 100 * error);
+    fprintf(out, "; the best differs by %+.1f %%", 100 * (ratio - 1));
+    if (isnan(error))
+        fprintf(out, ", whose error is not known\n");
+    else
+        fprintf(out, " +- %.1f %%\n", 100 * error);
 }
 
 static void print_open(const Search *search, int32_t best, FILE *out)
@@ -109,15 +112,21 @@ typedef struct Answer {
 
 static void print_answer(const void *context, FILE *out)
 {
+    static const char *const over[] = {[OVER_WORST] = "worst",
+                                       [OVER_MEAN] = "mean",
+                                       [OVER_DEVIATION] = "standard deviation",
+                                       [OVER_FRONT] = "mean"};
     const Answer *answer = context;
     const Search *search = answer->search;
     const OptimiseSummary *summary = answer->summary;
     const Designs *designs = &search->designs;
     int32_t best = answer->best;
+    Error ignored = {0};
+    if (search->study->search.over == OVER_FRONT) front_print(search, out, &ignored);
     fprintf(out, "%s, %s of %d designs", quantity(search),
             search->study->rank.lowest ? "the lowest" : "the highest", summary->designs);
     if (designs->conditions > 1)
-        fprintf(out, ", %s of %d points each", search->study->search.mean ? "mean" : "worst",
+        fprintf(out, ", %s of %d points each", over[search->study->search.over],
                 designs->conditions);
     fprintf(out, ":\n  %s: ", summary->best);
     print_estimate(&designs->list[best], out);
@@ -197,6 +206,7 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
     int32_t best = designs_best(&search->designs);
     TRY(search_answer(search, print_answer, &(Answer){search, summary, best}, err));
     TRY(draw_course(search, err));
+    if (search->study->search.over == OVER_FRONT) TRY(front_draw(search, err));
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         TRY(draw_section(search, best, k, err));
     TRY(search_leave_best(search, best, search->designs.list[best].deciding, err));

@@ -5,6 +5,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "base/order.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,12 +56,6 @@ double response_at(const Response *r, int32_t datum, const double *place)
 
 // --- through designs ----------------------------------------------------------------------------
 
-static int compare_numbers(const void *a, const void *b)
-{
-    double one = *(const double *)a, other = *(const double *)b;
-    return (one > other) - (one < other);
-}
-
 // A design counts half where its misfit is `far` above the least; at least as many count as a
 // polynomial of second order needs. *best: the one with the least.
 static bool weigh(const ResponseDef *def, double *weights, int32_t *best, Error *err)
@@ -68,7 +63,7 @@ static bool weigh(const ResponseDef *def, double *weights, int32_t *best, Error 
     double *sorted = NEW_ARRAY(double, def->designs, err);
     TRY(sorted);
     memcpy(sorted, def->misfit, (size_t)def->designs * sizeof *sorted);
-    qsort(sorted, (size_t)def->designs, sizeof *sorted, compare_numbers);
+    qsort(sorted, (size_t)def->designs, sizeof *sorted, order_doubles);
     int32_t needed = (int32_t)(MORE * full_terms(def->keys));
     double reach = sorted[needed < def->designs ? needed : def->designs - 1] - sorted[0];
     double far = fmax(def->far, reach);

@@ -12,7 +12,6 @@
 #include "study/sweep/reading/study_point.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -20,6 +19,8 @@ enum {
     TRIES_MAX = 1000,   // choices that limits refuse, one after the other
     REFUSED_MAX = 20,   // scenes that are refused before there is any design: the study is wrong
 };
+// Steps of a key's range: designs that are nearer are one, as no bar tells them apart. Of no fit.
+enum { LATTICE = 40 };
 static const double REFUSED = 0.5;   // below the worst, in parts of what values differ by
 
 double search_scaled(const SearchKey *key, double value)
@@ -204,11 +205,21 @@ static double below_the_worst(const Search *search)
     return low <= high ? low - REFUSED * (high - low) : 0;
 }
 
-static bool tell(Search *search, int32_t choice, double value, Error *err)
+static double told_of(const Search *search, double value)
 {
     double sign = search->designs.lowest ? -1 : 1;
-    double told = isnan(value) ? below_the_worst(search) : sign * search->judge.told(value);
-    return search->module->tell(search->chooser, choice, told, err);
+    return isnan(value) ? below_the_worst(search) : sign * search->judge.told(value);
+}
+
+static bool tell(Search *search, int32_t choice, double value, Error *err)
+{
+    return search->module->tell(search->chooser, choice, told_of(search, value), err);
+}
+
+static double on_lattice(const Search *search, double x, double least, double most)
+{
+    double step = (most - least) / LATTICE;
+    return search->study->search.fits ? x : least + step * round((x - least) / step);
 }
 
 // The next design that is allowed and new. *added: there is one.
@@ -224,7 +235,12 @@ static bool choose(Search *search, bool *added, Error *err)
         double x[STUDY_SEARCH_MAX] = {0};
         int32_t number = 0;
         TRY(search->module->choose(search->chooser, x, &number, err));
-        for (int32_t i = 0; i < keys->key_count; i++) x[i] = search_unscaled(&keys->keys[i], x[i]);
+        for (int32_t i = 0; i < keys->key_count; i++) {
+            const SearchKey *key = &keys->keys[i];
+            double least = search_scaled(key, key->least), most = search_scaled(key, key->most);
+            if (key->scale != SEARCH_WHOLE) x[i] = on_lattice(search, x[i], least, most);
+            x[i] = search_unscaled(key, x[i]);
+        }
         TRY(search_add(search, x, &design, err));
         int32_t known = design < 0 ? designs_find(&search->designs, x) : design;
         if (design >= 0)
@@ -237,16 +253,48 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool search_designs(Search *search, Error *err)
+// One that knows the designs so far.
+static bool open_chooser(Search *search, Error *err)
 {
-    int32_t chosen = 0;
+    const StudySearch *keys = &search->study->search;
+    int32_t n = keys->key_count, count = search->designs.count;
+    double least[STUDY_SEARCH_MAX], most[STUDY_SEARCH_MAX];
+    bool whole[STUDY_SEARCH_MAX];
+    double *places = NEW_ARRAY(double, (int64_t)count *(n + 1) + 1, err), *values = NULL;
+    TRY(places);
+    values = places + (int64_t)count * n;
+    for (int32_t k = 0; k < n; k++) {
+        least[k] = search_scaled(&keys->keys[k], keys->keys[k].least);
+        most[k] = search_scaled(&keys->keys[k], keys->keys[k].most);
+        whole[k] = keys->keys[k].scale == SEARCH_WHOLE;
+    }
+    for (int32_t d = 0; d < count; d++) {
+        const Design *one = &search->designs.list[d];
+        for (int32_t k = 0; k < n; k++)
+            places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
+        values[d] = told_of(search, one->value);
+    }
+    ChooserSpace space = {n, least, most, whole, keys->seed, count, places, values};
+    ChooserModuleFunction module =
+        (ChooserModuleFunction)module_function("dlib", "amontons_chooser_module", err);
+    TRY(module);
+    search->module = module();
+    search->module->destroy(search->chooser);
+    TRY(search->chooser = search->module->create(&space, err));
+cleanup:
+    memory_free(places);
+    return error_is_clean(err);
+}
+
+bool search_designs(Search *search, int32_t count, Error *err)
+{
     bool added = true;
-    TRY(add_start(search, err));
-    if (search->start >= 0) TRY(search_compute_from(search, 0, err));
-    while (chosen < search->study->search.designs && added) {
+    TRY(open_chooser(search, err));
+    if (search->designs.count == 0) TRY(add_start(search, err));
+    if (search->designs.count == 1) TRY(search_compute_from(search, 0, err));
+    for (int32_t chosen = 0; chosen < count && added;) {
         int32_t first = search->designs.count;
-        for (int32_t k = 0; k < search->side_by_side && added; k++) {
-            if (chosen == search->study->search.designs) break;
+        for (int32_t k = 0; k < search->side_by_side && chosen < count && added; k++) {
             TRY(choose(search, &added, err));
             chosen += added;
         }
@@ -259,26 +307,6 @@ cleanup:
 }
 
 // --- begin and end ------------------------------------------------------------------------------
-
-static bool open_chooser(Search *search, Error *err)
-{
-    const StudySearch *keys = &search->study->search;
-    double least[STUDY_SEARCH_MAX], most[STUDY_SEARCH_MAX];
-    bool whole[STUDY_SEARCH_MAX];
-    for (int32_t k = 0; k < keys->key_count; k++) {
-        least[k] = search_scaled(&keys->keys[k], keys->keys[k].least);
-        most[k] = search_scaled(&keys->keys[k], keys->keys[k].most);
-        whole[k] = keys->keys[k].scale == SEARCH_WHOLE;
-    }
-    ChooserSpace space = {keys->key_count, least, most, whole, keys->seed};
-    ChooserModuleFunction module =
-        (ChooserModuleFunction)module_function("dlib", "amontons_chooser_module", err);
-    TRY(module);
-    search->module = module();
-    TRY(search->chooser = search->module->create(&space, err));
-cleanup:
-    return error_is_clean(err);
-}
 
 bool search_open(Search *search, const char *path, const SweepOptions *options, bool fits,
                  Error *err)
@@ -311,7 +339,6 @@ bool search_begin(Search *search, int32_t conditions, char *const *texts, Error 
     const SweepOptions *options = search->options;
     TRY(search->scene = NEW_ARRAY(Scene, 1, err));
     TRY(designs_create(search->study, conditions, texts, &search->designs, err));
-    TRY(open_chooser(search, err));
     int64_t cores = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
     search->side_by_side = (int32_t)fmax(1, floor((double)cores / search->designs.conditions));
     search->planned = search->designs.conditions * search->study->search.designs;

@@ -6,7 +6,6 @@
 #include "scene/keys.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 bool search_answer(const Search *search, void (*print)(const void *context, FILE *out),
                    const void *context, Error *err)

@@ -8,7 +8,6 @@
 #include "io/text/json_writer.h"
 #include "scene/keys.h"
 
-#include <math.h>
 #include <stdio.h>
 
 // Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.
@@ -21,6 +20,9 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     json_number(json, "l_c_scan_over_L", summary->l_c_scan);
     json_number(json, "l_c_over_L", summary->l_c);
     json_number(json, "l_c_at_V_over_L", summary->l_c_rod);
+    json_number(json, "A_sc_over_A", summary->area_sc);
+    json_number(json, "A_c_over_A", summary->area_c);
+    json_number(json, "A_c_at_V_over_A", summary->area_c_rod);
     json_number(json, "element_over_L", summary->element);
     json_number(json, "mu_l_sc", summary->mu_sc);
     json_number(json, "mu_snap", summary->mu_snap);
@@ -46,6 +48,7 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
         json_begin_object(json, NULL);
         json_number(json, "l_over_L", point->front / length);
         json_integer(json, "slipping", point->slipping);
+        json_number(json, "slipping_over_A", point->area);
         json_number(json, "U", point->U);
         json_number(json, "mu", point->mu);
         json_number(json, "mu_at_V", point->mu_at_V);
@@ -106,14 +109,6 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     return json_finish(json, err);
 }
 
-// A series with its values at once. values: [rows][series->columns].
-static bool add_series(ArrayFile *file, const ArraySeries *series, const double *values,
-                       int64_t rows, Error *err)
-{
-    return array_file_add_series(file, series, err) &&
-           array_file_append(file, series->name, values, rows, err);
-}
-
 // Shapes: nodes and critical mode [contact nodes], modes [points][2][contact nodes], front
 // [points], rate [points][2].
 static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
@@ -121,6 +116,7 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
     const Interface *interface = &path->model->interface;
     int32_t nodes = interface->contact_count;
     ArraySeries x = {"nodes/x", ARRAY_FLOAT64, 1, "length", "position of the contact nodes"};
+    ArraySeries y = {"nodes/y", ARRAY_FLOAT64, 1, "length", "the same across the drive"};
     ArraySeries critical = {"critical/slip", ARRAY_FLOAT64, 1, "1",
                             "slip of the real growing mode at l_c at the contact nodes, largest 1; "
                             "0 where none was found"};
@@ -131,17 +127,14 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
                          "l, how far the front is from the trailing end"};
     ArraySeries rate = {"points/rate", ARRAY_FLOAT64, 2, "1/time",
                         "rightmost lambda of exp(lambda t), real and imaginary part"};
-    TRY(add_series(file, &x, interface->x, nodes, err));
-    TRY(add_series(file, &critical, path->critical_mode, nodes, err));
-    TRY(add_series(file, &modes, path->modes, path->count, err));
-    TRY(array_file_add_series(file, &front, err));
-    TRY(array_file_add_series(file, &rate, err));
-    for (int32_t k = 0; k < path->count; k++) {
-        const StabilityPoint *point = &path->points[k];
-        double pair[2] = {point->rate_re, point->rate_im};
-        TRY(array_file_append(file, front.name, &point->front, 1, err));
-        TRY(array_file_append(file, rate.name, pair, 1, err));
-    }
+    TRY(array_file_write(file, &x, interface->x, 0, nodes, err));
+    if (interface->y) TRY(array_file_write(file, &y, interface->y, 0, nodes, err));
+    TRY(array_file_write(file, &critical, path->critical_mode, 0, nodes, err));
+    TRY(array_file_write(file, &modes, path->modes, 0, path->count, err));
+    const StabilityPoint *points = path->points;
+    int32_t stride = sizeof *points / sizeof(double);
+    TRY(array_file_write(file, &front, &points->front, stride, path->count, err));
+    TRY(array_file_write(file, &rate, &points->rate_re, stride, path->count, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -20,18 +20,22 @@ double stability_half_period(const StabilityPath *path, int32_t k)
 // two points of which the second has one more slipping node, it is taken as linear in l.
 typedef double (*Margin)(const StabilityPath *path, int32_t k);
 
+// In space: by no more of the contact than this.
+static const double NEXT_PART = 0.1;
+
 // Point k slips at one node more than the one before, and that is the next one along the front
 // (where two slipping parts meet, the front jumps).
 static bool is_next(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
     const Interface *interface = &path->model->interface;
-    int32_t passed = 0;
+    int32_t passed = 0, more = point->slipping - point[-1].slipping;
+    if (interface->dim > 2) return more <= NEXT_PART * interface->contact_count;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         double l = interface->x[i] - path->model->scales.trailing;
         passed += l > point[-1].front && l <= point->front;
     }
-    return point->slipping == point[-1].slipping + 1 && passed == 1;
+    return more == 1 && passed == 1;
 }
 
 // The certificate is yes or no: lost at the point itself.
@@ -74,7 +78,8 @@ static double frequency_square(const StabilityPath *path, int32_t k)
 // and mu are taken (its own are those at which one more node is about to slip: in set B 4 % more).
 static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 {
-    StabilityPoint lost = {.front = NAN, .U = NAN, .mu = NAN, .mu_at_V = NAN, .rate_im = NAN};
+    StabilityPoint lost = {
+        .front = NAN, .U = NAN, .mu = NAN, .mu_at_V = NAN, .rate_im = NAN, .area = NAN};
     int32_t count = path->options->at_end ? 0 : path->count;   // one state has no path
     for (int32_t k = 0; k < count; k++) {
         double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
@@ -90,6 +95,7 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
         }
         double part = isfinite(after) ? before / (before - after) : 1;
         lost.front = last->front + part * (lost.front - last->front);
+        lost.area = last->area + part * (lost.area - last->area);
         lost.U = last->U + part * (lost.U - last->U);
         lost.mu = last->mu + part * (lost.mu - last->mu);
         lost.mu_at_V = last->mu_at_V + part * (lost.mu_at_V - last->mu_at_V);
@@ -122,7 +128,9 @@ void stability_summarise(const StabilityPath *path, StabilitySummary *summary)
     StabilityPoint oscillates = first_loss(path, real_part);
     StabilityPoint slides = first_sliding(path, frequency_square);
     StabilityPoint rod = first_sliding(path, stability_half_period);
-    if (slides.front < rod.front) rod = slides;
+    bool earlier = slides.front < rod.front;
+    if (interface->dim > 2) earlier = slides.area < rod.area;
+    if (earlier) rod = slides;
     *summary =
         (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
                            .l_sc = oscillates.front / length,
@@ -135,8 +143,11 @@ void stability_summarise(const StabilityPath *path, StabilitySummary *summary)
                            .mu_rod = rod.mu_at_V,
                            .U_c = slides.U,
                            .U_rod = rod.U,
+                           .area_sc = oscillates.area,
+                           .area_c = slides.area,
+                           .area_c_rod = rod.area,
                            .frequency = oscillates.rate_im,
-                           .element = 1.0 / fmax(interface->contact_count - 1, 1),
+                           .element = 1.0 / fmax(interface_nodes_along(interface) - 1, 1),
                            .points = path->count,
                            .path_steps = path->control.counters.accepted,
                            .seconds_growth = path->seconds_growth};

@@ -24,6 +24,8 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/slip.h"
+#include "record/pad_sums.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -114,7 +116,8 @@ static double ratio_of(PadWork *work, int32_t slipping)
     for (int32_t a = 0; a < slipping; a++) {
         int32_t i = work->nodes[a];
         trial->status[i] = CONTACT_SLIP_FORWARD;
-        trial->slip_rate[interface_tangent(work->interface, i)] = 0;
+        for (int32_t c = 0; c < slip_tangents(work->interface); c++)
+            trial->slip_rate[interface_tangent(work->interface, i) + c] = 0;
     }
     return growth_scan(work->path->growth, trial).ratio;
 }
@@ -261,6 +264,10 @@ static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
     pad->load = ratio_of(work, work->count);
     pad->l_c = critical_length(work);
     pad->mu_fall = fall_of_mu(work);
+    double breadth = pad_size(interface, p).breadth;
+    pad->length /= breadth;
+    pad->slipping /= breadth;
+    pad->l_c /= breadth;
 cleanup:
     return error_is_clean(err);
 }
@@ -284,7 +291,7 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         summary->pad_count = p + 1;
     }
     for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;
-    if (path->grows && !path->options->at_end) {
+    if (path->grows && !path->options->at_end && interface->dim == 2) {
         take_pad(&work, summary->pad);
         work.pressure = summary->pads[summary->pad].pressure;
         double length = summary->pads[summary->pad].length;

@@ -13,21 +13,22 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
+#include "contact/slip.h"
 #include "run/result_folder.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 // A step of the path in units of crossing time + viscous time: long against all that can grow.
-static const double PATH_STEP = 10;
+static const double PATH_STEP_LIMIT = 10;
 // What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
 // some 4 of them), but not more than about this part of an element.
 static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
-static const double SNAP =
+static const double SNAP_LIMIT =
     4;   // slip of a node in a step, over that of the rod (up to 1.5 elsewhere)
 enum {
-    PATH_STEPS_MAX = 20000,   // some 20 times what 320 contact nodes need
+    PATH_STEPS_LIMIT = 20000,   // some 20 times what 320 contact nodes need
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
 };
 
@@ -47,6 +48,12 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
+    if (friction_remembers(&scene->friction, 0))
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: friction.law: growth rates are those of friction that depends on slip rate alone; "
+            "`%s` remembers (`amontons run` takes it)",
+            scene->path, friction_law_name(&scene->friction));
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
@@ -96,16 +103,16 @@ cleanup:
 }
 
 // The path's own steps, from the state of the simulation: tolerance and certificate off, so that
-// every step is PATH_STEP long, and a rod of its own velocity that continues from where
+// every step is PATH_STEP_LIMIT long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
 static bool open_path(StabilityPath *path, Error *err)
 {
     Model *model = path->model;
     const Interface *interface = &model->interface;
     const Simulation *before = path->simulation;
-    double elements = interface->contact_count;
+    double elements = interface_nodes_along(interface);
     double slip = model_friction_slip(model) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
-    double step = PATH_STEP * model->scales.time;
+    double step = PATH_STEP_LIMIT * model->scales.time;
     StepControlDef def = {.tolerance = INFINITY,
                           .step_max = step,
                           .step_min = 1e-12 * step,
@@ -126,7 +133,7 @@ static bool open_path(StabilityPath *path, Error *err)
     step_control_restart(&path->control);
     double speed = materials_slip_speed(&model->materials);
     double mean = material_slip_speed(&model->materials.mean);   // with soft regions it is slower
-    GrowthDef growth = growth_def(model->length, speed, interface->contact_count);
+    GrowthDef growth = growth_def(model->length, speed, (int32_t)elements);
     growth.slowest = fmin(growth.slowest * (mean / speed), mean / (4 * model->height));   // if tall
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
@@ -137,12 +144,31 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The tangential part of a mode at the contact nodes. mode: [interface count]; slip:
+// The part along the drive of a mode at the contact nodes. mode: [interface count]; slip:
 // [contact_count].
 static void keep_slip(const Interface *interface, const double *mode, double *slip)
 {
     for (int32_t i = 0; i < interface->contact_count; i++)
         slip[i] = mode[interface_tangent(interface, i)];
+}
+
+// Nodes that begin to slip from one point of the path to the next: each in the plane, in space a
+// third of those that stand across it.
+static int32_t between_points(const Interface *interface)
+{
+    double across = interface->contact_count / interface_nodes_along(interface);
+    return (int32_t)fmax(across / 3, 1);
+}
+
+// Over all of it.
+static double slipping_area(const Interface *interface, const State *state)
+{
+    double all = 0, slips = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        all += interface->weight[i];
+        if (state->status[i] != CONTACT_STICK) slips += interface->weight[i];
+    }
+    return slips / all;
 }
 
 static int32_t count_slipping(const State *state)
@@ -165,7 +191,7 @@ static double mu_at_V(const StabilityPath *path, const State *state, double mu)
     for (int32_t i = 0; i < state->contact_count; i++) {
         double pressure = state->reaction[interface_normal(&path->model->interface, i)];
         if (!status_slips(state->status[i])) continue;
-        double rate = speed * fabs(state->slip_rate[interface_tangent(&path->model->interface, i)]);
+        double rate = speed * slip_size(&path->model->interface, i, state->slip_rate);
         const FrictionLaw *own = friction_at(law, i);
         lost += pressure * (own->mu_static - friction_coefficient(own, rate));
         pressed += pressure * (friction_drop(own) / friction_drop(law));
@@ -198,7 +224,8 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
                          .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
                          .real_rate = rates.real.re,
                          .load = growth_scan(path->growth, &path->last).ratio,
-                         .certified = certificate_holds(&path->control.certificate, &path->last)};
+                         .certified = certificate_holds(&path->control.certificate, &path->last, 0),
+                         .area = slipping_area(interface, &path->last)};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);
     keep_slip(interface, rates.mode_im, mode + interface->contact_count);
@@ -243,36 +270,41 @@ static void note_snap(StabilityPath *path, double mu)
 {
     const State *now = &path->control.now;
     path->mu_snap = mu_at_V(path, &path->last, mu);
+    const Interface *interface = &path->model->interface;
     for (int32_t i = 0; i < now->contact_count; i++)
-        if (fabs(now->slip_rate[interface_tangent(&path->model->interface, i)]) >
-            fabs(now->slip_rate[interface_tangent(&path->model->interface, path->snap_node)]))
+        if (slip_size(interface, i, now->slip_rate) >
+            slip_size(interface, path->snap_node, now->slip_rate))
             path->snap_node = i;
 }
 
 // Steps until the front has reached the end (whose own state is the last point), or is some
-// positions beyond l_c. A node that goes SNAP times as far in one step as the rod has jumped: where
-// a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
-// The path's long steps damp the jump and go on; in time it may be a sliding.
+// positions beyond l_c. A node that goes SNAP_LIMIT times as far in one step as the rod has jumped:
+// where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches
+// mu_S. The path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->model->interface;
     double end = interface->x[interface->contact_count - 1];
     Observation before = {0};
     int32_t most = 0;   // nodes that slipped at a time, so far
-    for (int32_t step = 0; step < PATH_STEPS_MAX; step++) {
+    int32_t more = between_points(interface);
+    for (int32_t step = 0; step < PATH_STEPS_LIMIT; step++) {
         if (stop_wanted(path, err)) goto cleanup;
         state_copy(&path->control.now, &path->last);
         TRY(step_control_advance(&path->control, INFINITY, err));
         Observation seen = observe(&path->control, &path->model->scales);
         int32_t slipping = count_slipping(&path->control.now);
-        bool snaps = seen.max_slip_rate > SNAP * path->rod.velocity;
+        bool snaps = seen.max_slip_rate > SNAP_LIMIT * path->rod.velocity;
         if (snaps && step > 0 && isnan(path->mu_snap)) note_snap(path, before.mu);
-        if (step > 0 && slipping > most) TRY(add_point(path, &before, err));
-        if (slipping > most) most = slipping;
+        bool next = slipping >= most + more;
+        if (step > 0 && next) TRY(add_point(path, &before, err));
+        if (next) most = slipping;
         before = seen;
         bool beyond = path->critical >= 0 && path->count > path->critical + POINTS_BEYOND;
         if (beyond && !path->options->whole) break;
-        if (seen.front < end) continue;
+        bool crossed = seen.front >= end;
+        if (interface->dim > 2) crossed = slipping == interface->contact_count;
+        if (!crossed) continue;
         path->at_end = true;
         state_copy(&path->control.now, &path->last);
         TRY(add_point(path, &seen, err));
@@ -297,17 +329,6 @@ static void path_destroy(StabilityPath *path)
     memory_free(path->critical_mode);
 }
 
-static bool refuse_space(const Simulation *simulation, Error *err)
-{
-    if (simulation->model.interface.dim > 2)
-        FAIL(err, ERROR_INPUT,
-             "%s: the mesh is in space, and a front is followed along a line only: no critical "
-             "lengths of it yet",
-             simulation->scene.path);
-cleanup:
-    return error_is_clean(err);
-}
-
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per
 // front position, where things are lost, results.
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
@@ -321,7 +342,6 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
-    TRY(refuse_space(path.simulation, err));
     path.model = &path.simulation->model;
     if (!options->at_end) TRY(run_slidings(&path, err));
     double before = clock_seconds();

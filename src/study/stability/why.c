@@ -3,10 +3,8 @@
 // so alone, what would hold it, and why a run of the same scene may differ.
 #include "study/stability/stability.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double TAKES_PART = 0.1;   // in the mode, over the pad that does most
 static const double EARLIER = 1e-3;   // mu, relative: less is the same moment
@@ -39,11 +37,16 @@ static void name_others(const StabilitySummary *summary, char *names, size_t siz
     }
 }
 
-static void say_what_decides(StabilitySummary *summary)
+static void say_what_decides(const StabilityPath *path, StabilitySummary *summary)
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
     double slips = pad->slipping / pad->length;
-    if (summary->pad_count == 1)
+    if (summary->pad_count == 1 && path->model->interface.dim > 2)
+        say(summary,
+            "Slip runs away when %.2f of the contact slips, its front at %.3f L along the middle, "
+            "at mu %.4f.",
+            summary->area_c_rod, summary->l_c_rod, summary->mu_rod);
+    else if (summary->pad_count == 1)
         say(summary, "Slip runs away when its front has come to %.3f L, at mu %.4f.",
             summary->l_c_rod, summary->mu_rod);
     else if (slips > 1 - 1e-9)
@@ -133,7 +136,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
     else if (!path->grows)
         say(summary, "The path ended before anything ran away.");
     else
-        say_what_decides(summary);
+        say_what_decides(path, summary);
     if (path->grows) say_whether_alone(summary);
     say_what_comes_before(path, summary);
     if (path->grows) say_what_follows(summary);

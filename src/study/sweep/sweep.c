@@ -21,8 +21,6 @@
 #include "study/sweep/showing/figure_plot.h"
 #include "study/sweep/showing/figure_ranking.h"
 
-#include <errno.h>
-#include <string.h>
 #include <sys/file.h>
 #include <time.h>
 #include <unistd.h>

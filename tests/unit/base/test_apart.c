@@ -3,19 +3,15 @@
 #include "base/apart.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <pthread.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static bool fails_in(bool (*read)(void *, FILE *, Error *), Error *err)
 {
@@ -51,9 +47,8 @@ static bool count_up(void *context, FILE *reply, Error *err)
     return true;
 }
 
-static void test_reply(void **state)
+TEST(test_reply)
 {
-    (void)state;
     Error err = {0};
     int32_t first = 5, *values = NULL;
     int64_t live = memory_counters().live;
@@ -80,9 +75,8 @@ static bool refuse(void *context, FILE *reply, Error *err)
     return false;
 }
 
-static void test_error_comes_back(void **state)
+TEST(test_error_comes_back)
 {
-    (void)state;
     Error err = {0};
     assert_true(fails_in(refuse, &err));
     assert_int_equal(err.code, ERROR_FILE);
@@ -90,9 +84,8 @@ static void test_error_comes_back(void **state)
 }
 
 // Only the program asks for it, by the environment.
-static void test_who_wants_it(void **state)
+TEST(test_who_wants_it)
 {
-    (void)state;
     unsetenv("AMONTONS_APART");
     assert_false(apart_is_wanted());
     setenv("AMONTONS_APART", "", 1);
@@ -135,9 +128,8 @@ static bool be_killed(void *context, FILE *reply, Error *err)
     return raise(SIGKILL) == 0;   // what the kernel sends when memory runs out
 }
 
-static void test_ends_without_answer(void **state)
+TEST(test_ends_without_answer)
 {
-    (void)state;
     static const struct {
         bool (*read)(void *, FILE *, Error *);
         const char *words;
@@ -154,9 +146,8 @@ static void test_ends_without_answer(void **state)
 }
 
 // A crash was called a damaged file "without a word".
-static void test_ignored_children(void **state)
+TEST(test_ignored_children)
 {
-    (void)state;
     Error err = {0};
     signal(SIGCHLD, SIG_IGN);
     assert_true(fails_in(crash, &err));
@@ -194,9 +185,8 @@ static void *tell_without_a_signal(void *unused)
 }
 
 // A stop that interrupts no call, as it came before the parent had begun to wait.
-static void test_stop_before_it_waits(void **state)
+TEST(test_stop_before_it_waits)
 {
-    (void)state;
     Error err = {0};
     ApartReply reply = {0};
     ApartWork work = {
@@ -229,9 +219,8 @@ static bool tell_limits(void *context, FILE *reply, Error *err)
     return fwrite(limits, sizeof limits, 1, reply) == 1;
 }
 
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     Error err = {0};
     struct rlimit before, after, *limits;
     ApartReply reply = {0};
@@ -247,18 +236,4 @@ static void test_limits(void **state)
     assert_int_equal(before.rlim_cur, after.rlim_cur);
     memory_free(limits);
     apart_destroy(&reply);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reply),
-        cmocka_unit_test(test_error_comes_back),
-        cmocka_unit_test(test_who_wants_it),
-        cmocka_unit_test(test_ends_without_answer),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_ignored_children),
-        cmocka_unit_test(test_stop_before_it_waits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,9 +70,8 @@ static void *write_example(int64_t *size)
     return bytes;
 }
 
-static void test_comes_back(void **state)
+TEST(test_comes_back)
 {
-    (void)state;
     Error err = {0};
     int64_t size = 0;
     void *bytes = write_example(&size);
@@ -95,9 +94,8 @@ static void test_comes_back(void **state)
 }
 
 // Cut off anywhere, or longer than what is asked for.
-static void test_length_is_checked(void **state)
+TEST(test_length_is_checked)
 {
-    (void)state;
     int64_t size = 0, live = memory_counters().live;
     char *bytes = write_example(&size);
     for (int64_t cut = 0; cut < size; cut++) {
@@ -129,9 +127,8 @@ static bool reads(const void *bytes, int64_t size, char message[ERROR_MESSAGE_SI
 }
 
 // Names, lengths, indices and rooms that cannot be; 12345 stands for what an array would be.
-static void test_contents_are_checked(void **state)
+TEST(test_contents_are_checked)
 {
-    (void)state;
     enum { NAME = 24, NUMBER = 8, ARRAY_LENGTH = NAME + NUMBER };
     enum { INDEX = ARRAY_LENGTH + 8 + 3 * 8 + 4, ROOM = INDEX + 4 + 8 + 1 + 8 + 5 + 8 + 8 + 4 };
     enum { COUNT = INDEX + 4 + 4 };   // its higher half
@@ -233,9 +230,8 @@ static bool read_made(Sent *sent, Made *made, Error *err)
     return whole;
 }
 
-static void test_made_arrays_come_back(void **state)
+TEST(test_made_arrays_come_back)
 {
-    (void)state;
     Error err = {0};
     Made made = made_example(), found = {0};
     int64_t live = memory_counters().live;
@@ -258,9 +254,8 @@ static void test_made_arrays_come_back(void **state)
 }
 
 // Cut off anywhere; lengths, indices and octets that cannot be; no memory for one of them.
-static void test_made_arrays_are_checked(void **state)
+TEST(test_made_arrays_are_checked)
 {
-    (void)state;
     Error err = {0};
     Made made = made_example(), found = {0};
     int64_t live = memory_counters().live;
@@ -309,13 +304,4 @@ static void test_made_arrays_are_checked(void **state)
         error_clear(&err);
     }
     assert_int_equal(memory_counters().live, live);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comes_back), cmocka_unit_test(test_length_is_checked),
-        cmocka_unit_test(test_contents_are_checked), cmocka_unit_test(test_made_arrays_come_back),
-        cmocka_unit_test(test_made_arrays_are_checked)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

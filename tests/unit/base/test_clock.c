@@ -6,9 +6,8 @@
 
 #include <time.h>
 
-static void test_sleeping(void **state)
+TEST(test_sleeping)
 {
-    (void)state;
     const struct timespec nap = {.tv_nsec = 50000000};
     double wall = clock_seconds(), processor = clock_processor_seconds();
     nanosleep(&nap, NULL);
@@ -16,20 +15,12 @@ static void test_sleeping(void **state)
     assert_true(clock_processor_seconds() - processor < 0.025);
 }
 
-static void test_working(void **state)
+TEST(test_working)
 {
-    (void)state;
     double began = clock_processor_seconds(), wall = clock_seconds();
     volatile double sum = 0;
     while (clock_processor_seconds() - began < 0.02) sum += 1;
     // One thread: it cannot have worked longer than it was there, but for the clocks' own steps.
     assert_true(clock_seconds() - wall > 0.019);
     assert_true(sum > 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sleeping),
-                                       cmocka_unit_test(test_working)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

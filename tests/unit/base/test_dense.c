@@ -35,9 +35,8 @@ static void spoil_upper(double *a, int32_t n)
         for (int32_t i = 0; i < j; i++) a[j * n + i] = NAN;
 }
 
-static void test_cholesky_and_triangles(void **state)
+TEST(test_cholesky_and_triangles)
 {
-    (void)state;
     dense_use_one_thread();
     Random random = {.state = 1};
     for (int32_t n = 0; n <= SIZE_MAX_TRIED; n++) {
@@ -78,9 +77,8 @@ static void test_cholesky_and_triangles(void **state)
 }
 
 // A matrix with one eigenvalue below zero is told from one with all above, however close.
-static void test_not_definite(void **state)
+TEST(test_not_definite)
 {
-    (void)state;
     for (double least = 1e-9; least > -2e-9; least -= 2e-9) {
         double a[] = {1 + least, 1, 1, 1 + least};   // eigenvalues least and 2 + least
         assert_int_equal(dense_cholesky(a, 2), least > 0);
@@ -91,9 +89,8 @@ static void test_not_definite(void **state)
     assert_false(dense_cholesky(none, 1));
 }
 
-static void test_lu(void **state)
+TEST(test_lu)
 {
-    (void)state;
     Random random = {.state = 2};
     for (int32_t n = 0; n <= SIZE_MAX_TRIED; n++) {
         double a[SIZE_MAX_TRIED * SIZE_MAX_TRIED], copy[SIZE_MAX_TRIED * SIZE_MAX_TRIED];
@@ -113,9 +110,8 @@ static void test_lu(void **state)
     assert_false(dense_lu(singular, 2, pivots));
 }
 
-static void test_vectors(void **state)
+TEST(test_vectors)
 {
-    (void)state;
     const double x[] = {1, -5, 2}, y[] = {3, 1, -1};
     assert_near("dot", dense_dot(x, y, 3), -4, 0);
     assert_near("dot of nothing", dense_dot(x, y, 0), 0, 0);
@@ -145,9 +141,8 @@ static void assert_alone(void)
 }
 
 // OpenBLAS's own threads go, once and for all; a second call does not bring them back.
-static void test_one_thread(void **state)
+TEST(test_one_thread)
 {
-    (void)state;
     void *symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
     void (*set_threads)(int) = NULL;
     assert_non_null(symbol);
@@ -165,9 +160,8 @@ static void test_one_thread(void **state)
 }
 
 // Against sums of single products.
-static void test_subtract_pair(void **state)
+TEST(test_subtract_pair)
 {
-    (void)state;
     enum { N = 11 };
     double a[N * N], was[2 * N], over[2 * N], left[N * N];
     for (int k = 0; k < N * N; k++) a[k] = left[k] = cos(k);
@@ -185,9 +179,8 @@ static void test_subtract_pair(void **state)
 }
 
 // Long enough for several blocks of rows and a rest.
-static void test_two_vectors_at_once(void **state)
+TEST(test_two_vectors_at_once)
 {
-    (void)state;
     enum { ROWS = 5003, COLUMNS = 37 };
     static double a[ROWS * COLUMNS], x[2][COLUMNS], one[ROWS], y[2][ROWS];
     dense_use_one_thread();   // as all of the program: two would share the rows otherwise
@@ -209,9 +202,8 @@ static void test_two_vectors_at_once(void **state)
 }
 
 // Every pattern of zeros in up to seven entries; what meets a 0 would spoil the sum.
-static void test_add_nonzero(void **state)
+TEST(test_add_nonzero)
 {
-    (void)state;
     enum { ROWS = 5, COLUMNS = 7 };
     Random random = {.state = 21};
     for (int32_t columns = 0; columns <= COLUMNS; columns++) {
@@ -236,9 +228,8 @@ static void test_add_nonzero(void **state)
 
 // Sizes of 0 are answered as sums over nothing are, and nothing is touched: BLAS refuses them, with
 // a sentence on standard error.
-static void test_nothing(void **state)
+TEST(test_nothing)
 {
-    (void)state;
     double a[4] = {3, 5, 7, 9}, c[4] = {1, 2, 3, 4}, x[2] = {1, 1};
     const double kept[4] = {1, 2, 3, 4};
     const DenseView none = {a, 0, 2}, thin = {a, 2, 0}, full = {a, 2, 2};
@@ -276,20 +267,4 @@ static void test_nothing(void **state)
     for (int k = 0; k < 4; k++) assert_true(c[k] == 0.5 * kept[k]);
     dense_multiply_transposed(none, none, 1, 0, c);
     for (int k = 0; k < 4; k++) assert_true(c[k] == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two_vectors_at_once),
-        cmocka_unit_test(test_cholesky_and_triangles),
-        cmocka_unit_test(test_not_definite),
-        cmocka_unit_test(test_lu),
-        cmocka_unit_test(test_vectors),
-        cmocka_unit_test(test_one_thread),
-        cmocka_unit_test(test_subtract_pair),
-        cmocka_unit_test(test_add_nonzero),
-        cmocka_unit_test(test_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

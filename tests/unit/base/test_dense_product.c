@@ -49,9 +49,8 @@ static void check(int32_t m, int32_t n, int32_t k, int32_t more)
     free(sum);
 }
 
-static void test_pieces(void **state)
+TEST(test_pieces)
 {
-    (void)state;
     check(3, 1, 2, 0);
     check(20, 7, 5, 3);
     check(1, 40, 1, 1);
@@ -61,9 +60,8 @@ static void test_pieces(void **state)
 }
 
 // c := keep c, where there is nothing to sum over; a b is left as it is.
-static void test_nothing_to_sum(void **state)
+TEST(test_nothing_to_sum)
 {
-    (void)state;
     double c[] = {1, 2, 3, 4, 5, 6}, x = 0;
     dense_multiply_transposed(dense_view(&x, 0, 2), dense_view(&x, 0, 3), 1, -2, c);
     for (int32_t k = 0; k < 6; k++) assert_true(c[k] == -2 * (k + 1));
@@ -72,13 +70,4 @@ static void test_nothing_to_sum(void **state)
     c[0] = NAN;
     dense_multiply_transposed(dense_view(&x, 0, 2), dense_view(&x, 0, 3), 1, 0, c);
     for (int32_t k = 0; k < 6; k++) assert_true(c[k] == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pieces),
-        cmocka_unit_test(test_nothing_to_sum),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

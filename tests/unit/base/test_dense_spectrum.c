@@ -32,9 +32,8 @@ static void hand_product(DenseView a, DenseView b, bool transposed, double facto
 }
 
 // The second difference of a string held at both ends: 2 - 2 cos(k pi / (n + 1)), with sines.
-static void test_eigen_of_a_string(void **state)
+TEST(test_eigen_of_a_string)
 {
-    (void)state;
     dense_use_one_thread();
     for (int32_t n = 0; n <= SIZE_TRIED; n++) {
         double a[SIZE_TRIED * SIZE_TRIED + 1] = {0}, values[SIZE_TRIED + 1];
@@ -58,9 +57,8 @@ static void test_eigen_of_a_string(void **state)
 
 // Jacobi's rotations agree on random matrices; the vectors are orthonormal and give A back, even
 // where eigenvalues meet.
-static void test_eigen_of_random_matrices(void **state)
+TEST(test_eigen_of_random_matrices)
 {
-    (void)state;
     Random random = {.state = 2};
     for (int32_t n = 1; n <= SIZE_TRIED; n += 3) {
         double a[SIZE_TRIED * SIZE_TRIED], kept[SIZE_TRIED * SIZE_TRIED], values[SIZE_TRIED];
@@ -87,9 +85,8 @@ static void test_eigen_of_random_matrices(void **state)
 }
 
 // Hilbert's matrix has an inverse in whole numbers.
-static void test_inverse_of_hilbert(void **state)
+TEST(test_inverse_of_hilbert)
 {
-    (void)state;
     const double inverse[] = {16,  -120,  240,  -140,  -120, 1200, -2700, 1680,
                               240, -2700, 6480, -4200, -140, 1680, -4200, 2800};
     double a[16];
@@ -101,9 +98,8 @@ static void test_inverse_of_hilbert(void **state)
 }
 
 // As has the second difference: i (n + 1 - j) / (n + 1) for i <= j, counted from 1.
-static void test_inverse_of_second_difference(void **state)
+TEST(test_inverse_of_second_difference)
 {
-    (void)state;
     for (int32_t n = 1; n < 300; n += n < 97 ? 48 : 97) {
         double *a = hand_matrix(n, n);
         for (int32_t j = 0; j < n; j++)
@@ -119,9 +115,8 @@ static void test_inverse_of_second_difference(void **state)
     }
 }
 
-static void test_products(void **state)
+TEST(test_products)
 {
-    (void)state;
     Random random = {.state = 3};
     for (int32_t trial = 0; trial < 100; trial++) {
         int32_t m = random_index(&random, 9), n = random_index(&random, 9);
@@ -156,9 +151,8 @@ static void test_products(void **state)
 
 // The string again, and two that do not touch, whose eigenvalues are double: the vectors above
 // any bound, few of them or all, are orthonormal, A v = s v, and values are those of the string.
-static void test_eigen_above(void **state)
+TEST(test_eigen_above)
 {
-    (void)state;
     for (int32_t n = 0; n <= SIZE_TRIED; n += 2) {
         for (int32_t wanted = 0; wanted <= n; wanted++) {
             bool two = (n / 2 + wanted) % 2;
@@ -196,9 +190,8 @@ static void test_eigen_above(void **state)
 }
 
 // L^-1 (L A L') L^-T is A, from the lower triangle of L.
-static void test_divide_both_sides(void **state)
+TEST(test_divide_both_sides)
 {
-    (void)state;
     Random random = {.state = 5};
     for (int32_t n = 0; n <= SIZE_TRIED; n += 5) {
         double lower[SIZE_TRIED * SIZE_TRIED], a[SIZE_TRIED * SIZE_TRIED];
@@ -225,9 +218,8 @@ static void test_divide_both_sides(void **state)
 
 // A v = s v with s and v complex; pairs stand together, the one with im > 0 first; the sum of all s
 // is the trace. Random matrices have both kinds.
-static void test_general_eigenvalues(void **state)
+TEST(test_general_eigenvalues)
 {
-    (void)state;
     Random random = {.state = 6};
     int32_t pairs = 0, real = 0;
     for (int32_t n = 1; n <= SIZE_TRIED; n += 2) {
@@ -273,9 +265,8 @@ static int lu_sign(double *a, int32_t n)
 
 // Permutations have the sign of their inversions; a symmetric matrix that of its negative
 // eigenvalues; a block that turns has a positive determinant without any real eigenvalue.
-static void test_lu_sign(void **state)
+TEST(test_lu_sign)
 {
-    (void)state;
     Random random = {.state = 4};
     int32_t seen[2] = {0};
     for (int32_t trial = 0; trial < 200; trial++) {
@@ -309,9 +300,8 @@ static void test_lu_sign(void **state)
 }
 
 // Q T Q' = A with Q'Q = 1; a product with such a matrix behind a border.
-static void test_tridiagonal(void **state)
+TEST(test_tridiagonal)
 {
-    (void)state;
     enum { SIZE = 7, BORDER = 3 };
     Random random = {.state = 31};
     for (int32_t n = 0; n <= SIZE; n++) {
@@ -349,21 +339,4 @@ static void test_tridiagonal(void **state)
             assert_all_near("bordered", y, wanted, n, 1e-14);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_eigen_of_a_string),
-        cmocka_unit_test(test_eigen_of_random_matrices),
-        cmocka_unit_test(test_inverse_of_hilbert),
-        cmocka_unit_test(test_inverse_of_second_difference),
-        cmocka_unit_test(test_products),
-        cmocka_unit_test(test_tridiagonal),
-        cmocka_unit_test(test_divide_both_sides),
-        cmocka_unit_test(test_general_eigenvalues),
-        cmocka_unit_test(test_lu_sign),
-        cmocka_unit_test(test_eigen_above),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

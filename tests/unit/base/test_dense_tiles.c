@@ -17,9 +17,8 @@ static double *draw(Random *random, int64_t count)
     return numbers;
 }
 
-static void test_transpose(void **state)
+TEST(test_transpose)
 {
-    (void)state;
     Random random = {.state = 3};
     for (int32_t a = 0; a < SIZES; a++)
         for (int32_t b = 0; b < SIZES; b++) {
@@ -36,9 +35,8 @@ static void test_transpose(void **state)
         }
 }
 
-static void test_mirror(void **state)
+TEST(test_mirror)
 {
-    (void)state;
     Random random = {.state = 4};
     for (int32_t s = 0; s < SIZES; s++) {
         int64_t n = SIZE[s];
@@ -53,9 +51,8 @@ static void test_mirror(void **state)
     }
 }
 
-static void test_square(void **state)
+TEST(test_square)
 {
-    (void)state;
     Random random = {.state = 5};
     dense_use_one_thread();
     for (int32_t s = 0; s < SIZES; s++) {
@@ -73,14 +70,4 @@ static void test_square(void **state)
         memory_free(lower);
         memory_free(square);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_transpose),
-        cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_square),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,9 +21,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void test_fail_and_try(void **state)
+TEST(test_fail_and_try)
 {
-    (void)state;
     Error err = {0};
     int reached = 0;
     assert_true(passes_on(false, &reached, &err));
@@ -38,9 +37,8 @@ static void test_fail_and_try(void **state)
     assert_true(err.line > 5 && err.line < 20);
 }
 
-static void test_first_cause_is_kept(void **state)
+TEST(test_first_cause_is_kept)
 {
-    (void)state;
     Error err = {0};
     error_set(&err, ERROR_MEMORY, "a.c", 7, "first");
     error_set(&err, ERROR_FILE, "b.c", 8, "second");
@@ -55,9 +53,8 @@ static void test_first_cause_is_kept(void **state)
     assert_int_equal(err.code, ERROR_FILE);
 }
 
-static void test_context(void **state)
+TEST(test_context)
 {
-    (void)state;
     Error err = {0};
     error_context(&err, "while nothing is wrong");
     assert_true(error_is_clean(&err));
@@ -70,9 +67,8 @@ static void test_context(void **state)
 }
 
 // Messages longer than there is room for are cut, and never written past.
-static void test_long_messages(void **state)
+TEST(test_long_messages)
 {
-    (void)state;
     char text[2 * ERROR_MESSAGE_SIZE];
     memset(text, 'x', sizeof text);
     text[sizeof text - 1] = 0;
@@ -91,9 +87,8 @@ static void test_long_messages(void **state)
     for (size_t k = 0; k < sizeof held.guard; k++) assert_int_equal(held.guard[k], 0);
 }
 
-static void test_exit_statuses(void **state)
+TEST(test_exit_statuses)
 {
-    (void)state;
     assert_int_equal(amontons_error_exit_status(ERROR_NONE), 0);
     assert_int_equal(amontons_error_exit_status(ERROR_INPUT), 2);
     const ErrorCode failed[] = {ERROR_FILE, ERROR_MEMORY, ERROR_LIBRARY, ERROR_COMPUTE,
@@ -105,14 +100,4 @@ static void test_exit_statuses(void **state)
     assert_int_equal(amontons_error_exit_status((ErrorCode)99), 1);
     assert_string_equal(amontons_error_name((ErrorCode)99), "unknown");
     assert_string_equal(amontons_error_name(ERROR_INPUT), "wrong input");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fail_and_try),  cmocka_unit_test(test_first_cause_is_kept),
-        cmocka_unit_test(test_context),       cmocka_unit_test(test_long_messages),
-        cmocka_unit_test(test_exit_statuses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,13 +2,10 @@
 // Formulas against values worked out by C itself; what is wrong in one, and where.
 #include "base/formula.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <math.h>
+#include <string.h>
 
 static bool look_up(const void *context, const char *name, double *value)
 {
@@ -18,9 +15,8 @@ static bool look_up(const void *context, const char *name, double *value)
     return strcmp(name, "mesh.set.length") == 0 || strcmp(name, "load.pressure") == 0;
 }
 
-static void test_values(void **state)
+TEST(test_values)
 {
-    (void)state;
     static const struct {
         const char *text;
         double value;
@@ -55,9 +51,8 @@ static void test_values(void **state)
     }
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } known[] = {{"", "ends where"},
@@ -86,9 +81,8 @@ static void test_refusals(void **state)
 }
 
 // Derivatives against central differences of the values, at several places each.
-static void test_derivatives(void **state)
+TEST(test_derivatives)
 {
-    (void)state;
     static const char *const texts[] = {"v",
                                         "load.pressure",
                                         "2 - 3 * v + v * v",
@@ -129,9 +123,8 @@ static void test_derivatives(void **state)
 }
 
 // A formula of more steps than there is room for is refused.
-static void test_length(void **state)
+TEST(test_length)
 {
-    (void)state;
     char text[2 * FORMULA_STEPS_MAX + 2] = "1";
     for (int32_t k = 0; k < FORMULA_STEPS_MAX; k++) strcat(text, "+1");
     Error err = {0};
@@ -146,9 +139,8 @@ static void test_length(void **state)
 }
 
 // Neither brackets, nor signs, nor powers without end run the stack over.
-static void test_depth(void **state)
+TEST(test_depth)
 {
-    (void)state;
     for (const char *sign = "(-^"; *sign; sign++) {
         char text[20001];
         double value = 0;
@@ -170,9 +162,8 @@ static bool look_up_none(const void *context, const char *name, double *value)
 }
 
 // No value inside is beyond the bounds, and those of a narrow piece are near the value.
-static void test_bounds(void **state)
+TEST(test_bounds)
 {
-    (void)state;
     static const char *const formulas[] = {"x",
                                            "-x",
                                            "x * x - 2 * x + 3",
@@ -218,13 +209,4 @@ static void test_bounds(void **state)
                 fail_msg("%s at %g: [%g, %g]", formulas[k], x[0], narrow[0], narrow[1]);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),      cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_derivatives), cmocka_unit_test(test_length),
-        cmocka_unit_test(test_depth),       cmocka_unit_test(test_bounds)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,9 +21,8 @@ static void digest_bytes(const void *bytes, size_t size, uint64_t half[2])
 }
 
 // One flipped bit changes about half of each half's bits: the count over all flips is binomial.
-static void test_every_bit_counts(void **state)
+TEST(test_every_bit_counts)
 {
-    (void)state;
     Random random = {.state = 1};
     double changed[2] = {0};
     int32_t flips = 0;
@@ -48,9 +47,8 @@ static void test_every_bit_counts(void **state)
 
 // The same of long inputs, which other code hashes than short ones; and two words that change
 // places are noticed.
-static void test_long_inputs(void **state)
+TEST(test_long_inputs)
 {
-    (void)state;
     enum { SIZE = 1000, WORDS = SIZE / 8 };
     Random random = {.state = 3};
     uint64_t words[WORDS], before[2], after[2];
@@ -87,9 +85,8 @@ static void test_long_inputs(void **state)
 }
 
 // Zeros appended or moved over a border between two pieces are not the same input.
-static void test_lengths_count(void **state)
+TEST(test_lengths_count)
 {
-    (void)state;
     static const unsigned char zeros[64];
     uint64_t seen[65][2];
     for (size_t size = 0; size <= 64; size++) {
@@ -115,9 +112,8 @@ static int compare_words(const void *a, const void *b)
 
 // 2^20 inputs that differ as little as numbers in a scene do: by 2^-64, no two of 2^20 random words
 // of 64 bits meet with a probability of 3e-8.
-static void test_structured_inputs_do_not_collide(void **state)
+TEST(test_structured_inputs_do_not_collide)
 {
-    (void)state;
     enum { COUNT = 1 << 20 };
     uint64_t *half[2] = {malloc(COUNT * sizeof(uint64_t)), malloc(COUNT * sizeof(uint64_t))};
     for (int32_t k = 0; k < COUNT; k++) {
@@ -135,9 +131,8 @@ static void test_structured_inputs_do_not_collide(void **state)
     }
 }
 
-static void test_numbers(void **state)
+TEST(test_numbers)
 {
-    (void)state;
     const double values[] = {0.0, -0.0, 1.0, -1.0, 5e-324, 1 + 0x1p-52, INFINITY};
     uint64_t seen[7][2];
     for (int k = 0; k < 7; k++) {
@@ -153,9 +148,8 @@ static void test_numbers(void **state)
 
 // The text is 32 lower-case hexadecimal digits, leading zeros too; and what it was when this test
 // was written, so that a cache outlives a compiler. The stored text is this program's own.
-static void test_text(void **state)
+TEST(test_text)
 {
-    (void)state;
     for (int32_t k = 0; k < 4096; k++) {
         Hash hash = hash_start();
         hash_number(&hash, k);
@@ -173,17 +167,4 @@ static void test_text(void **state)
     hash_bytes(&hash, "", 0);
     hash_write(&hash, text);
     assert_string_equal(text, "53e6655de5cd8a25b66720895effe1b4");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_bit_counts),
-        cmocka_unit_test(test_long_inputs),
-        cmocka_unit_test(test_lengths_count),
-        cmocka_unit_test(test_structured_inputs_do_not_collide),
-        cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_text),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

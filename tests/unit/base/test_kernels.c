@@ -24,18 +24,16 @@ static void take(const char *name)
     assert_string_equal(kernels_name(), name);
 }
 
-static int can_choose(void **state)
+FIXTURE(can_choose)
 {
-    (void)state;
     if (!gotoblas_dynamic_init) return 0;
     const char *was = getenv("OPENBLAS_CORETYPE");
     asked = was ? strdup(was) : NULL;
     return 0;
 }
 
-static int take_back(void **state)
+FIXTURE(take_back)
 {
-    (void)state;
     if (asked) setenv("OPENBLAS_CORETYPE", asked, 1);
     free(asked);
     return 0;
@@ -76,9 +74,8 @@ static void assert_multiplies(void)
 }
 
 // On a processor that OpenBLAS does not know it takes Prescott's.
-static void test_unknown_processor(void **state)
+TEST(test_unknown_processor)
 {
-    (void)state;
     const char *best = best_here();
     if (!gotoblas_dynamic_init || !best) skip();
     unsetenv("OPENBLAS_CORETYPE");
@@ -94,9 +91,8 @@ static void test_unknown_processor(void **state)
 }
 
 // What is as good as the processor stays: OpenBLAS knows it better.
-static void test_known_processor(void **state)
+TEST(test_known_processor)
 {
-    (void)state;
     const char *best = best_here();
     if (!gotoblas_dynamic_init || !best) skip();
     unsetenv("OPENBLAS_CORETYPE");
@@ -111,9 +107,8 @@ static void test_known_processor(void **state)
     }
 }
 
-static void test_choice_of_the_user(void **state)
+TEST(test_choice_of_the_user)
 {
-    (void)state;
     if (!gotoblas_dynamic_init || !best_here()) skip();
     take("Nehalem");
     setenv("OPENBLAS_CORETYPE", "NEHALEM", 1);
@@ -127,12 +122,4 @@ static void test_choice_of_the_user(void **state)
     assert_multiplies();
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_unknown_processor),
-        cmocka_unit_test(test_known_processor),
-        cmocka_unit_test(test_choice_of_the_user),
-    };
-    return cmocka_run_group_tests(tests, can_choose, take_back);
-}
+GROUP_BETWEEN(can_choose, take_back);

@@ -5,9 +5,8 @@
 
 #include <string.h>
 
-static void test_zeroed_and_aligned(void **state)
+TEST(test_zeroed_and_aligned)
 {
-    (void)state;
     Error err = {0};
     for (int64_t count = 0; count < 300; count += 7) {
         unsigned char *dirt = memory_array(count, 1, &err);   // the next array may get its place
@@ -22,9 +21,8 @@ static void test_zeroed_and_aligned(void **state)
     assert_true(error_is_clean(&err));
 }
 
-static void test_impossible_sizes(void **state)
+TEST(test_impossible_sizes)
 {
-    (void)state;
     const struct {
         int64_t count;
         size_t size;
@@ -41,9 +39,8 @@ static void test_impossible_sizes(void **state)
     assert_int_equal(memory_counters().live, before.live);
 }
 
-static void test_counters(void **state)
+TEST(test_counters)
 {
-    (void)state;
     Error err = {0};
     MemoryCounters before = memory_counters();
     double *a = NEW_ARRAY(double, 10, &err);
@@ -58,9 +55,8 @@ static void test_counters(void **state)
     assert_int_equal(memory_counters().live, before.live);
 }
 
-static void test_resize(void **state)
+TEST(test_resize)
 {
-    (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
     int32_t *list = memory_resize(NULL, 0, 3, sizeof(int32_t), &err);
@@ -83,9 +79,8 @@ static void test_resize(void **state)
 }
 
 // A list fills up by ones: what stands in it stays, new room is zeroed, allocations are few.
-static void test_grow(void **state)
+TEST(test_grow)
 {
-    (void)state;
     Error err = {0};
     MemoryCounters before = memory_counters();
     int32_t *list = NULL, room = 0;
@@ -116,9 +111,8 @@ static void test_grow(void **state)
     assert_int_equal(memory_counters().live, before.live);
 }
 
-static void test_faults(void **state)
+TEST(test_faults)
 {
-    (void)state;
     memory_fail_after(2);
     for (int32_t k = 0; k < 6; k++) {
         Error err = {0};
@@ -135,9 +129,8 @@ static void test_faults(void **state)
 }
 
 // Counted, aligned and failing like the others; what stands in them is for the caller to say.
-static void test_bytes(void **state)
+TEST(test_bytes)
 {
-    (void)state;
     Error err = {0};
     MemoryCounters before = memory_counters();
     unsigned char *bytes = memory_bytes(1000001, &err);
@@ -154,18 +147,4 @@ static void test_bytes(void **state)
     assert_null(memory_bytes(8, &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_zeroed_and_aligned),
-        cmocka_unit_test(test_impossible_sizes),
-        cmocka_unit_test(test_counters),
-        cmocka_unit_test(test_resize),
-        cmocka_unit_test(test_grow),
-        cmocka_unit_test(test_faults),
-        cmocka_unit_test(test_bytes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 
 #include <time.h>
 
-static void test_missing_module(void **state)
+TEST(test_missing_module)
 {
-    (void)state;
     Error err = {0};
     assert_null(module_function("no_such_part", "anything", &err));
     assert_int_equal(err.code, ERROR_LIBRARY);
@@ -18,9 +17,8 @@ static void test_missing_module(void **state)
     assert_non_null(strstr(err.message, getenv("AMONTONS_MODULES")));
 }
 
-static void test_missing_symbol(void **state)
+TEST(test_missing_symbol)
 {
-    (void)state;
     Error err = {0};
     assert_null(module_function("gmsh", "no_such_function", &err));
     assert_int_equal(err.code, ERROR_LIBRARY);
@@ -28,9 +26,8 @@ static void test_missing_symbol(void **state)
     assert_non_null(strstr(err.message, "no_such_function"));
 }
 
-static void test_found_twice_is_the_same(void **state)
+TEST(test_found_twice_is_the_same)
 {
-    (void)state;
     Error err = {0};
     ModuleFunction first = module_function("gmsh", "amontons_gmsh_read", &err);
     ModuleFunction again = module_function("gmsh", "amontons_gmsh_read", &err);
@@ -39,9 +36,8 @@ static void test_found_twice_is_the_same(void **state)
 }
 
 // Without AMONTONS_MODULES the program looks beside itself, where a test program has none.
-static void test_beside_the_program(void **state)
+TEST(test_beside_the_program)
 {
-    (void)state;
     Error err = {0};
     char given[4096];
     snprintf(given, sizeof given, "%s", getenv("AMONTONS_MODULES"));
@@ -51,24 +47,11 @@ static void test_beside_the_program(void **state)
     setenv("AMONTONS_MODULES", given, 1);
 }
 
-static void test_clock(void **state)
+TEST(test_clock)
 {
-    (void)state;
     double before = clock_seconds();
     struct timespec pause = {.tv_nsec = 20000000};
     nanosleep(&pause, NULL);
     double passed = clock_seconds() - before;
     assert_true(passed >= 0.02 && passed < 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_missing_module),
-        cmocka_unit_test(test_missing_symbol),
-        cmocka_unit_test(test_found_twice_is_the_same),
-        cmocka_unit_test(test_beside_the_program),
-        cmocka_unit_test(test_clock),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,18 +4,14 @@
 #include "base/parallel.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <pthread.h>
 #include <sched.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <time.h>
-
-#include <cmocka.h>
 
 enum { PIECES = 40, INNER = 5 };
 
@@ -68,9 +64,8 @@ static Rig done(int32_t count)
     return rig;
 }
 
-static void test_all_are_done(void **state)
+TEST(test_all_are_done)
 {
-    (void)state;
     int32_t elsewhere = 0;
     for (int32_t count = 0; count <= PIECES; count += 8) {
         Rig rig = done(count);
@@ -80,9 +75,8 @@ static void test_all_are_done(void **state)
 }
 
 // As on a machine with one.
-static void test_one_processor(void **state)
+TEST(test_one_processor)
 {
-    (void)state;
     cpu_set_t before, one;
     assert_int_equal(sched_getaffinity(0, sizeof before, &before), 0);
     CPU_ZERO(&one);
@@ -96,9 +90,8 @@ static void test_one_processor(void **state)
 }
 
 // A stack that no machine has room for.
-static void test_no_second_thread(void **state)
+TEST(test_no_second_thread)
 {
-    (void)state;
     pthread_attr_t before, endless;
     assert_int_equal(pthread_getattr_default_np(&before), 0);
     pthread_attr_init(&endless);
@@ -109,14 +102,4 @@ static void test_no_second_thread(void **state)
     pthread_attr_destroy(&before);
     pthread_attr_destroy(&endless);
     for (int32_t k = 0; k < PIECES; k++) assert_int_equal(rig.worker[k], 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_are_done),
-        cmocka_unit_test(test_one_processor),
-        cmocka_unit_test(test_no_second_thread),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,16 +2,12 @@
 // How processes end, and where nobody could say.
 #include "base/process.h"
 
-#include <setjmp.h>
+#include "cases.h"
+
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static pid_t start(int status, int number)
 {
@@ -28,9 +24,8 @@ static void assert_ended(int ending, const char *words)
     assert_string_equal(found, words);
 }
 
-static void says_how_it_ended(void **state)
+TEST(says_how_it_ended)
 {
-    (void)state;
     struct rusage used = {0};
     assert_ended(process_wait(start(0, 0), NULL), "with status 0");
     assert_ended(process_wait(start(3, 0), NULL), "with status 3");
@@ -38,9 +33,8 @@ static void says_how_it_ended(void **state)
     assert_true(used.ru_maxrss > 0);
 }
 
-static void says_that_nobody_knows(void **state)
+TEST(says_that_nobody_knows)
 {
-    (void)state;
     pid_t child = start(0, 0);
     assert_int_equal(waitpid(child, NULL, 0), child);   // as a host may do
     assert_int_equal(process_wait(child, NULL), PROCESS_LOST);
@@ -50,11 +44,4 @@ static void says_that_nobody_knows(void **state)
     char words[200];
     process_describe(PROCESS_LOST, words, sizeof words);
     assert_non_null(strstr(words, "SIGCHLD is ignored"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(says_how_it_ended),
-                                       cmocka_unit_test(says_that_nobody_knows)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

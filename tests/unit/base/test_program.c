@@ -2,14 +2,10 @@
 // Other programs: what they say, how they end, and that there may be none.
 #include "base/program.h"
 
-#include <setjmp.h>
-#include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <signal.h>
+#include <string.h>
 
 static int shell(const char *script, char *output, size_t size)
 {
@@ -20,9 +16,8 @@ static int shell(const char *script, char *output, size_t size)
     return status;
 }
 
-static void takes_what_is_said(void **state)
+TEST(takes_what_is_said)
 {
-    (void)state;
     char output[40];
     assert_int_equal(shell("echo one; echo two >&2; exit 3", output, sizeof output), 3);
     assert_string_equal(output, "one\ntwo\n");
@@ -33,17 +28,15 @@ static void takes_what_is_said(void **state)
 }
 
 // A pipe holds 64 kB: who does not read on waits for ever.
-static void reads_to_the_end(void **state)
+TEST(reads_to_the_end)
 {
-    (void)state;
     char output[5];
     assert_int_equal(shell("head -c 300000 /dev/zero | tr '\\0' x", output, sizeof output), 0);
     assert_string_equal(output, "xxxx");
 }
 
-static void says_which_program_is_missing(void **state)
+TEST(says_which_program_is_missing)
 {
-    (void)state;
     const char *const words[] = {"amontons-no-such-program", NULL};
     char output[10];
     int status = 0;
@@ -54,9 +47,8 @@ static void says_which_program_is_missing(void **state)
 }
 
 // A failed sbatch counted as done, its words as the job.
-static void says_that_nobody_knows_how_it_ended(void **state)
+TEST(says_that_nobody_knows_how_it_ended)
 {
-    (void)state;
     const char *const words[] = {"sh", "-c", "echo ran; exit 3", NULL};
     char output[10] = "?";
     int status = -1;
@@ -67,13 +59,4 @@ static void says_that_nobody_knows_how_it_ended(void **state)
     assert_int_equal(err.code, ERROR_LIBRARY);
     assert_non_null(strstr(err.message, "`sh` ended in a way that nobody can say: SIGCHLD"));
     assert_int_equal(status, -1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(takes_what_is_said),
-                                       cmocka_unit_test(reads_to_the_end),
-                                       cmocka_unit_test(says_which_program_is_missing),
-                                       cmocka_unit_test(says_that_nobody_knows_how_it_ended)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

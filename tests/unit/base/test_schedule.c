@@ -6,9 +6,8 @@
 
 static const Schedule TABLE = {.count = 5, .at = {0, 2, 3, 3, 5}, .factor = {1, 1, -2, 4, 0.5}};
 
-static void test_once(void **state)
+TEST(test_once)
 {
-    (void)state;
     const double wanted[][3] = {// x, factor, next point
                                 {0, 1, 2},          {1, 1, 2},          {2, 1, 3},
                                 {2.5, -0.5, 3},     {3, -2, 5},         {3.5, 3.125, 5},
@@ -24,9 +23,8 @@ static void test_once(void **state)
 }
 
 // A step that ends at a point up to rounding has ended there.
-static void test_rounding(void **state)
+TEST(test_rounding)
 {
-    (void)state;
     for (int32_t side = -1; side < 2; side += 2) {
         double x = 3 * (1 + side * 4e-16);
         assert_near("before the jump", schedule_factor(&TABLE, x), -2, 1e-9);
@@ -35,9 +33,8 @@ static void test_rounding(void **state)
     assert_near("after it", schedule_factor(&TABLE, 3 * (1 + 1e-9)), 4, 1e-6);
 }
 
-static void test_repeated(void **state)
+TEST(test_repeated)
 {
-    (void)state;
     Schedule table = TABLE;
     table.repeats = true;
     for (double x = 0.1; x < 5; x += 0.237) {
@@ -50,11 +47,4 @@ static void test_repeated(void **state)
     }
     assert_near("the end of a round", schedule_factor(&table, 10), 0.5, 1e-9);
     assert_near("and the next one's first point", schedule_next(&table, 10), 12, 1e-9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_once), cmocka_unit_test(test_rounding),
-                                       cmocka_unit_test(test_repeated)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

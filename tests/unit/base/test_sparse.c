@@ -148,9 +148,8 @@ static void check_many(Random *random, const Case *made, SparseFactor *factor)
     free(given), free(x);
 }
 
-static void test_random_matrices(void **state)
+TEST(test_random_matrices)
 {
-    (void)state;
     Error err = {0};
     dense_use_one_thread();
     Random random = {.state = 3};
@@ -176,9 +175,8 @@ static void test_random_matrices(void **state)
 }
 
 // Two factors of one analysis do not disturb each other, and a solve leaves no trace in the next.
-static void test_two_factors_without_allocation(void **state)
+TEST(test_two_factors_without_allocation)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 4};
     Case made;
@@ -222,9 +220,8 @@ static void test_two_factors_without_allocation(void **state)
     free_case(&made);
 }
 
-static void test_apply(void **state)
+TEST(test_apply)
 {
-    (void)state;
     Random random = {.state = 6};
     Case made;
     make_case(&random, 40, 0, &made);
@@ -243,9 +240,8 @@ static void test_apply(void **state)
     free_case(&made);
 }
 
-static void test_entries(void **state)
+TEST(test_entries)
 {
-    (void)state;
     Random random = {.state = 22};
     Case made;
     make_case(&random, 40, 0, &made);
@@ -257,9 +253,8 @@ static void test_entries(void **state)
     memory_free(made.values);
 }
 
-static void test_not_definite(void **state)
+TEST(test_not_definite)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 7};
     int64_t live = memory_counters().live;
@@ -279,9 +274,8 @@ static void test_not_definite(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Random random = {.state = 8};
     Case made;
     make_case(&random, 20, 5, &made);
@@ -325,9 +319,8 @@ static void *allocate_zeroed(size_t count, size_t bytes)
     return made ? memset(made, 0, count * bytes) : NULL;
 }
 
-static void test_memory_of_the_library(void **state)
+TEST(test_memory_of_the_library)
 {
-    (void)state;
     Random random = {.state = 9};
     Case made;
     make_case(&random, 20, 5, &made);
@@ -360,18 +353,4 @@ static void test_memory_of_the_library(void **state)
     SuiteSparse_config.calloc_func = calloc;
     SuiteSparse_config.free_func = free;
     free_case(&made);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_matrices),
-        cmocka_unit_test(test_two_factors_without_allocation),
-        cmocka_unit_test(test_apply),
-        cmocka_unit_test(test_entries),
-        cmocka_unit_test(test_not_definite),
-        cmocka_unit_test(test_memory_faults),
-        cmocka_unit_test(test_memory_of_the_library),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

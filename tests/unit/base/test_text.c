@@ -7,9 +7,8 @@
 
 #include <stdbool.h>
 
-static void test_distances(void **state)
+TEST(test_distances)
 {
-    (void)state;
     const struct {
         const char *a, *b;
         int32_t distance;
@@ -29,9 +28,8 @@ static void test_distances(void **state)
         assert_int_equal(text_distance(known[k].a, known[k].b), known[k].distance);
 }
 
-static void test_estimates(void **state)
+TEST(test_estimates)
 {
-    (void)state;
     const struct {
         double value, bar, known_to;
         const char *text;
@@ -77,9 +75,8 @@ static int32_t slow_distance(const char *a, int32_t m, const char *b, int32_t n)
     return best;
 }
 
-static void test_random_distances(void **state)
+TEST(test_random_distances)
 {
-    (void)state;
     Random random = {.state = 5};
     for (int32_t trial = 0; trial < 200; trial++) {
         char words[2][8] = {{0}};
@@ -95,9 +92,8 @@ static void test_random_distances(void **state)
     }
 }
 
-static void test_long_names_are_cut(void **state)
+TEST(test_long_names_are_cut)
 {
-    (void)state;
     char a[400], b[400];
     memset(a, 'a', sizeof a);
     memset(b, 'a', sizeof b);
@@ -107,9 +103,8 @@ static void test_long_names_are_cut(void **state)
     assert_int_equal(text_distance(a, ""), 127);
 }
 
-static void test_nearest(void **state)
+TEST(test_nearest)
 {
-    (void)state;
     const char *const names[] = {"top", "contact", "rod", "leading", "body"};
     assert_int_equal(text_nearest("tpo", names, 5), 0);
     assert_int_equal(text_nearest("CONTACTS", names, 5), 1);
@@ -141,9 +136,8 @@ static int32_t slow_utf8_length(const unsigned char *text)
 }
 
 // Every first byte with bytes at the edges of all ranges behind it, and with the text's end there.
-static void test_utf8(void **state)
+TEST(test_utf8)
 {
-    (void)state;
     static const unsigned char edges[] = {0,    'a',  0x7F, 0x80, 0x8F, 0x90,
                                           0x9F, 0xA0, 0xBF, 0xC0, 0xFF};
     enum { EDGES = sizeof edges };
@@ -160,9 +154,8 @@ static void test_utf8(void **state)
 }
 
 // Each character in turn behind a word, against the ranges as XML 1.0 and Cairo have them.
-static void test_unshown(void **state)
+TEST(test_unshown)
 {
-    (void)state;
     for (uint32_t code = 1; code <= 0x10FFFF; code++) {
         char text[8] = "ab";
         uint32_t found = 0;
@@ -196,9 +189,8 @@ static void test_unshown(void **state)
     assert_int_equal(found, 0xE9);
 }
 
-static void test_number(void **state)
+TEST(test_number)
 {
-    (void)state;
     static const struct {
         const char *text;
         int32_t length;
@@ -212,15 +204,4 @@ static void test_number(void **state)
         assert_int_equal(text_number(known[k].text, &value), known[k].length);
         assert_true(value == known[k].value);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distances),        cmocka_unit_test(test_estimates),
-        cmocka_unit_test(test_random_distances), cmocka_unit_test(test_long_names_are_cut),
-        cmocka_unit_test(test_nearest),          cmocka_unit_test(test_utf8),
-        cmocka_unit_test(test_number),           cmocka_unit_test(test_unshown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,17 +3,13 @@
 #include "base/worker.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <langinfo.h>
 #include <locale.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { SLOTS = 3, JOBS = 200 };
 
@@ -70,9 +66,8 @@ static void expect_all(const Rig *rig, int32_t jobs)
     for (int32_t k = 0; k < jobs; k++) assert_int_equal(rig->done[k], k);
 }
 
-static void jobs_are_done_in_order(void **state)
+TEST(jobs_are_done_in_order)
 {
-    (void)state;
     int64_t live = memory_counters().live;
     for (useconds_t takes = 0; takes <= 100; takes += 100) {
         Rig rig;
@@ -89,9 +84,8 @@ static void jobs_are_done_in_order(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-static void what_was_handed_over_is_done_before_it_ends(void **state)
+TEST(what_was_handed_over_is_done_before_it_ends)
 {
-    (void)state;
     Rig rig;
     Error err = {0};
     start(&rig, -1, 2000);
@@ -103,9 +97,8 @@ static void what_was_handed_over_is_done_before_it_ends(void **state)
 }
 
 // The owner hears of it once the failed job's slot, at the latest, is asked for again.
-static void after_a_failure_nothing_is_done(void **state)
+TEST(after_a_failure_nothing_is_done)
 {
-    (void)state;
     Rig rig;
     Error err = {0}, again = {0};
     start(&rig, 5, 100);
@@ -126,9 +119,8 @@ static bool note_codes(void *context, int32_t slot, int32_t waiting, Error *err)
 }
 
 // Numbers are written with a comma in some: a caller's thread may have a locale of its own.
-static void the_thread_has_its_makers_locale(void **state)
+TEST(the_thread_has_its_makers_locale)
 {
-    (void)state;
     char codes[40] = "";
     int32_t slot;
     Error err = {0};
@@ -145,9 +137,8 @@ static void the_thread_has_its_makers_locale(void **state)
     assert_string_not_equal(nl_langinfo(CODESET), "UTF-8");
 }
 
-static void memory_may_be_short(void **state)
+TEST(memory_may_be_short)
 {
-    (void)state;
     Rig rig = {0};
     Error err = {0};
     WorkerDef def = {.slots = SLOTS, .work = work, .context = &rig};
@@ -156,16 +147,4 @@ static void memory_may_be_short(void **state)
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     assert_null(rig.worker);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jobs_are_done_in_order),
-        cmocka_unit_test(what_was_handed_over_is_done_before_it_ends),
-        cmocka_unit_test(after_a_failure_nothing_is_done),
-        cmocka_unit_test(the_thread_has_its_makers_locale),
-        cmocka_unit_test(memory_may_be_short),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

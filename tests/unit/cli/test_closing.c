@@ -44,9 +44,8 @@ static RunSummary no_answers(void)
                         .slip_cells = NAN};
 }
 
-static void test_static_friction(void **state)
+TEST(test_static_friction)
 {
-    (void)state;
     RunSummary summary = no_answers();
     const char *said = closing("", &summary);
     assert_true(strncmp(said, "done\n", 5) == 0);
@@ -96,9 +95,8 @@ static void test_static_friction(void **state)
     assert_says(said, "cells are too long for slip: not even this digit is sure on others\n");
 }
 
-static void test_what_holds(void **state)
+TEST(test_what_holds)
 {
-    (void)state;
     RunSummary summary = no_answers();
     assert_says(closing("", &summary), "mu_hold         none: the load did not drop");
     summary.drops = 7;
@@ -141,9 +139,8 @@ static void test_what_holds(void **state)
                                        "fast, on pad_2 over 0.125");
 }
 
-static void test_error_bars(void **state)
+TEST(test_error_bars)
 {
-    (void)state;
     RunSummary summary = no_answers();
     summary.bar_runs = 4;
     summary.bar_meshes = 1;
@@ -176,9 +173,8 @@ static void test_error_bars(void **state)
 }
 
 // Files are named where they are.
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     char place[PLACE_SIZE];
     RunSummary summary = no_answers();
     place_make(place);
@@ -206,9 +202,8 @@ static void test_files(void **state)
     place_remove(place);
 }
 
-static void test_times(void **state)
+TEST(test_times)
 {
-    (void)state;
     static const struct {
         double seconds;
         const char *words;
@@ -220,14 +215,10 @@ static void test_times(void **state)
     }
 }
 
-int main(void)
+FIXTURE(group_end)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_static_friction), cmocka_unit_test(test_what_holds),
-        cmocka_unit_test(test_error_bars),      cmocka_unit_test(test_files),
-        cmocka_unit_test(test_times),
-    };
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
     free(text);
-    return failed;
+    return 0;
 }
+
+GROUP_BETWEEN(NULL, group_end);

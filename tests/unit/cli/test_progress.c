@@ -6,7 +6,6 @@
 
 #include <fcntl.h>
 #include <math.h>
-#include <stdlib.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -65,9 +64,8 @@ static void assert_said(Stage *stage, const char *wanted)
     fail_msg("said `%s`, not `%s`", text, wanted);
 }
 
-static void test_parts_in_a_log(void **state)
+TEST(test_parts_in_a_log)
 {
-    (void)state;
     Stage stage;
     begin(&stage, 0);
     Progress progress = progress_begin(false);
@@ -82,9 +80,8 @@ static void test_parts_in_a_log(void **state)
     end(&stage);
 }
 
-static void test_parts_on_a_terminal(void **state)
+TEST(test_parts_on_a_terminal)
 {
-    (void)state;
     Stage stage;
     begin(&stage, 60);
     Progress progress = progress_begin(false);
@@ -106,9 +103,8 @@ static void test_parts_on_a_terminal(void **state)
     assert_true(right);
 }
 
-static void test_quiet(void **state)
+TEST(test_quiet)
 {
-    (void)state;
     Stage stage;
     begin(&stage, 60);
     Progress progress = progress_begin(true);
@@ -122,9 +118,8 @@ static void test_quiet(void **state)
 }
 
 // A run behind an error bar: by the size that the terminal has, or 80 columns; in a log nothing.
-static void test_runs_of_a_mesh(void **state)
+TEST(test_runs_of_a_mesh)
 {
-    (void)state;
     Stage stage;
     StepView view = {.mesh = 2, .run = 1, .U = 0.00123, .fraction = 0.25, .events = 1};
     view.mu_M = 0.3291;
@@ -151,9 +146,8 @@ static void test_runs_of_a_mesh(void **state)
     end(&stage);
 }
 
-static void test_time_left(void **state)
+TEST(test_time_left)
 {
-    (void)state;
     static const struct {
         double seconds;
         const char *text;
@@ -185,9 +179,8 @@ static void step_at(Progress *progress, double elapsed, double fraction)
 
 // Up to half of the way a tenth takes 1000 s, from there on 10 times that: at 0.7 there are 30000 s
 // to go (8:20:00), where all the time so far would say 12000.
-static void test_grows_dearer(void **state)
+TEST(test_grows_dearer)
 {
-    (void)state;
     Stage stage;
     begin(&stage, 0);
     Progress progress = progress_begin(false);
@@ -201,14 +194,4 @@ static void test_grows_dearer(void **state)
     if (!left) left = line ? strstr(line, "  8:19:5") : NULL;
     end(&stage);
     assert_non_null(left);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parts_in_a_log), cmocka_unit_test(test_parts_on_a_terminal),
-        cmocka_unit_test(test_quiet),          cmocka_unit_test(test_runs_of_a_mesh),
-        cmocka_unit_test(test_time_left),      cmocka_unit_test(test_grows_dearer),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

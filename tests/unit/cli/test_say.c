@@ -19,9 +19,8 @@ static void assert_said(const char *wanted, const char *words)
     free(text);
 }
 
-static void test_others_words(void **state)
+TEST(test_others_words)
 {
-    (void)state;
     assert_said("<Figure 1, 50 %\t\xC2\xB5m \xE6\x91\xA9 \xF0\x9F\x98\x80>\n",
                 "Figure 1, 50 %\t\xC2\xB5m \xE6\x91\xA9 \xF0\x9F\x98\x80");
     assert_said("<a\\x1b[31m\\x07b\\x0d\\x7f>\n", "a\033[31m\ab\r\x7F");
@@ -34,9 +33,8 @@ static void test_others_words(void **state)
 }
 
 // The line that stands is left and cleared; its own control characters are ours.
-static void test_over(void **state)
+TEST(test_over)
 {
-    (void)state;
     char *text = NULL;
     size_t size = 0;
     FILE *usual = stderr;
@@ -48,11 +46,4 @@ static void test_over(void **state)
     stderr = usual;
     assert_string_equal(text, "\r33 %\\x1b \033[K\r\033[Ke\\x1b\n");
     free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_others_words),
-                                       cmocka_unit_test(test_over)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static ContactResidual judge(const HandContact *hand)
     return contact_residual(&problem, hand->velocity, hand->reaction, FORCE, VELOCITY);
 }
 
-static void test_good_state(void **state)
+TEST(test_good_state)
 {
-    (void)state;
     HandContact hand;
     good_state(&hand);
     ContactResidual residual = judge(&hand);
@@ -46,9 +45,8 @@ static double *entry(ContactResidual *residual, Condition condition)
     return entries[condition];
 }
 
-static void test_each_violation(void **state)
+TEST(test_each_violation)
 {
-    (void)state;
     const struct {
         int32_t unknown;
         bool is_velocity;
@@ -85,9 +83,8 @@ static void test_each_violation(void **state)
     }
 }
 
-static void test_rod_kinds(void **state)
+TEST(test_rod_kinds)
 {
-    (void)state;
     HandContact hand;
     good_state(&hand);
     hand.rod_kind = ROD_IS_BONDED;   // node 1 is 0.5 off where it is held; pulling is allowed
@@ -107,9 +104,8 @@ static void test_rod_kinds(void **state)
 }
 
 // A velocity of rounding size has no direction that friction would have to oppose.
-static void test_still_is_still(void **state)
+TEST(test_still_is_still)
 {
-    (void)state;
     HandContact hand;
     good_state(&hand);
     hand.velocity[0] = 1e-12;
@@ -119,15 +115,4 @@ static void test_still_is_still(void **state)
     hand.reaction[0] = 5.9;
     residual = judge(&hand);
     assert_true(residual.direction > 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good_state),
-        cmocka_unit_test(test_each_violation),
-        cmocka_unit_test(test_rod_kinds),
-        cmocka_unit_test(test_still_is_still),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,8 @@ static void one_node(double resists, double p, double gx, double gy)
 
 // Alike in all directions it slips along the force: v = (|g| - mu p)/S g/|g|; mu p holds what is
 // less, in any direction; a tensile g opens it.
-static void test_one_node(void **state)
+TEST(test_one_node)
 {
-    (void)state;
     for (uint8_t guess = CONTACT_OPEN; guess <= CONTACT_SLIP_BACKWARD; guess++) {
         one_node(2, 2, -3, 4);
         hand.status[0] = guess;
@@ -44,9 +43,8 @@ static void test_one_node(void **state)
 }
 
 // Stiffer along y it turns away from the force: v = (S + l)^-1 g with l |v| = mu p, by halving.
-static void test_turning(void **state)
+TEST(test_turning)
 {
-    (void)state;
     one_node(1, 2, 3, 4);
     hand.schur[4] = 7;
     hand.status[0] = CONTACT_STICK;
@@ -61,9 +59,8 @@ static void test_turning(void **state)
 
 // What does not know of y and has no force along it does not move along it, and has the solution of
 // the plane to rounding.
-static void test_plane(void **state)
+TEST(test_plane)
 {
-    (void)state;
     enum { NODES = 9, UNKNOWNS = 2 * NODES };
     Random random = {.state = 7};
     Error err = {0};
@@ -118,9 +115,8 @@ static void test_plane(void **state)
 
 // Constant friction, nodes hardly coupled: projecting r - rho v onto bound and disc over and over
 // ends at the solution.
-static void test_projections(void **state)
+TEST(test_projections)
 {
-    (void)state;
     Random random = {.state = 17};
     for (int32_t trial = 0; trial < 10; trial++) {
         hand_contact_size(&hand, HAND_NODES, 0);
@@ -149,15 +145,4 @@ static void test_projections(void **state)
         assert_true(hand_contact_solve(&hand));
         assert_all_near("v", hand.velocity, v, count, 1e-9);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_node),
-        cmocka_unit_test(test_turning),
-        cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_projections),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,9 +72,8 @@ static double residual_by_hand(const ContactEquations *equations, int32_t k)
     return value + (status == CONTACT_SLIP_FORWARD ? mu : -mu) * normal;
 }
 
-static void test_equations(void **state)
+TEST(test_equations)
 {
-    (void)state;
     Random random = {.state = 12};
     for (int32_t trial = 0; trial < 200; trial++) {
         ContactEquations equations = make_equations(&random, trial);
@@ -101,9 +100,8 @@ static void test_equations(void **state)
 
 // Central differences of E by each free velocity; equations of slip are at most quadratic in it,
 // but for the exponential law.
-static void test_derivative(void **state)
+TEST(test_derivative)
 {
-    (void)state;
     Random random = {.state = 13};
     const double h = 1e-5;
     for (int32_t trial = 0; trial < 200; trial++) {
@@ -131,9 +129,8 @@ static void test_derivative(void **state)
 }
 
 // Held values are put in place and the rest is left alone; scales are those of forces and of S.
-static void test_holds(void **state)
+TEST(test_holds)
 {
-    (void)state;
     Random random = {.state = 14};
     for (int32_t trial = 0; trial < 100; trial++) {
         ContactEquations equations = make_equations(&random, trial);
@@ -158,14 +155,4 @@ static void test_holds(void **state)
         assert_near("none", contact_scales(&problem, NULL).force, 1, 0);
         contact_matrix_destroy(&matrix);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_equations),
-        cmocka_unit_test(test_derivative),
-        cmocka_unit_test(test_holds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,6 @@
 
 #include "contact/contact_factors.h"
 
-#include "base/dense.h"
 #include "contact_by_hand.h"
 
 enum { OPEN = 20, RODS = 2, COUNT = 2 * HAND_NODES + RODS };
@@ -92,9 +91,8 @@ static void expect_solves(Random *random, Rig *rig)
 }
 
 // One thing changes after the other, and some change back; factored anew when told so.
-static void test_follows(void **state)
+TEST(test_follows)
 {
-    (void)state;
     static Rig rig;
     Random random = {.state = 3};
     int32_t updated = 0, anew = 0, widest = 0;
@@ -118,9 +116,8 @@ static void test_follows(void **state)
 }
 
 // Where a node opens S' is another, and so is every row.
-static void test_opens(void **state)
+TEST(test_opens)
 {
-    (void)state;
     static Rig rig;
     Random random = {.state = 7};
     make_rig(&random, 0.5, &rig);
@@ -146,9 +143,8 @@ static bool read_back(ContactFactors *from, ContactFactors *into, Error *err)
 }
 
 // Read back they give the same bits, and follow on to the same bits.
-static void test_archive(void **state)
+TEST(test_archive)
 {
-    (void)state;
     static Rig rig;
     Error err = {0};
     Random random = {.state = 4};
@@ -176,9 +172,8 @@ static void test_archive(void **state)
 }
 
 // What is free in J0 has a row there: to build on one without would read before S.
-static void test_archive_without_row(void **state)
+TEST(test_archive_without_row)
 {
-    (void)state;
     static Rig rig;
     Error err = {0};
     Random random = {.state = 6};
@@ -196,9 +191,8 @@ static void test_archive_without_row(void **state)
 
 // Two rod nodes that S can hardly tell from each other are nearly singular while both are free.
 // Once one has its spring J is not, but what was factored has lost nine digits: it says so.
-static void test_cancels(void **state)
+TEST(test_cancels)
 {
-    (void)state;
     static Rig rig;
     static const double both_soft[RODS] = {0.5, 0.5};
     Random random = {.state = 5};
@@ -223,9 +217,8 @@ static void test_cancels(void **state)
 }
 
 // Loads that change a little from one problem to the next: solved from where the last one ended.
-static void test_solver(void **state)
+TEST(test_solver)
 {
-    (void)state;
     static Rig rig;
     Error err = {0};
     Random random = {.state = 6};
@@ -246,13 +239,4 @@ static void test_solver(void **state)
     assert_true(solver.newton.updates > 4 * solver.newton.factorisations);
     contact_solver_destroy(&solver);
     end_rig(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_follows), cmocka_unit_test(test_opens),
-        cmocka_unit_test(test_archive), cmocka_unit_test(test_archive_without_row),
-        cmocka_unit_test(test_cancels), cmocka_unit_test(test_solver)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

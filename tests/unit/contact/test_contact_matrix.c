@@ -43,9 +43,8 @@ static void expect_closed(const double *found, const double *s, const uint8_t *s
 }
 
 // Nodes that open and close at random, for long, each matrix with statuses of its own.
-static void test_any_order(void **state)
+TEST(test_any_order)
 {
-    (void)state;
     Error err = {0};
     HandContact hand;
     static ContactMatrix operators[OPERATORS];
@@ -73,9 +72,8 @@ static void test_any_order(void **state)
 }
 
 // One node more costs two sweeps.
-static void test_sweeps_little(void **state)
+TEST(test_sweeps_little)
 {
-    (void)state;
     Error err = {0};
     HandContact hand;
     ContactMatrix matrix;
@@ -92,9 +90,8 @@ static void test_sweeps_little(void **state)
 
 // A large one, many of whose nodes open and close at once: what was swept together against the
 // equations S' stands for, S (v_O, 1_k) = (0, S'_k), and read back to the last bit.
-static void test_together(void **state)
+TEST(test_together)
 {
-    (void)state;
     enum { MANY = 140, SIZE = 2 * MANY, TURNS = 12 };
     static double s[SIZE * SIZE], b[SIZE * SIZE];
     static char bytes[8 * SIZE * 40];
@@ -140,9 +137,8 @@ static void test_together(void **state)
 
 // All normals move as one but for springs of `hold`: with all nodes open there is nothing else that
 // holds them. Where nothing holds them nothing is left behind in what is asked for next.
-static void test_floating(void **state)
+TEST(test_floating)
 {
-    (void)state;
     Error err = {0};
     HandContact hand;
     ContactMatrix matrix;
@@ -165,9 +161,8 @@ static void test_floating(void **state)
     }
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     Error err = {0};
     HandContact hand;
     ContactMatrix matrix;
@@ -183,14 +178,4 @@ static void test_memory(void **state)
         contact_matrix_destroy(&matrix);
         assert_int_equal(memory_counters().live, live);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_any_order), cmocka_unit_test(test_sweeps_little),
-        cmocka_unit_test(test_together),  cmocka_unit_test(test_floating),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

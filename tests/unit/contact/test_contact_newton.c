@@ -44,9 +44,8 @@ static double force_of(int32_t row)
 
 // From velocities that leave forces at open nodes: after one step these have none, all other
 // reactions are those of the velocities there are, and each further step keeps them so.
-static void test_step_adds_up(void **state)
+TEST(test_step_adds_up)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 41};
     ContactMatrix matrix;
@@ -78,9 +77,8 @@ static void test_step_adds_up(void **state)
 
 // Where statuses change reactions follow what moves: nodes that stick or close are put in their
 // place, those that open or slip stay as they are, and against its status none slips.
-static void test_reactions_follow_statuses(void **state)
+TEST(test_reactions_follow_statuses)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 43};
     ContactMatrix matrix;
@@ -111,9 +109,8 @@ static void test_reactions_follow_statuses(void **state)
 }
 
 // To the last bit, not as steps added them up.
-static void test_solution_is_exact(void **state)
+TEST(test_solution_is_exact)
 {
-    (void)state;
     Random random = {.state = 42};
     int32_t open = 0;
     for (int trial = 0; trial < 40; trial++) {
@@ -132,12 +129,4 @@ static void test_solution_is_exact(void **state)
         }
     }
     assert_true(open > 10 * 40);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_step_adds_up),
-                                       cmocka_unit_test(test_reactions_follow_statuses),
-                                       cmocka_unit_test(test_solution_is_exact)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

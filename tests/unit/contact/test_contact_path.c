@@ -26,9 +26,8 @@ static bool follow(HandContact *hand)
 }
 
 // S v = g + r with S = diag(2, 3): by hand for each of the three things a node can do.
-static void test_one_node(void **state)
+TEST(test_one_node)
 {
-    (void)state;
     static HandContact hand;
     const struct {
         double g_t, g_n;
@@ -59,9 +58,8 @@ static void test_one_node(void **state)
 // Strongly coupled, weakening by half of S and more: what Newton's statuses may cycle on. Arcs of
 // the exponential law are not always followed to their end: of 1000 such problems 3 were given up,
 // after which the caller takes a shorter step; none with the other laws.
-static void test_random_problems(void **state)
+TEST(test_random_problems)
 {
-    (void)state;
     static HandContact hand;
     static const FrictionKind kinds[] = {FRICTION_COULOMB, FRICTION_LINEAR_WEAKENING,
                                          FRICTION_EXPONENTIAL_WEAKENING};
@@ -92,9 +90,8 @@ static void test_random_problems(void **state)
 // Nodes above the substrate by up to 1e8 of what they move in a step, as where an impact is taken
 // in very short steps. A path that begins by pressing them all down is lost in rounding in half of
 // these problems.
-static void test_from_a_height(void **state)
+TEST(test_from_a_height)
 {
-    (void)state;
     static HandContact hand;
     enum { TRIALS = 300 };
     Random random = {.state = 3};
@@ -125,9 +122,8 @@ static void test_from_a_height(void **state)
 
 // The second node is 1e6 above the plane, which the path takes for out of reach, but so soft that
 // it falls: it is pressed like the first, and carries what its own stiffness leaves.
-static void test_fallen(void **state)
+TEST(test_fallen)
 {
-    (void)state;
     static HandContact hand;
     hand_contact_size(&hand, 2, 0);
     hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.5};
@@ -145,9 +141,8 @@ static void test_fallen(void **state)
 }
 
 // Without friction at rest nothing sticks, and the path has no beginning.
-static void test_no_beginning(void **state)
+TEST(test_no_beginning)
 {
-    (void)state;
     static HandContact hand;
     hand_contact_size(&hand, 1, 0);
     hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
@@ -156,9 +151,8 @@ static void test_no_beginning(void **state)
     assert_false(follow(&hand));
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     Interface interface = {.dim = 2, .contact_count = 2, .count = 4};
     int64_t live = memory_counters().live, k = 0;
     for (bool made = false; !made; k++) {
@@ -173,13 +167,4 @@ static void test_memory(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     assert_true(k > 5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_node),      cmocka_unit_test(test_random_problems),
-        cmocka_unit_test(test_from_a_height), cmocka_unit_test(test_fallen),
-        cmocka_unit_test(test_no_beginning),  cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,9 +43,8 @@ static void expect_one(OneNode numbers, FrictionLaw law, ContactStatus status,
 
 static const FrictionLaw COULOMB = {.kind = FRICTION_COULOMB, .mu_static = 0.5};
 
-static void test_stick_and_open(void **state)
+TEST(test_stick_and_open)
 {
-    (void)state;
     // Pressed with 10, pulled with 4.9 < 0.5 * 10: r = -g.
     OneNode pressed = {.s_t = 2, .s_n = 3, .coupling = 0.4, .g_t = 4.9, .g_n = -10};
     expect_one(pressed, COULOMB, CONTACT_STICK, (double[]){0, 0, -4.9, 10});
@@ -64,9 +63,8 @@ static void test_stick_and_open(void **state)
 }
 
 // v_t = (g_t - mu p)/(s_t + mu c): pressed with 10, mu 0.5.
-static void test_coulomb_slip(void **state)
+TEST(test_coulomb_slip)
 {
-    (void)state;
     OneNode pulled = {.s_t = 2, .s_n = 3, .coupling = 0.4, .g_t = 9, .g_n = -10};
     double v = 4 / (2 + 0.5 * 0.4), p = 10 + 0.4 * v;
     expect_one(pulled, COULOMB, CONTACT_SLIP_FORWARD, (double[]){v, 0, -0.5 * p, p});
@@ -77,9 +75,8 @@ static void test_coulomb_slip(void **state)
 
 // s_t v - g_t + (mu_S - k v)(p + c v) = 0, k = (mu_S - mu_K)/v_c, for 0 < v < v_c; beyond v_c the
 // same with mu_K.
-static void test_weakening_slip(void **state)
+TEST(test_weakening_slip)
 {
-    (void)state;
     FrictionLaw law = {.mu_static = 0.5, .mu_kinetic = 0.1, .critical_velocity = 2};
     OneNode numbers = {.s_t = 3, .s_n = 3, .coupling = 0.4, .g_n = -10};
     double k = 0.4 / 2, p = 10;
@@ -104,9 +101,8 @@ static void test_weakening_slip(void **state)
 // s_t < k p: friction falls faster than the block resists. Below the threshold it can stick; just
 // above it only the fast branch is left: v = (g_t - mu_K p)/s_t, under linear weakening, and found
 // without a path, however little g_t is above the threshold.
-static void test_strong_weakening(void **state)
+TEST(test_strong_weakening)
 {
-    (void)state;
     FrictionLaw law = {.mu_static = 0.5, .mu_kinetic = 0.1, .critical_velocity = 0.1};
     OneNode numbers = {.s_t = 3, .s_n = 3, .g_n = -10};
     for (double above = 1e-9; above < 0.3; above *= 10) {
@@ -126,9 +122,8 @@ static void test_strong_weakening(void **state)
 
 // s_t = k p: as steep as the block resists, so that Newton has no step on the weakening branch. The
 // path goes round it to where friction falls no more.
-static void test_singular_slip(void **state)
+TEST(test_singular_slip)
 {
-    (void)state;
     FrictionLaw law = {.mu_static = 1, .mu_kinetic = 0.5, .critical_velocity = 0.5};
     HandContact hand;
     HandCounts counts;
@@ -145,9 +140,8 @@ static void test_singular_slip(void **state)
 // Three nodes that only the plane holds up, S n = 0 for their normals: started as if all were open,
 // where Newton has no matrix, the path puts them on the plane, and each carries what presses it.
 // Lifted, nothing holds them.
-static void test_floating_start(void **state)
+TEST(test_floating_start)
 {
-    (void)state;
     HandContact hand;
     hand_contact_size(&hand, 3, 0);
     hand.law = COULOMB;
@@ -169,9 +163,8 @@ static void test_floating_start(void **state)
 }
 
 // The rod beside one contact node that sticks: S couples them.
-static void test_rod(void **state)
+TEST(test_rod)
 {
-    (void)state;
     for (int32_t start = 0; start < 2; start++) {
         HandContact hand;
         hand_contact_size(&hand, 1, 1);
@@ -210,9 +203,8 @@ static void test_rod(void **state)
 
 // Two like nodes pulled at the first: that one slips and drags at the other through S, which holds
 // or follows. Tangents: [2 -1; -1 2] v = g + r.
-static void test_two_nodes(void **state)
+TEST(test_two_nodes)
 {
-    (void)state;
     const struct {
         double g[2], v[2], r[2];
     } cases[] = {
@@ -245,9 +237,8 @@ static void test_two_nodes(void **state)
 // Friction so strong (mu |c| > s_t) that a node may both hold and lift off, and plain iteration may
 // run in circles. What is called solved is right; from the right status it stays; and where the
 // mass of a small step makes s_t large it is always solved.
-static void test_rough_friction(void **state)
+TEST(test_rough_friction)
 {
-    (void)state;
     FrictionLaw rough = {.kind = FRICTION_COULOMB, .mu_static = 3};
     int32_t given_up = 0, cases = 0;
     for (double g_t = -12; g_t < 12; g_t += 0.7) {
@@ -273,9 +264,8 @@ static void test_rough_friction(void **state)
     assert_true(given_up < cases / 20);
 }
 
-static void test_allocates_nothing(void **state)
+TEST(test_allocates_nothing)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 21};
     HandContact hand;
@@ -315,9 +305,8 @@ static void test_allocates_nothing(void **state)
 
 // An matrix that ends and another one in its place, matrix and object at the same addresses, same
 // statuses: nothing that was computed from the first may serve the second.
-static void test_same_address(void **state)
+TEST(test_same_address)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 27};
     static HandContact hand;
@@ -344,9 +333,8 @@ static void test_same_address(void **state)
 
 // A rod node alone, S = 5, g = 1, bound 2, spring 3/0.25 = 12: 5 v = 1 + 12 (2 - v). Where the face
 // runs ahead (g = 20) the spring is let go; bonded, it pulls.
-static void test_soft_rod(void **state)
+TEST(test_soft_rod)
 {
-    (void)state;
     const double softness[] = {0.25};
     const struct {
         double g, v;
@@ -373,17 +361,4 @@ static void test_soft_rod(void **state)
             assert_true(hand_contact_error(&hand) < 1e-12);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stick_and_open),    cmocka_unit_test(test_soft_rod),
-        cmocka_unit_test(test_coulomb_slip),      cmocka_unit_test(test_weakening_slip),
-        cmocka_unit_test(test_strong_weakening),  cmocka_unit_test(test_singular_slip),
-        cmocka_unit_test(test_floating_start),    cmocka_unit_test(test_rod),
-        cmocka_unit_test(test_two_nodes),         cmocka_unit_test(test_rough_friction),
-        cmocka_unit_test(test_allocates_nothing), cmocka_unit_test(test_same_address),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,9 +13,8 @@ static FrictionLaw law_of(FrictionKind kind)
         .kind = kind, .mu_static = 0.6, .mu_kinetic = 0.2, .critical_velocity = 0.05};
 }
 
-static void test_values(void **state)
+TEST(test_values)
 {
-    (void)state;
     FrictionLaw linear = law_of(FRICTION_LINEAR_WEAKENING);
     assert_near("half way", friction_coefficient(&linear, 0.025), 0.4, 1e-15);
     assert_near("at v_c", friction_coefficient(&linear, 0.05), 0.2, 1e-15);
@@ -31,9 +30,8 @@ static void test_values(void **state)
     }
 }
 
-static void test_slopes(void **state)
+TEST(test_slopes)
 {
-    (void)state;
     const double speeds[] = {0.001, 0.01, 0.03, 0.049, 0.051, 0.2, 0.4}, h = 1e-7;
     for (int k = 0; k < 3; k++) {
         FrictionLaw law = law_of(KINDS[k]);
@@ -63,9 +61,8 @@ static void test_slopes(void **state)
 
 // Either side of a kink as a curve of its own: the law where the law is on that side, elsewhere the
 // same straight line, which is what the linear law has on both sides.
-static void test_branches(void **state)
+TEST(test_branches)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         FrictionLaw law = law_of(KINDS[k]);
         double kink = friction_kink(&law, 0), slope;
@@ -84,9 +81,8 @@ static void test_branches(void **state)
 }
 
 // The drop from rest to fast slip, and the slip that it can drive.
-static void test_drop(void **state)
+TEST(test_drop)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         FrictionLaw law = law_of(KINDS[k]);
         double drop = friction_coefficient(&law, 0) - friction_coefficient(&law, 1e9);
@@ -101,9 +97,8 @@ static void test_drop(void **state)
 }
 
 // A kind that there is not is called so, and counts as one that does not weaken.
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     FrictionLaw none = law_of((FrictionKind)99), linear = law_of(FRICTION_LINEAR_WEAKENING);
     assert_string_equal(friction_law_name(&none), "unknown");
     assert_string_equal(friction_law_name(&linear), "linear-weakening");
@@ -111,9 +106,8 @@ static void test_names(void **state)
 }
 
 // phi = max(0, 1 - v/v_c), and mu = mu_K + (mu_S - mu_K) phi wherever something weakens.
-static void test_contact_density(void **state)
+TEST(test_contact_density)
 {
-    (void)state;
     FrictionLaw linear = law_of(FRICTION_LINEAR_WEAKENING);
     for (double v = 0; v < 0.2; v += 0.007)
         assert_near("phi", friction_contact_density(&linear, v), fmax(0, 1 - v / 0.05), 1e-14);
@@ -126,9 +120,8 @@ static void test_contact_density(void **state)
 }
 
 // A law times a factor, at every speed; and what stands for several laws together.
-static void test_scaled_and_spread(void **state)
+TEST(test_scaled_and_spread)
 {
-    (void)state;
     FrictionLaw each[4];
     for (int k = 0; k < 3; k++) {
         FrictionLaw law = law_of(KINDS[k]);
@@ -150,18 +143,4 @@ static void test_scaled_and_spread(void **state)
     assert_ptr_equal(friction_at(&each[1], 3), &each[1]);
     assert_false(friction_everywhere(&all, 4));
     assert_true(friction_everywhere(&all, 3));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_slopes),
-        cmocka_unit_test(test_contact_density),
-        cmocka_unit_test(test_branches),
-        cmocka_unit_test(test_drop),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_scaled_and_spread),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

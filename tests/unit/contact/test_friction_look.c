@@ -24,9 +24,8 @@ static void assert_same(const FrictionLaw *own, const FrictionLaw *known, double
     }
 }
 
-static void test_known_laws(void **state)
+TEST(test_known_laws)
 {
-    (void)state;
     FrictionLaw law = own_formula("0.1 + 0.28 * exp(-v / 3.4e-4)", 1);
     assert_same(&law, &EXPONENTIAL, 1e-16);
     FrictionLaw linear = EXPONENTIAL;
@@ -39,9 +38,8 @@ static void test_known_laws(void **state)
 }
 
 // Numbers that the scene gives stay, to the bit.
-static void test_given(void **state)
+TEST(test_given)
 {
-    (void)state;
     FrictionLaw given = EXPONENTIAL;
     FrictionSource source = {
         .end = 0.02,
@@ -55,9 +53,8 @@ static void test_given(void **state)
 }
 
 // Falls to its lowest at sqrt(a/b) - 1, rises to the end: closed form.
-static void test_strengthening(void **state)
+TEST(test_strengthening)
 {
-    (void)state;
     FrictionLaw law = own_formula("0.3 / (1 + v) + 0.01 * (1 + v)", 20);
     double lowest_at = sqrt(30) - 1, lowest = 2 * sqrt(0.003);
     assert_near("mu_S", law.mu_static, 0.31, 1e-15);
@@ -75,9 +72,8 @@ static void test_strengthening(void **state)
 // Laws that rise above what holds at rest. One that only rises: no drop, v_c where its slope has
 // fallen to 1/e. One that falls again, by 0.3 from its top: the drop is that, spent where 1 % of it
 // is left.
-static void test_above_rest(void **state)
+TEST(test_above_rest)
 {
-    (void)state;
     FrictionLaw law = own_formula("0.3 + 0.4 * (1 - exp(-v / 2))", 100);
     assert_near("mu_S", law.mu_static, 0.3, 1e-16);
     assert_near("mu_K", law.mu_kinetic, 0.3, 1e-16);
@@ -98,9 +94,8 @@ static void test_above_rest(void **state)
     assert_near("mu_S", law.mu_static, 0, 0);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const struct {
         const char *formula, *words;
     } known[] = {
@@ -130,9 +125,8 @@ static void test_refusals(void **state)
 }
 
 // What touches its limits, or comes close to them, is none of these.
-static void test_at_the_limits(void **state)
+TEST(test_at_the_limits)
 {
-    (void)state;
     static const char *const formulas[] = {"0.3 - 0.2 * v + v^2 / 30",   // 0.3 (1 - v/3)^2
                                            "0.3 - 0.29999 * exp(-((v - 3.1234567) / 0.01)^2)",
                                            "0.3 * (1 - tanh(v)) + 0 * v",
@@ -143,9 +137,8 @@ static void test_at_the_limits(void **state)
 }
 
 // mu_static and mu_kinetic that are not those of the law.
-static void test_contradictions(void **state)
+TEST(test_contradictions)
 {
-    (void)state;
     for (int32_t k = 0; k < 2; k++) {
         Error err = {0};
         const char *key = NULL;
@@ -155,14 +148,4 @@ static void test_contradictions(void **state)
         assert_false(friction_look(&law, &err));
         assert_non_null(strstr(err.message, k ? "mu_kinetic" : "mu_static is given as 0.5"));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_laws),    cmocka_unit_test(test_given),
-        cmocka_unit_test(test_strengthening), cmocka_unit_test(test_above_rest),
-        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_at_the_limits),
-        cmocka_unit_test(test_contradictions)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

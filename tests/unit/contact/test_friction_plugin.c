@@ -15,9 +15,8 @@ static const char *example(char *path, size_t size)
     return built("../tests/stribeck.so", path, size);
 }
 
-static void test_same_bits(void **state)
+TEST(test_same_bits)
 {
-    (void)state;
     char path[1000];
     FrictionLaw known = {.kind = FRICTION_EXPONENTIAL_WEAKENING,
                          .mu_static = 0.38,
@@ -38,9 +37,8 @@ static void test_same_bits(void **state)
 }
 
 // Parameters reach it: mu rises again by a log(1 + v/v_a).
-static void test_parameters(void **state)
+TEST(test_parameters)
 {
-    (void)state;
     char path[1000];
     const double parameters[] = {0.02, 1e-3};
     FrictionLaw own = {
@@ -68,9 +66,8 @@ static void check_refused(const char *file, int32_t parameters, const char *word
     if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     char path[1000];
     check_refused("/no/such.so", 0, "cannot read /no/such.so: No such file");
     check_refused("libm.so.6", 0, "cannot read libm.so.6");   // not from the system's folders
@@ -78,12 +75,4 @@ static void test_refusals(void **state)
     check_refused(example(path, sizeof path), AMONTONS_FRICTION_PARAMETERS_MAX + 1, "at most 16");
     assert_int_equal(unsetenv("AMONTONS_TRUST"), 0);
     check_refused(example(path, sizeof path), 0, "--trust");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),
-                                       cmocka_unit_test(test_parameters),
-                                       cmocka_unit_test(test_refusals)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

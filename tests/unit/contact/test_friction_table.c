@@ -24,9 +24,8 @@ static double error_of(int32_t count, bool straight)
     return worst;
 }
 
-static void test_orders(void **state)
+TEST(test_orders)
 {
-    (void)state;
     for (int32_t straight = 0; straight < 2; straight++) {
         double order = log2(error_of(32, straight) / error_of(63, straight));
         assert_in_range((int)(100 * order), straight ? 185 : 280, straight ? 205 : 320);
@@ -36,9 +35,8 @@ static void test_orders(void **state)
 
 // A law that falls, rises again and has steps of very different size: monotone between points, and
 // the slope is that of mu.
-static void test_monotone(void **state)
+TEST(test_monotone)
 {
-    (void)state;
     enum { COUNT = 8 };
     const double velocity[COUNT] = {0, 1e-4, 1.5e-4, 1e-3, 1.1e-3, 4e-3, 1e-2, 3e-2};
     const double mu[COUNT] = {0.5, 0.499, 0.3, 0.12, 0.12, 0.119, 0.2, 0.35};
@@ -63,9 +61,8 @@ static void test_monotone(void **state)
 }
 
 // Two points are a line for both kinds; pieces of straight tables are lines of their own.
-static void test_pieces(void **state)
+TEST(test_pieces)
 {
-    (void)state;
     const double velocity[] = {0, 1, 3}, mu[] = {0.5, 0.2, 0.4};
     double slope;
     FrictionLaw two = own_table(2, velocity, mu, false), law = own_table(3, velocity, mu, true);
@@ -97,21 +94,12 @@ static void check_refused(int32_t count, const double *velocity, const double *m
     if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     const double up[] = {0, 1, 2}, back[] = {0, 2, 1}, late[] = {1, 2, 3};
     const double fine[] = {0.4, 0.2, 0.3};
     check_refused(1, up, fine, 1, "velocity", "2 to 64");
     check_refused(3, late, fine, 3, "velocity", "begins with 1");
     check_refused(3, back, fine, 3, "velocity", "1 stands after 2");
     check_refused(3, up, fine, 2, "mu", "has 2 numbers, friction.velocity has 3");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orders), cmocka_unit_test(test_monotone),
-        cmocka_unit_test(test_pieces), cmocka_unit_test(test_refusals)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,8 @@ static InterfaceDef def_with_rod(double height, double width)
         .has_rod = true, .rod_name = "rod", .rod_height = height, .rod_width = width};
 }
 
-static void test_nodes_and_weights(void **state)
+TEST(test_nodes_and_weights)
 {
-    (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
@@ -64,9 +63,8 @@ static void test_nodes_and_weights(void **state)
 }
 
 // A strip that reaches the ground leaves the corner to the contact; one between nodes is refused.
-static void test_strip(void **state)
+TEST(test_strip)
 {
-    (void)state;
     Error err = {0};
     BlockDef block = block_of(ELEMENT_Q4);
     Mesh mesh;
@@ -102,9 +100,8 @@ static void test_strip(void **state)
 }
 
 // The first and the last quarter of the bottom as two pads, the middle free.
-static void test_pads(void **state)
+TEST(test_pads)
 {
-    (void)state;
     Error err = {0};
     BlockDef block = block_of(ELEMENT_Q4);
     MeshFile file = block_file(&block);
@@ -141,9 +138,8 @@ static void test_pads(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_rod(void **state)
+TEST(test_rod)
 {
-    (void)state;
     Error err = {0};
     BlockDef block = block_of(ELEMENT_Q4);
     InterfaceDef def = def_with_rod(0.25, 0.1);   // rows 2 and 3
@@ -166,9 +162,8 @@ static void test_rod(void **state)
 
 // Shares of rows 0.1 apart: strip 0.12 .. 0.28 holds row 2 and 30 % of row 1, 80 % of row 3 when it
 // is moved up by 0.05; whatever its place, the shares make up its width.
-static void test_shares(void **state)
+TEST(test_shares)
 {
-    (void)state;
     Error err = {0};
     BlockDef block = block_of(ELEMENT_Q4);
     Mesh mesh;
@@ -196,20 +191,25 @@ static void test_shares(void **state)
     mesh_destroy(&mesh);
 }
 
-// As many as there are in the plane, to the bit; of 20 x 20 over a face 20.
-static void test_nodes_along(void **state)
+// As many as there are in the plane; in space by cells as long along the drive as across it: 40 rows
+// of 10 on a contact four times as long as it is wide.
+TEST(test_nodes_along)
 {
-    (void)state;
+    enum { ALONG = 40, ACROSS = 10, ALL = ALONG * ACROSS };
+    double x[ALL], y[ALL];
     for (int32_t count = 1; count < 2000; count++)
         assert_true(interface_nodes_along(&(Interface){.dim = 2, .contact_count = count}) == count);
-    assert_near("in space", interface_nodes_along(&(Interface){.dim = 3, .contact_count = 400}), 20,
-                1e-14);
+    for (int32_t i = 0; i < ALL; i++) {
+        x[i] = 4.0 * (i / ACROSS) / (ALONG - 1);
+        y[i] = 1.0 * (i % ACROSS) / (ACROSS - 1);
+    }
+    Interface space = {.dim = 3, .contact_count = ALL, .x = x, .y = y};
+    assert_near("in space", interface_nodes_along(&space), ALONG, 1e-13);
 }
 
 // The bound at which a soft node feels no force, and the softness of half a share.
-static void test_soft_rod(void **state)
+TEST(test_soft_rod)
 {
-    (void)state;
     Error err = {0};
     double share[] = {0.5, 1}, height[] = {0.1, 0.2};
     Interface interface = {.rod_count = 2, .rod_share = share, .rod_z = height};
@@ -226,9 +226,8 @@ static void test_soft_rod(void **state)
     rod_destroy(&rod);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     BlockDef block = block_of(ELEMENT_Q4);
     InterfaceDef def = def_with_rod(0.25, 0.3);
     Mesh mesh;
@@ -249,19 +248,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nodes_and_weights),
-        cmocka_unit_test(test_strip),
-        cmocka_unit_test(test_pads),
-        cmocka_unit_test(test_rod),
-        cmocka_unit_test(test_shares),
-        cmocka_unit_test(test_nodes_along),
-        cmocka_unit_test(test_soft_rod),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

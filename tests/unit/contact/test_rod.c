@@ -22,9 +22,8 @@ static Interface interface_by_hand(void)
                        .rod_z = heights};
 }
 
-static void test_softness(void **state)
+TEST(test_softness)
 {
-    (void)state;
     Error err = {0};
     Interface interface = interface_by_hand();
     Rod rod;
@@ -49,9 +48,8 @@ static void test_softness(void **state)
 // A rigid node must be at origin + V t when the stage ends. A soft one feels no force at the bound:
 // there r softness = way - reach v + lag (V - v) is 0, and one unit of velocity less makes it
 // (reach + lag)/softness.
-static void test_bound(void **state)
+TEST(test_bound)
 {
-    (void)state;
     Error err = {0};
     Interface interface = interface_by_hand();
     Rod rod;
@@ -69,17 +67,15 @@ static void test_bound(void **state)
     rod_destroy(&rod);
 }
 
-static void test_force(void **state)
+TEST(test_force)
 {
-    (void)state;
     Interface interface = interface_by_hand();
     const double reaction[] = {100, 100, 100, 100, 1, -0.25, 4};
     assert_near("force", rod_force(&interface, reaction), 4.75, 0);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     Interface interface = interface_by_hand();
     int64_t live = memory_counters().live;
     for (int64_t k = 0; k < 2; k++) {
@@ -92,12 +88,4 @@ static void test_memory(void **state)
         rod_destroy(&rod);
         assert_int_equal(memory_counters().live, live);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_softness),
-                                       cmocka_unit_test(test_bound), cmocka_unit_test(test_force),
-                                       cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,18 +43,16 @@ static void compare(const Schedule *table, bool by_way, double end)
     }
 }
 
-static void test_by_time(void **state)
+TEST(test_by_time)
 {
-    (void)state;
     Schedule table = {.count = 6, .at = {0, 2, 3, 3, 5, 6}, .factor = {1, 1, -0.5, 0, 0, 2}};
     compare(&table, false, 12);
     table.repeats = true;
     compare(&table, false, 31);
 }
 
-static void test_by_way(void **state)
+TEST(test_by_way)
 {
-    (void)state;
     Schedule table = {
         .count = 5, .at = {0, 2e-3, 3e-3, 3e-3, 7e-3}, .factor = {1, 1, 5, 0.5, 0.25}};
     compare(&table, true, 40);
@@ -62,9 +60,8 @@ static void test_by_way(void **state)
     compare(&table, true, 60);
 }
 
-static void test_never(void **state)
+TEST(test_never)
 {
-    (void)state;
     const Schedule swings = {
         .count = 4, .at = {0, 1, 1, 2}, .factor = {1, 1, -1, -1}, .repeats = true};
     const Schedule stops = {.count = 3, .at = {0, 1, 2}, .factor = {1, 1, 0}};
@@ -76,11 +73,4 @@ static void test_never(void **state)
     const Schedule none = {0};
     course = rod_course(&none, false, V);
     assert_near("with V", rod_course_arrival(&course, 3), 3 / V, 1e-9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_by_time),
-                                       cmocka_unit_test(test_by_way), cmocka_unit_test(test_never)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,9 +21,8 @@ static SpaceDef distorted(ElementKind kind)
         .kind = kind, .cells = {3, 2, 3}, .size = {1.2, 0.5, 0.7}, .distortion = 0.15, .seed = 7};
 }
 
-static void test_shape_functions(void **state)
+TEST(test_shape_functions)
 {
-    (void)state;
     const double h = 1e-5;
     for (int32_t k = 0; k < KIND_COUNT; k++) {
         int32_t nodes = element_node_count(KINDS[k]);
@@ -91,9 +90,8 @@ static void check_rule(ElementKind kind, const Quadrature *rule, int32_t degree)
     assert_true(beyond > 1e-5);
 }
 
-static void test_quadrature(void **state)
+TEST(test_quadrature)
 {
-    (void)state;
     static const int32_t degrees[] = {1, 2, 3, 3, 5}, mass_degrees[] = {1, 5, 3, 3, 5};
     for (int32_t k = 0; k < KIND_COUNT; k++) {
         Quadrature rule = shape_quadrature(KINDS[k]), mass = shape_mass_quadrature(KINDS[k]);
@@ -182,9 +180,8 @@ static void check_element(ElementKind kind, const MeshPlace *position)
     free(matrices);
 }
 
-static void test_elements(void **state)
+TEST(test_elements)
 {
-    (void)state;
     for (int32_t k = 0; k < KIND_COUNT; k++) {
         SpaceDef def = distorted(KINDS[k]);
         Mesh mesh;
@@ -244,18 +241,16 @@ static void check_patch(bool mean)
     }
 }
 
-static void test_patch(void **state)
+TEST(test_patch)
 {
-    (void)state;
     check_patch(false);
     check_patch(true);
 }
 
 // Of a HEX8 whose volume alone resists, the mean technique leaves one condition: of its spectrum
 // one value is large, not one for each quadrature point.
-static void test_mean_volume(void **state)
+TEST(test_mean_volume)
 {
-    (void)state;
     SpaceDef def = {ELEMENT_HEX8, {1, 1, 1}, {1, 1, 1}, 0, 1};
     Material soft = MATERIAL;
     soft.poisson = 0.49999;
@@ -283,9 +278,8 @@ static void test_mean_volume(void **state)
 }
 
 // A mesh whose elements are all turned inside out is turned round; one among others is refused.
-static void test_orientation(void **state)
+TEST(test_orientation)
 {
-    (void)state;
     for (int32_t k = 0; k < KIND_COUNT; k++) {
         SpaceDef def = distorted(KINDS[k]);
         MeshFile file = space_file(&def);
@@ -308,9 +302,8 @@ static void test_orientation(void **state)
 }
 
 // Weights sum to the area and its first moments; of TET10 only mid-sides touch.
-static void test_contact(void **state)
+TEST(test_contact)
 {
-    (void)state;
     static const int32_t contacts[KIND_COUNT] = {4 * 3, 7 * 5 - 4 * 3, 4 * 3, 4 * 3, 7 * 5};
     for (int32_t k = 0; k < KIND_COUNT; k++) {
         SpaceDef def = distorted(KINDS[k]);
@@ -345,9 +338,8 @@ static void test_contact(void **state)
 
 // Rows at z = 0.1, 0.2, ...: of the strip from 0.17 to 0.38 the shares are 0.8, 1, 0.3; with a
 // breadth of 0.3 of 0.5, of rows at y = 0, 0.125, ...: 0.2 of the second, all of the third.
-static void test_strip(void **state)
+TEST(test_strip)
 {
-    (void)state;
     SpaceDef def = {ELEMENT_HEX8, {3, 4, 7}, {1.2, 0.5, 0.7}, 0, 1};
     InterfaceDef with = {.has_rod = true,
                          .rod_name = "rod",
@@ -385,9 +377,8 @@ static void test_strip(void **state)
 }
 
 // A named side face is no contact.
-static void test_upright_contact(void **state)
+TEST(test_upright_contact)
 {
-    (void)state;
     static const char names[][GROUP_NAME_SIZE] = {"contact", "left"};
     SpaceDef def = distorted(ELEMENT_HEX8);
     Error err = {0};
@@ -398,16 +389,4 @@ static void test_upright_contact(void **state)
     assert_non_null(strstr(err.message, "does not look down"));
     mesh_contact_destroy(&contact);
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shape_functions), cmocka_unit_test(test_quadrature),
-        cmocka_unit_test(test_elements),        cmocka_unit_test(test_patch),
-        cmocka_unit_test(test_orientation),     cmocka_unit_test(test_contact),
-        cmocka_unit_test(test_mean_volume),     cmocka_unit_test(test_strip),
-        cmocka_unit_test(test_upright_contact),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,9 +53,8 @@ static void set_shape(int32_t k, MeshParameter *shape, MeshParameter *order)
     snprintf(shape->text, sizeof shape->text, "%s", SHAPES[k].shape);
 }
 
-static void test_block(void **state)
+TEST(test_block)
 {
-    (void)state;
     for (int32_t k = 0; k < 2 * SHAPE_COUNT; k++) {
         MeshParameter with[] = {{"nx", 4, ""},      {"ny", 6, ""},      {"nz", 3, ""},
                                 {"breadth", 2, ""}, {"grade_x", 2, ""}, {"grade_z", 3, ""},
@@ -81,9 +80,8 @@ static void test_block(void **state)
 }
 
 // 3 x 2 pads over 0.6 of 1 and 0.5 of 0.8.
-static void test_pads(void **state)
+TEST(test_pads)
 {
-    (void)state;
     for (int32_t k = 0; k < SHAPE_COUNT; k++) {
         MeshParameter with[] = {{"cells_x", 2, ""},  {"cells_y", 2, ""},  {"nz", 2, ""},
                                 {"breadth", .8, ""}, {"fill_y", 0.5, ""}, {"", 0, ""},
@@ -102,9 +100,8 @@ static void test_pads(void **state)
 }
 
 // Two grooves of 0.05 to 0.03 by 0.03, over a breadth of 0.6 or a length of 1.
-static void test_grooves(void **state)
+TEST(test_grooves)
 {
-    (void)state;
     for (int32_t k = 0; k < 2 * SHAPE_COUNT; k++) {
         bool along = k >= SHAPE_COUNT;
         double way = along ? 1 : 0.6, across = along ? 0.6 : 1;
@@ -121,11 +118,4 @@ static void test_grooves(void **state)
         assert_int_equal(drawn.interface.pad_count, 3);
         destroy(&drawn);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_block), cmocka_unit_test(test_pads),
-                                       cmocka_unit_test(test_grooves)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static void press_on(const Mesh *mesh, const char *name, double x, double z, Bul
 
 // A uniform strain needs no force but the tractions s n on the four sides: K u = f at every node.
 // And likewise C v = f for a uniform rate.
-static void test_patch(void **state)
+TEST(test_patch)
 {
-    (void)state;
     Error err = {0};
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         Material material = {.young = 2, .poisson = 0.3, .density = 1, .eta1 = 0.6, .eta2 = 0.9};
@@ -69,9 +68,8 @@ static void test_patch(void **state)
 
 // Entry by entry against a dense matrix filled element by element; the pattern in order. Elements
 // of all shapes, then many of few shapes.
-static void test_dense_assembly(void **state)
+TEST(test_dense_assembly)
 {
-    (void)state;
     Error err = {0};
     Material material = paper_material();
     material.density = 1.7;
@@ -130,9 +128,8 @@ static void test_dense_assembly(void **state)
 
 // A uniform pressure gives each node its share: halves in order 1, 1/6, 4/6, 1/6 in order 2; the
 // resultant is traction times length, its moment that of the middle.
-static void test_weights_and_tractions(void **state)
+TEST(test_weights_and_tractions)
 {
-    (void)state;
     Error err = {0};
     Material material = paper_material();
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
@@ -176,9 +173,8 @@ static void test_weights_and_tractions(void **state)
 
 // Unknowns that are held stay at 0: their rows and columns are cut, their load is gone, and the
 // rest moves as if they were left out.
-static void test_held(void **state)
+TEST(test_held)
 {
-    (void)state;
     Error err = {0};
     Material material = paper_material();
     BlockDef def = distorted(ELEMENT_Q4);
@@ -215,9 +211,8 @@ static void test_held(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Material material = paper_material();
     BlockDef def = distorted(ELEMENT_Q4);
     Mesh mesh;
@@ -235,16 +230,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_patch),
-        cmocka_unit_test(test_dense_assembly),
-        cmocka_unit_test(test_weights_and_tractions),
-        cmocka_unit_test(test_held),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -106,9 +106,8 @@ static void check_linear(ElementKind kind, const MeshPlace *position,
     assert_near("u' C v", quadratic_form(matrices->damping, u, v, dofs), damped, 1e-13);
 }
 
-static void test_linear_motions(void **state)
+TEST(test_linear_motions)
 {
-    (void)state;
     Material material = {.young = 2, .poisson = 0.3, .density = 1.5, .eta1 = 0.7, .eta2 = 0.2};
     for_all_elements(&material, check_linear);
     material.plane_strain = true;
@@ -139,9 +138,8 @@ static void check_spectrum(ElementKind kind, const MeshPlace *position,
     }
 }
 
-static void test_spectra(void **state)
+TEST(test_spectra)
 {
-    (void)state;
     Material material = paper_material();
     for_all_elements(&material, check_spectrum);
 }
@@ -159,9 +157,8 @@ static void check_mass(ElementKind kind, const MeshPlace *position, const Elemen
 
 // Fractions of the total on straight elements: Hinton, Rock and Zienkiewicz's for quadrilaterals;
 // T6 with int N^2 by the three points its stiffness is integrated with.
-static void test_masses(void **state)
+TEST(test_masses)
 {
-    (void)state;
     Material material = paper_material();
     material.density = 2.5;
     for_all_elements(&material, check_mass);
@@ -200,9 +197,8 @@ static void check_proportional(ElementKind kind, const MeshPlace *position,
             assert_near("C", matrices->damping[i][j], duration * matrices->stiffness[i][j], 1e-14);
 }
 
-static void test_damping_is_the_viscous_stiffness(void **state)
+TEST(test_damping_is_the_viscous_stiffness)
 {
-    (void)state;
     double nu = 0.3, duration = 0.4;
     Material material = {.young = 1,
                          .poisson = nu,
@@ -216,9 +212,8 @@ static void test_damping_is_the_viscous_stiffness(void **state)
 }
 
 // u_x = x^2 on elements of order 2, over a rectangle a times b: u' K u = D_11 4 a^3 b / 3.
-static void test_quadratic_motions(void **state)
+TEST(test_quadratic_motions)
 {
-    (void)state;
     Material material = paper_material();
     double axial = moduli_axial(material_elastic(&material));
     const ElementKind kinds[] = {ELEMENT_T6, ELEMENT_Q8, ELEMENT_Q9};
@@ -240,16 +235,4 @@ static void test_quadratic_motions(void **state)
         assert_near(element_name(def.kind), energy, axial * 4 * 1.5 * 1.5 * 1.5 * 0.6 / 3, 1e-13);
         mesh_destroy(&mesh);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_linear_motions),
-        cmocka_unit_test(test_spectra),
-        cmocka_unit_test(test_masses),
-        cmocka_unit_test(test_damping_is_the_viscous_stiffness),
-        cmocka_unit_test(test_quadratic_motions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

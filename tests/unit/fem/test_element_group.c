@@ -31,9 +31,8 @@ static BlockDef block_of(ElementKind kind, int32_t nx, int32_t nz)
 }
 
 // A cell's two triangles share its diagonal, the longest edge they have, even where nodes moved.
-static void test_pairs(void **state)
+TEST(test_pairs)
 {
-    (void)state;
     Error err = {0};
     BlockDef def = block_of(ELEMENT_T3, 5, 3);
     Mesh mesh;
@@ -53,9 +52,8 @@ static void test_pairs(void **state)
 }
 
 // In regions that are marked and not across them; a T3 that is left over joins a group; Q8 stay.
-static void test_regions(void **state)
+TEST(test_regions)
 {
-    (void)state;
     Error err = {0};
     BlockDef def = block_of(ELEMENT_T3, 5, 1);
     Mesh mesh;
@@ -142,9 +140,8 @@ static double least_energy(BlockDef def, Motion (*motion)(double x, double z), b
 }
 
 // Of strains that are the same everywhere there is nothing to average.
-static void test_uniform(void **state)
+TEST(test_uniform)
 {
-    (void)state;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         if (kind != ELEMENT_T3 && kind != ELEMENT_Q4) continue;
         BlockDef def = block_of((ElementKind)kind, 4, 3);
@@ -156,9 +153,8 @@ static void test_uniform(void **state)
 
 // The exact energy is E/(1 - nu^2) L/24 of height 1: C is as much of it as eta1 of E/(1 + nu).
 // Elements of their own lock, on grouped ones the error falls with the square of the cells.
-static void test_bending(void **state)
+TEST(test_bending)
 {
-    (void)state;
     Material material = rubber();
     double nu = material.poisson, exact[2] = {material.young / (1 - nu * nu) * 2 / 24, 0};
     exact[1] = exact[0] * material.eta1 * (1 + nu) / material.young;
@@ -179,9 +175,8 @@ static void test_bending(void **state)
 
 // At nodes of the bent beam, those of its sides too: stresses of the mean areal strain, where those
 // of the slopes themselves are off by a hundred times the largest.
-static void test_stress(void **state)
+TEST(test_stress)
 {
-    (void)state;
     Error err = {0};
     BlockDef def = block_of(ELEMENT_Q4, 24, 12);
     Material material = rubber();
@@ -213,13 +208,4 @@ static void test_stress(void **state)
         nodal_stress_destroy(&stress);
         mesh_destroy(&mesh);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs), cmocka_unit_test(test_regions),
-                                       cmocka_unit_test(test_uniform),
-                                       cmocka_unit_test(test_bending),
-                                       cmocka_unit_test(test_stress)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

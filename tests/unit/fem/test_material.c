@@ -10,9 +10,8 @@ enum { RATIO_COUNT = sizeof RATIOS / sizeof *RATIOS };
 
 // Stresses of one stress state must give back the strains of Hooke's law in three dimensions:
 // E eps_xx = s_xx - nu (s_zz + s_yy), s_yy = 0 in plane stress, nu (s_xx + s_zz) in plane strain.
-static void test_hooke(void **state)
+TEST(test_hooke)
 {
-    (void)state;
     for (int32_t k = 0; k < 2 * RATIO_COUNT; k++) {
         double nu = RATIOS[k / 2], young = 7;
         Material material = {.young = young, .poisson = nu, .density = 1, .plane_strain = k % 2};
@@ -30,9 +29,8 @@ static void test_hooke(void **state)
 }
 
 // Plane strain is plane stress of E/(1 - nu^2), nu/(1 - nu).
-static void test_plane_strain_is_plane_stress(void **state)
+TEST(test_plane_strain_is_plane_stress)
 {
-    (void)state;
     for (int32_t k = 0; k < RATIO_COUNT; k++) {
         double nu = RATIOS[k];
         Material wide = {.young = 3, .poisson = nu, .density = 2, .plane_strain = true};
@@ -47,9 +45,8 @@ static void test_plane_strain_is_plane_stress(void **state)
 }
 
 // sigma = eta1 eps' + eta2 tr(eps') I: in shear eta1/2 on the engineering strain.
-static void test_viscous(void **state)
+TEST(test_viscous)
 {
-    (void)state;
     Material material = {.young = 1, .poisson = 0.3, .density = 1, .eta1 = 2, .eta2 = 5};
     const double wanted[3][3] = {{7, 5, 0}, {5, 7, 0}, {0, 0, 1}};
     double d[STRAINS_MAX][STRAINS_MAX], none[3] = {0}, rate[3] = {0.5, -0.2, 9};
@@ -60,9 +57,8 @@ static void test_viscous(void **state)
     assert_near("wide", material_out_of_plane(&material, none, rate), 5 * 0.3, 1e-15);
 }
 
-static void test_speeds(void **state)
+TEST(test_speeds)
 {
-    (void)state;
     for (int32_t k = 0; k < RATIO_COUNT; k++) {
         double nu = RATIOS[k], young = 5, density = 3;
         Material material = {.young = young, .poisson = nu, .density = density};
@@ -77,9 +73,8 @@ static void test_speeds(void **state)
 }
 
 // Rayleigh: textbook ratios to c_S in plane strain; in plane stress the paper's two materials.
-static void test_rayleigh(void **state)
+TEST(test_rayleigh)
 {
-    (void)state;
     const struct {
         double nu, ratio;
     } wide[] = {{0, 0.8740}, {0.25, 0.9194}, {0.4999999, 0.9553}};
@@ -101,9 +96,8 @@ static void test_rayleigh(void **state)
 
 // c_L while that is below 2 c_S: in plane stress for every nu (c_L^2/c_S^2 = 2/(1 - nu)), in plane
 // strain up to nu = 1/3 (2 (1 - nu)/(1 - 2 nu)).
-static void test_slip_speed(void **state)
+TEST(test_slip_speed)
 {
-    (void)state;
     for (int strain = 0; strain < 2; strain++) {
         for (double nu = -0.5; nu < 0.5; nu += 0.04) {
             Material material = paper_material();
@@ -117,21 +111,9 @@ static void test_slip_speed(void **state)
     }
 }
 
-static void test_default_is_the_paper(void **state)
+TEST(test_default_is_the_paper)
 {
-    (void)state;
     Material material = paper_material();
     assert_true(material.young == 1 && material.density == 1 && material.poisson == 0.34);
     assert_true(material.eta1 == 1 && material.eta2 == 1 && !material.plane_strain);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hooke),      cmocka_unit_test(test_plane_strain_is_plane_stress),
-        cmocka_unit_test(test_viscous),    cmocka_unit_test(test_speeds),
-        cmocka_unit_test(test_rayleigh),   cmocka_unit_test(test_default_is_the_paper),
-        cmocka_unit_test(test_slip_speed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,18 +4,14 @@
 #include "fem/mesh.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "mesh_by_hand.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 // cmocka 1.1.5 compares floats only, in single precision.
 static void assert_near(double value, double wanted, double tolerance)
@@ -48,9 +44,8 @@ static void build_badly(MeshFile *file, const char *one, const char *two, const 
     assert_null(file->position);   // taken over, and freed with the mesh
 }
 
-static void test_build(void **state)
+TEST(test_build)
 {
-    (void)state;
     Error err = {0};
     Mesh mesh;
     MeshBoundary curve;
@@ -75,9 +70,8 @@ static void test_build(void **state)
 }
 
 // Curve nodes come by ascending x whatever the order of the file; a vertical one by z.
-static void test_curve_order(void **state)
+TEST(test_curve_order)
 {
-    (void)state;
     static const double places[][2] = {{2, 0}, {0, 1}, {1, 0}, {2, 1}, {0, 0}, {1, 1}};
     static const int32_t squares[] = {4, 2, 5, 1, 2, 0, 3, 5};
     static const int32_t bottom[][2] = {{2, 0}, {4, 2}}, left[][2] = {{1, 4}};
@@ -93,9 +87,8 @@ static void test_curve_order(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_orphan(void **state)
+TEST(test_orphan)
 {
-    (void)state;
     static const int32_t off[][2] = {{2, 6}};
     MeshFile file = hand_mesh(7, PLACES, ELEMENT_Q4, 2, SQUARES);
     build_badly(&file, "node 7 at (3, 0) is on no surface element", NULL, NULL);
@@ -104,18 +97,16 @@ static void test_orphan(void **state)
     build_badly(&file, "node 7", "no surface element", "group 'contact'");
 }
 
-static void test_repeated_node(void **state)
+TEST(test_repeated_node)
 {
-    (void)state;
     static const int32_t folded[] = {0, 1, 4, 3, 1, 2, 5, 5};
     MeshFile file = hand_mesh(6, PLACES, ELEMENT_Q4, 2, folded);
     build_badly(&file, "element 2 (Q4) has node 6 twice", NULL, NULL);
 }
 
 // A crossed quad, a flat triangle, a T6 whose mid-side node lies past the quarter point.
-static void test_area(void **state)
+TEST(test_area)
 {
-    (void)state;
     static const int32_t crossed[] = {0, 1, 4, 3, 1, 2, 4, 5}, flat[] = {0, 1, 3, 0, 1, 2};
     static const double bent[][2] = {{0, 0}, {1, 0}, {0, 1}, {0.2, 0}, {0.5, 0.5}, {0, 0.5}};
     static const double fair[][2] = {{0, 0}, {1, 0}, {0, 1}, {0.3, 0}, {0.5, 0.5}, {0, 0.5}};
@@ -137,9 +128,8 @@ static void test_area(void **state)
 }
 
 // Clockwise throughout: turned round, from the same first corner. One among others: refused.
-static void test_orientation(void **state)
+TEST(test_orientation)
 {
-    (void)state;
     static const int32_t clockwise[] = {0, 3, 4, 1, 1, 4, 5, 2};
     static const int32_t second[] = {0, 1, 4, 3, 1, 4, 5, 2}, first[] = {0, 3, 4, 1, 1, 2, 5, 4};
     Error err = {0};
@@ -155,9 +145,8 @@ static void test_orientation(void **state)
 }
 
 // Reversed elements of each kind have the area they should have.
-static void test_reversed_kinds(void **state)
+TEST(test_reversed_kinds)
 {
-    (void)state;
     static const double t6[][2] = {{0, 0}, {0, 1}, {1, 0}, {0, .5}, {.5, .5}, {.5, 0}};
     static const double q9[][2] = {{0, 0},  {0, 1},  {1, 1},  {1, 0},  {0, .5},
                                    {.5, 1}, {1, .5}, {.5, 0}, {.5, .5}};
@@ -182,9 +171,8 @@ static void test_reversed_kinds(void **state)
     }
 }
 
-static void test_edges(void **state)
+TEST(test_edges)
 {
-    (void)state;
     static const double places[][2] = {{0, .5}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
     static const int32_t thrice[] = {0, 1, 4, 1, 2, 4, 1, 3, 4}, diagonal[][2] = {{0, 4}};
     MeshFile file = hand_mesh(5, places, ELEMENT_T3, 3, thrice);
@@ -195,9 +183,8 @@ static void test_edges(void **state)
 }
 
 // A Q4 beside a Q8: the common side has a middle node on one side only.
-static void test_mixed_order(void **state)
+TEST(test_mixed_order)
 {
-    (void)state;
     static const double places[][2] = {{0, 0},  {1, 0},  {1, 1},  {0, 1}, {.5, 0},
                                        {1, .5}, {.5, 1}, {0, .5}, {2, 0}, {2, 1}};
     static const int32_t nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 9, 2};
@@ -209,9 +196,8 @@ static void test_mixed_order(void **state)
     build_badly(&file, "share the edge at (1, 0.5)", "different order", "elements 1 and 2");
 }
 
-static void test_summary(void **state)
+TEST(test_summary)
 {
-    (void)state;
     static const double places[][2] = {{0, 0}, {4, 0}, {4, 1}, {0, 1}, {0, 4}};
     static const int32_t nodes[] = {1, 2, 3, 0, 3, 2, 4, 0};   // the last is no node
     Error err = {0};
@@ -231,9 +217,8 @@ static void test_summary(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     int64_t live = memory_counters().live;
     bool done = false;
     for (int64_t k = 0; !done; k++) {
@@ -265,9 +250,8 @@ static void mesh_geo(const char *name, const MeshParameter *parameters, int32_t 
 }
 
 // nx x nz cells of each kind and layout: counts by formula, area length x height.
-static void test_block_counts(void **state)
+TEST(test_block_counts)
 {
-    (void)state;
     enum { NX = 6, NZ = 4 };
     static const struct {
         const char *shape, *layout;
@@ -320,9 +304,8 @@ static void test_block_counts(void **state)
 
 // Even cells without grading; with it the top cell is grade_z times the lowest, steps of one
 // ratio, and the ends of the contact line are finest, alike, about 1 / grade_x of the middle.
-static void test_block_grading(void **state)
+TEST(test_block_grading)
 {
-    (void)state;
     MeshParameter parameters[] = {
         {"nx", 41, ""}, {"nz", 9, ""}, {"grade_x", 1, ""}, {"grade_z", 1, ""}};
     for (int32_t graded = 0; graded < 2; graded++) {
@@ -350,9 +333,8 @@ static void test_block_grading(void **state)
 }
 
 // The same edge again, the other way round: a load on it would act twice.
-static void test_edge_listed_twice(void **state)
+TEST(test_edge_listed_twice)
 {
-    (void)state;
     static const int32_t twice[][2] = {{1, 2}, {0, 1}, {2, 1}};
     MeshFile file = hand_mesh(6, PLACES, ELEMENT_Q4, 2, SQUARES);
     hand_curve(&file, "top", 3, twice);
@@ -367,27 +349,11 @@ static void test_edge_listed_twice(void **state)
 }
 
 // Two squares side by side with nodes of their own where they touch.
-static void test_two_parts(void **state)
+TEST(test_two_parts)
 {
-    (void)state;
     static const double places[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
                                        {1, 0}, {3, 0}, {3, 1}, {1, 1}};
     static const int32_t squares[] = {0, 1, 2, 3, 4, 5, 6, 7};
     MeshFile file = hand_mesh(8, places, ELEMENT_Q4, 2, squares);
     build_badly(&file, "share no node", "4 nodes in x = 0 ... 1", "4 nodes in x = 1 ... 3");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_build),          cmocka_unit_test(test_edge_listed_twice),
-        cmocka_unit_test(test_two_parts),      cmocka_unit_test(test_curve_order),
-        cmocka_unit_test(test_orphan),         cmocka_unit_test(test_repeated_node),
-        cmocka_unit_test(test_area),           cmocka_unit_test(test_orientation),
-        cmocka_unit_test(test_reversed_kinds), cmocka_unit_test(test_edges),
-        cmocka_unit_test(test_mixed_order),    cmocka_unit_test(test_summary),
-        cmocka_unit_test(test_memory_faults),  cmocka_unit_test(test_block_counts),
-        cmocka_unit_test(test_block_grading),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

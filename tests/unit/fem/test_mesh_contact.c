@@ -3,18 +3,14 @@
 #include "fem/mesh.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "mesh_by_hand.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 // Three squares of side 1 in a row.
 //     4---5---6---7
@@ -49,9 +45,8 @@ static void refuse(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32
 
 // Pads at both ends, the right one first in the file: ordered by x all the same. The gap's nodes
 // belong to the pads' ends.
-static void test_pads_by_default_names(void **state)
+TEST(test_pads_by_default_names)
 {
-    (void)state;
     static const char *const names[] = {"contact_1", "contact_2", "contactless"};
     static const int32_t(*const pairs[])[2] = {RIGHT, LEFT, MIDDLE};
     static const int32_t nodes[] = {0, 1, 2, 3}, owners[] = {0, 0, 1, 1};
@@ -71,9 +66,8 @@ static void test_pads_by_default_names(void **state)
 }
 
 // Named curves keep the order given; a node they share is listed once, with the first.
-static void test_neighbours(void **state)
+TEST(test_neighbours)
 {
-    (void)state;
     static const char *const names[] = {"west", "mid", "east"};
     static const int32_t(*const pairs[])[2] = {LEFT, MIDDLE, RIGHT};
     static const char asked[][GROUP_NAME_SIZE] = {"east", "mid", "west"};
@@ -92,9 +86,8 @@ static void test_neighbours(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_missing(void **state)
+TEST(test_missing)
 {
-    (void)state;
     static const char *const names[] = {"contacts"};
     static const int32_t(*const pairs[])[2] = {LEFT};
     static const char asked[][GROUP_NAME_SIZE] = {"contacs"};
@@ -106,9 +99,8 @@ static void test_missing(void **state)
 }
 
 // Nodes over z = 0 have a gap, rounding is none; one must lie on it.
-static void test_gaps(void **state)
+TEST(test_gaps)
 {
-    (void)state;
     static const char *const names[] = {"contact_1", "contact_2"};
     static const int32_t(*const pairs[])[2] = {LEFT, RIGHT};
     double places[8][2];
@@ -129,9 +121,8 @@ static void test_gaps(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_faces_and_folds(void **state)
+TEST(test_faces_and_folds)
 {
-    (void)state;
     static const char *const names[] = {"contact"};
     static const int32_t round[][2] = {{0, 1}, {2, 1}, {2, 3}, {3, 7}};
     static const int32_t(*const pairs[])[2] = {round};
@@ -155,9 +146,8 @@ static void test_faces_and_folds(void **state)
     }
 }
 
-static void test_below_the_substrate(void **state)
+TEST(test_below_the_substrate)
 {
-    (void)state;
     static const char *const names[] = {"contact"};
     static const int32_t top[][2] = {{6, 7}};
     static const int32_t(*const pairs[])[2] = {top};
@@ -172,9 +162,8 @@ static void test_below_the_substrate(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_overlap(void **state)
+TEST(test_overlap)
 {
-    (void)state;
     static const char *const names[] = {"contact", "contact_left"};
     static const int32_t both[][2] = {{0, 1}, {1, 2}};
     Error err = {0};
@@ -188,9 +177,8 @@ static void test_overlap(void **state)
 }
 
 // An edge with an element on either side, and a block whose halves do not hang together.
-static void test_inside_and_unglued(void **state)
+TEST(test_inside_and_unglued)
 {
-    (void)state;
     static const double stacked[][2] = {{0, -1}, {1, -1}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
     static const double split[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
                                       {1, 0}, {2, 0}, {2, 1}};   // a crack below (1, 1)
@@ -210,9 +198,8 @@ static void test_inside_and_unglued(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     static const char *const names[] = {"contact_1", "contact_2"};
     static const int32_t(*const pairs[])[2] = {RIGHT, LEFT};
     Mesh mesh;
@@ -231,20 +218,4 @@ static void test_memory_faults(void **state)
         assert_true(k < 100);
     }
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pads_by_default_names),
-        cmocka_unit_test(test_neighbours),
-        cmocka_unit_test(test_missing),
-        cmocka_unit_test(test_gaps),
-        cmocka_unit_test(test_faces_and_folds),
-        cmocka_unit_test(test_below_the_substrate),
-        cmocka_unit_test(test_overlap),
-        cmocka_unit_test(test_inside_and_unglued),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

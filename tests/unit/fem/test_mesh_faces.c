@@ -4,16 +4,12 @@
 #include "fem/mesh_faces.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "mesh_by_hand.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 // A square, and on its right a triangle on the same side.
 //     3---2
@@ -36,9 +32,8 @@ static FaceNodes edge_of(const int32_t *ends)
     return (FaceNodes){ELEMENT_L2, ends};
 }
 
-static void test_find(void **state)
+TEST(test_find)
 {
-    (void)state;
     Error err = {0};
     Mesh mesh;
     MeshFaces table;
@@ -61,9 +56,8 @@ static void test_find(void **state)
 }
 
 // A disc: corners - edges + elements = 1. On the boundary as many edges as the four curves have.
-static void test_euler(void **state)
+TEST(test_euler)
 {
-    (void)state;
     static const char *const shapes[] = {"quad", "triangle"};
     for (int32_t k = 0; k < 4; k++) {
         MeshParameter parameters[] = {{"nx", 10, ""},
@@ -97,9 +91,8 @@ static void test_euler(void **state)
     }
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Mesh mesh;
     bool done = false;
     build(&mesh);
@@ -115,14 +108,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_find),
-        cmocka_unit_test(test_euler),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

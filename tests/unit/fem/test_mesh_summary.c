@@ -9,9 +9,8 @@
 #include "plane.h"
 
 // One rectangle, 3 by 4.
-static void test_by_hand(void **state)
+TEST(test_by_hand)
 {
-    (void)state;
     static const double places[][2] = {{0, 0}, {3, 0}, {3, 4}, {0, 4}};
     static const int32_t corners[] = {0, 1, 2, 3};
     Error err = {0};
@@ -30,9 +29,8 @@ static void test_by_hand(void **state)
 }
 
 // The second of two triangles is the needle: sides 3, 4, 5 and 4, 0.5 and their hypotenuse.
-static void test_the_worst_is_named(void **state)
+TEST(test_the_worst_is_named)
 {
-    (void)state;
     static const double places[][2] = {{0, 0}, {3, 0}, {0, 4}, {-0.5, 0}};
     static const int32_t corners[] = {0, 1, 2, 0, 2, 3};
     Error err = {0};
@@ -50,9 +48,8 @@ static void test_the_worst_is_named(void **state)
 }
 
 // Inner nodes moved at random change every element and not the whole: length times height.
-static void test_blocks(void **state)
+TEST(test_blocks)
 {
-    (void)state;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         bool triangles = kind == ELEMENT_T3 || kind == ELEMENT_T6;
         BlockDef def = {.kind = (ElementKind)kind,
@@ -72,12 +69,4 @@ static void test_blocks(void **state)
         assert_in_range(summary.aspect_worst, 0, mesh.element_count - 1);
         mesh_destroy(&mesh);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_by_hand),
-                                       cmocka_unit_test(test_the_worst_is_named),
-                                       cmocka_unit_test(test_blocks)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

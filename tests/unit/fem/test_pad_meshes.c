@@ -3,7 +3,6 @@
 // what they refuse.
 #include "fem/mesh.h"
 
-#include "base/memory.h"
 #include "near.h"
 
 enum { PARAMETERS_MAX = 12, PADS_MAX = 12 };
@@ -74,9 +73,8 @@ static double rise_of(const Drawn *drawn, const char *name)
 }
 
 // Rows of cells: n pads, together fill * length, the first at x = 0, the last ending at length.
-static void test_flush(void **state)
+TEST(test_flush)
 {
-    (void)state;
     for (int32_t n = 1; n <= PADS_MAX; n = 2 * n + 1) {
         MeshParameter parameters[PARAMETERS_MAX] = {{"n", n, ""},
                                                     {"length", 2, ""},
@@ -103,9 +101,8 @@ static void test_flush(void **state)
 }
 
 // One pad without free ends is a plain block.
-static void test_one_pad_whole(void **state)
+TEST(test_one_pad_whole)
 {
-    (void)state;
     MeshParameter parameters[PARAMETERS_MAX] = {{"n", 1, ""}, {"fill", 1, ""}};
     Drawn drawn;
     draw("pads.geo", parameters, &drawn);
@@ -116,9 +113,8 @@ static void test_one_pad_whole(void **state)
 }
 
 // Half a gap at either end; a given gap puts the row in the middle; lengths in geometric steps.
-static void test_placing(void **state)
+TEST(test_placing)
 {
-    (void)state;
     MeshParameter open[PARAMETERS_MAX] = {{"n", 2, ""}, {"fill", 0.5, ""}, {"ends", 0, "open"}};
     MeshParameter middle[PARAMETERS_MAX] = {
         {"n", 3, ""}, {"contact_length", 0.6, ""}, {"gap", 0.05, ""}, {"total_height", 0.4, ""}};
@@ -143,9 +139,8 @@ static void test_placing(void **state)
 }
 
 // Rows of cells by sizes: fine below, near size_bulk at the top.
-static void test_sizes(void **state)
+TEST(test_sizes)
 {
-    (void)state;
     MeshParameter parameters[PARAMETERS_MAX] = {
         {"n", 2, ""}, {"fill", 0.5, ""}, {"size_contact", 0.01, ""}, {"size_bulk", 0.05, ""}};
     Drawn drawn;
@@ -166,9 +161,8 @@ static double edge_of(const Drawn *drawn, int32_t pad, int32_t edge)
 // Cells of a graded contact: as many as without, the middle ones about `grade` times the end ones,
 // the same from both ends (cells of a parabola: within 1 part in 8 at 20 of them). `refine` halves
 // sizes and doubles the grade.
-static void test_graded(void **state)
+TEST(test_graded)
 {
-    (void)state;
     for (int32_t k = 0; k < 3; k++) {
         MeshParameter of_pads[PARAMETERS_MAX] = {{"n", 2, ""},
                                                  {"fill", 0.8, ""},
@@ -195,9 +189,8 @@ static void test_graded(void **state)
 }
 
 // The mesh that `refine` says is the one that its sizes and counts say.
-static void test_refined(void **state)
+TEST(test_refined)
 {
-    (void)state;
     MeshParameter twice[PARAMETERS_MAX] = {{"cells_pad", 4, ""}, {"refine", 2, ""}};
     MeshParameter told[PARAMETERS_MAX] = {{"cells_pad", 8, ""},
                                           {"cells_gap", 12, ""},
@@ -219,9 +212,8 @@ static void test_refined(void **state)
 }
 
 // Each root gains r^2 (1 - pi/4), and up to a tenth more: chords stand for arcs.
-static void test_fillet(void **state)
+TEST(test_fillet)
 {
-    (void)state;
     for (int32_t k = 0; k < 2; k++) {
         bool open = k == 1;
         MeshParameter parameters[PARAMETERS_MAX] = {{"n", 3, ""},
@@ -250,9 +242,8 @@ static void test_fillet(void **state)
 }
 
 // A groove takes (width + floor) / 2 * depth away.
-static void test_grooves(void **state)
+TEST(test_grooves)
 {
-    (void)state;
     for (int32_t k = 0; k < 3; k++) {
         double floors[] = {0, 0.03, 0.05};
         MeshParameter parameters[PARAMETERS_MAX] = {{"grooves", 3, ""},
@@ -279,9 +270,8 @@ typedef struct Refused {
     const char *message;
 } Refused;
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     static const Refused rows[] = {
         {"pads.geo", {{"fill", 1.2, ""}}, "fill must be above 0 and below 1, found 1.2"},
         {"pads.geo", {{"fill", 1, ""}}, "fill must be above 0 and below 1, found 1"},
@@ -321,16 +311,4 @@ static void test_refused(void **state)
             fail_msg("%s\nlacks: %s", err.message, rows[k].message);
         mesh_file_destroy(&file);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flush),   cmocka_unit_test(test_one_pad_whole),
-        cmocka_unit_test(test_placing), cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_graded),  cmocka_unit_test(test_refined),
-        cmocka_unit_test(test_fillet),  cmocka_unit_test(test_grooves),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

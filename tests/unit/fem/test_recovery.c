@@ -95,9 +95,8 @@ static Material test_material(bool plane_strain)
                       .plane_strain = plane_strain};
 }
 
-static void test_linear(void **state)
+TEST(test_linear)
 {
-    (void)state;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         BlockDef def = {.kind = (ElementKind)kind,
                         .nx = 4,
@@ -114,9 +113,8 @@ static void test_linear(void **state)
     }
 }
 
-static void test_quadratic(void **state)
+TEST(test_quadratic)
 {
-    (void)state;
     const ElementKind kinds[] = {ELEMENT_T6, ELEMENT_Q9, ELEMENT_Q8};
     for (int32_t k = 0; k < 3; k++) {   // Q8 holds them on rectangles only
         BlockDef def = {.kind = kinds[k],
@@ -133,9 +131,8 @@ static void test_quadratic(void **state)
 }
 
 // Order 1 converges with h at the edge, and with h^2 inside regular quadrilaterals.
-static void test_convergence(void **state)
+TEST(test_convergence)
 {
-    (void)state;
     Material material = test_material(false);
     for (int inner = 0; inner < 2; inner++) {
         double error[2];
@@ -151,9 +148,8 @@ static void test_convergence(void **state)
 
 // Columns of elements in turns of two materials, one twice the other: nodes between them are two
 // points, each with the stress of its own material.
-static void test_two_materials(void **state)
+TEST(test_two_materials)
 {
-    (void)state;
     Error err = {0};
     BlockDef def = {.kind = ELEMENT_Q4, .nx = 4, .nz = 3, .length = 1, .height = 0.7};
     Mesh mesh;
@@ -195,9 +191,8 @@ static void test_two_materials(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     BlockDef def = {.kind = ELEMENT_T3, .nx = 2, .nz = 2, .length = 1, .height = 1};
     Mesh mesh;
     block_build(&def, &mesh);
@@ -214,14 +209,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_linear),        cmocka_unit_test(test_quadratic),
-        cmocka_unit_test(test_convergence),   cmocka_unit_test(test_two_materials),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,9 +111,8 @@ static void assert_same_bulk(const ReducedBulk *a, const ReducedBulk *b, bool wi
     }
 }
 
-static void test_round_trip(void **state)
+TEST(test_round_trip)
 {
-    (void)state;
     ReducedBulk made, read;
     char note[CACHE_NOTE_SIZE];
     int64_t live = memory_counters().live;
@@ -170,9 +169,8 @@ static void make_parts(ReducedBulk *reduced)
     }
 }
 
-static void test_symmetry_parts(void **state)
+TEST(test_symmetry_parts)
 {
-    (void)state;
     ReducedBulk made, read;
     char note[CACHE_NOTE_SIZE] = "";
     int64_t live = memory_counters().live;
@@ -198,9 +196,8 @@ static void test_symmetry_parts(void **state)
 }
 
 // A cut file, modes that are cut or gone, another basis's file under this name, no name.
-static void test_not_trusted(void **state)
+TEST(test_not_trusted)
 {
-    (void)state;
     ReducedBulk read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE], modes[PATH_SIZE], other[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s.basis", cache, NAME);
@@ -231,9 +228,8 @@ static void test_not_trusted(void **state)
 
 // A file that is whole, but whose sizes are none: more levels than there is room for, a count of
 // which fuzzing found the first.
-static void test_impossible_sizes(void **state)
+TEST(test_impossible_sizes)
 {
-    (void)state;
     ReducedBulk made, read;
     char note[CACHE_NOTE_SIZE] = "";
     int64_t live = memory_counters().live;
@@ -263,9 +259,8 @@ static void test_impossible_sizes(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char note[CACHE_NOTE_SIZE];
     ReducedBulk read, made;
     store(NAME, note);
@@ -297,9 +292,8 @@ static const int32_t RECORDED_MODES = 39;
 static const double RECORDED_TRACES[4] = {29.6363560258, 19.9828148797, 28.2719551359,
                                           699.509537686};
 
-static void test_recorded_basis(void **state)
+TEST(test_recorded_basis)
 {
-    (void)state;
     const Material material = {.young = 1, .poisson = 0.3, .density = 1, .eta1 = 1, .eta2 = 0.5};
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 8, .length = 1, .height = 0.5};
     const double steps[4] = {1, 1e-1, 1e-2, 1e-4};
@@ -322,12 +316,4 @@ static void test_recorded_basis(void **state)
     reduced_block_destroy(&block);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_symmetry_parts),
-        cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_impossible_sizes),
-        cmocka_unit_test(test_memory_faults), cmocka_unit_test(test_recorded_basis),
-    };
-    return cmocka_run_group_tests(tests, cache_begin, cache_end);
-}
+GROUP_BETWEEN(cache_begin, cache_end);

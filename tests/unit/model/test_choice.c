@@ -21,9 +21,8 @@ static bool reduces(const ChoiceSizes *sizes)
     return choice_reduces(sizes, &cost);
 }
 
-static void test_short_and_long_runs(void **state)
+TEST(test_short_and_long_runs)
 {
-    (void)state;
     for (double side = 60; side <= 200; side += 20) {
         ChoiceSizes brief = block(side, 100), with_slidings = block(side, 3000);
         assert_false(reduces(&brief));
@@ -32,9 +31,8 @@ static void test_short_and_long_runs(void **state)
 }
 
 // What is decided for some number of stages is decided for more of them.
-static void test_once_it_pays_it_pays(void **state)
+TEST(test_once_it_pays_it_pays)
 {
-    (void)state;
     for (double side = 30; side <= 250; side += 20) {
         bool before = false;
         for (double stages = 50; stages < 1e5; stages *= 1.5) {
@@ -47,18 +45,16 @@ static void test_once_it_pays_it_pays(void **state)
     }
 }
 
-static void test_held(void **state)
+TEST(test_held)
 {
-    (void)state;
     ChoiceSizes brief = block(160, 100);
     assert_false(reduces(&brief));
     brief.held = true;
     assert_true(reduces(&brief));
 }
 
-static void test_many_runs(void **state)
+TEST(test_many_runs)
 {
-    (void)state;
     ChoiceSizes brief = block(160, 100);
     brief.runs = 20;
     assert_true(reduces(&brief));
@@ -69,9 +65,8 @@ static void test_many_runs(void **state)
 }
 
 // Small ones are reduced in any case: tests and sweeps of small blocks do not depend on seconds.
-static void test_not_worth_asking(void **state)
+TEST(test_not_worth_asking)
 {
-    (void)state;
     for (double side = 2; side <= 20; side++) {
         ChoiceSizes none = block(side, 0);
         assert_true(reduces(&none));
@@ -79,21 +74,9 @@ static void test_not_worth_asking(void **state)
 }
 
 // 320 x 320 cells are to be reduced within 6 GB; beyond memory there is no choice.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     ChoiceSizes large = block(320, 1e4), huge = block(700, 1e6);
     assert_true(reduces(&large));
     assert_false(reduces(&huge));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_short_and_long_runs),
-                                       cmocka_unit_test(test_once_it_pays_it_pays),
-                                       cmocka_unit_test(test_held),
-                                       cmocka_unit_test(test_many_runs),
-                                       cmocka_unit_test(test_not_worth_asking),
-                                       cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

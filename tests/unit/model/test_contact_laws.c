@@ -47,9 +47,8 @@ static double block_factors(const char *along, int32_t cells, const char *mesh,
 
 // Ends of 0.15 at 0.6, which begin at a node, within a cell, or half way between nodes; nodes
 // within edges, whose weights are Simpson's, and cells that differ.
-static void test_jumps(void **state)
+TEST(test_jumps)
 {
-    (void)state;
     static const int32_t cells[] = {10, 14, 20};
     static const char *const meshes[] = {"mesh.set.order=1", "mesh.set.order=2",
                                          "mesh.set.grade_x=3"};
@@ -65,9 +64,8 @@ static void test_jumps(void **state)
 
 // A straight line has its value at the middle of each part: that of the node, but for the ends of
 // the contact and nodes between cells that differ.
-static void test_line(void **state)
+TEST(test_line)
 {
-    (void)state;
     double factors[NODES_MAX];
     assert_near("all", block_factors("1 + x", 10, "mesh.set.order=1", factors), 1.5, 1e-12);
     assert_near("inside", factors[3], 1.3, 1e-12);
@@ -82,9 +80,8 @@ static void test_line(void **state)
 }
 
 // Where pads share a node and where a gap lies within one: parts neither shift nor reach over it.
-static void test_pads(void **state)
+TEST(test_pads)
 {
-    (void)state;
     double x[] = {0, 0.2, 0.4, 0.6, 0.7, 1, 1.2}, weight[] = {0.1, 0.2, 0.2, 0.15, 0.05, 0.1, 0.1};
     int32_t pad[] = {0, 0, 0, 0, 1, 1, 1};
     char names[2][GROUP_NAME_SIZE] = {"contact_1", "contact_2"};
@@ -107,11 +104,4 @@ static void test_pads(void **state)
     for (int32_t i = 0; i < 7; i++) assert_near("pads", factors[i], wanted[i], 1.5 / 32);
     memory_free(model.node_laws);
     amontons_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_jumps), cmocka_unit_test(test_line),
-                                       cmocka_unit_test(test_pads)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static const char SQUARES[] =
     "Physical Curve(\"low\") = {1, 2}; Physical Curve(\"high\") = {4, 5};\n"
     "Physical Curve(\"left\") = {6}; Physical Surface(\"one\") = {1};\n";
 
-static void test_one_number_differs(void **state)
+TEST(test_one_number_differs)
 {
-    (void)state;
     char text[1500];
     snprintf(text, sizeof text, "%sPhysical Surface(\"other\") = {2};\n", SQUARES);
     place_write(place, "squares.geo", text);
@@ -56,9 +55,8 @@ static void test_one_number_differs(void **state)
     }
 }
 
-static void test_in_two_regions(void **state)
+TEST(test_in_two_regions)
 {
-    (void)state;
     char text[1500];
     Error err = {0};
     snprintf(text, sizeof text, "%sPhysical Surface(\"other\") = {1, 2};\n", SQUARES);
@@ -70,9 +68,8 @@ static void test_in_two_regions(void **state)
 }
 
 // Format 2.2 has an element once for each of its groups; of the right one a copy is lacking.
-static void test_cannot_be_told(void **state)
+TEST(test_cannot_be_told)
 {
-    (void)state;
     Error err = {0};
     place_write(place, "blurred.msh",
                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n1 1 \"low\"\n"
@@ -87,12 +84,4 @@ static void test_cannot_be_told(void **state)
         fail_msg("%s", err.message);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_number_differs),
-        cmocka_unit_test(test_in_two_regions),
-        cmocka_unit_test(test_cannot_be_told),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+GROUP_BETWEEN(begin, end);

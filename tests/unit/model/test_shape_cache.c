@@ -8,7 +8,6 @@
 #include "scene_of_text.h"
 #include "random_numbers.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { FOLDER_SIZE = 64, PATH_SIZE = 256, TEXT_SIZE = 4000 };
@@ -26,9 +25,8 @@ static void write_text(const char *name, const char *text)
     fclose(stream);
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons-shapes-XXXXXX");
     if (!mkdtemp(folder)) return -1;
     snprintf(cache, sizeof cache, "%s/a/cache", folder);
@@ -36,9 +34,8 @@ static int make_folder(void **state)
     return setenv("AMONTONS_CACHE", cache, 1);
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[FOLDER_SIZE + 16];
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return system(command);
@@ -77,9 +74,8 @@ typedef struct Change {
     const char *text;
 } Change;
 
-static void test_what_changes_the_key(void **state)
+TEST(test_what_changes_the_key)
 {
-    (void)state;
     static const Change changes[] = {
         {1, "mesh: {file: block.geo, set: {nx: 5, nz: 6, shape: quad}}"},
         {1, "mesh: {file: block.geo, set: {nx: 6, nz: 4, shape: quad}}"},
@@ -129,9 +125,8 @@ static void test_what_changes_the_key(void **state)
             if (strcmp(keys[j], keys[k]) == 0) fail_msg("%d and %d share a key", j - 3, k - 3);
 }
 
-static void test_what_does_not(void **state)
+TEST(test_what_does_not)
 {
-    (void)state;
     static const Change changes[] = {
         {0, "title: Another name"},
         {0, "units: si"},
@@ -158,9 +153,8 @@ static void test_what_does_not(void **state)
     }
 }
 
-static void test_no_key(void **state)
+TEST(test_no_key)
 {
-    (void)state;
     char key[HASH_TEXT_SIZE];
     const char *const draws[] = {"Include \"parts.geo\";\n",
                                  "Merge 'mesh.msh';\n",
@@ -217,7 +211,8 @@ static void make_shape(uint64_t seed, Shape *shape)
     enum { M = 7 };
     Random random = {.state = seed};
     *shape = (Shape){
-        .sizes = {1.5, 0.5, 0.75, 36, 98, 0.01, 1.4, 0.1, 0.75, {{{1, 0}, 0.25}}, 2, {0.5, 0.25}}};
+        .sizes = {
+            1.5, 0.5, 1, 0.75, 36, 98, 0.01, 1.4, 0.1, 0.75, {{{1, 0}, 0.25}}, 2, {0.5, 0.25}}};
     shape->interface = (Interface){.dim = 2,
                                    .contact_count = 3,
                                    .node = index_array(&random, 3, 49),
@@ -279,9 +274,42 @@ static void store(const char *key, uint64_t seed, char note[CACHE_NOTE_SIZE])
     shape_destroy(&shape);
 }
 
-static void test_round_trip(void **state)
+// One in space has more of each node, and the line along its middle.
+TEST(test_space)
 {
-    (void)state;
+    Shape made, read;
+    char note[CACHE_NOTE_SIZE];
+    static const char SPACE_KEY[] = "10112233445566778899aabbccddeeff";
+    Random random = {.state = 77};
+    make_shape(7, &made);
+    Interface *a = &made.interface;
+    memory_free(a->node), memory_free(a->rod_node), memory_free(a->dofs);
+    a->dim = 3;
+    a->count = 10;
+    a->node = index_array(&random, 3, 30), a->rod_node = index_array(&random, 1, 30);
+    a->dofs = index_array(&random, 10, 90);
+    a->y = random_array(&random, 3);
+    a->rod_y = random_array(&random, 1);
+    a->rod_length = random_array(&random, 1);
+    a->line_count = 2;
+    a->line = index_array(&random, 2, 3);
+    made.sizes.full_dofs = 90;
+    shape_cache_store(SPACE_KEY, &made, note);
+    assert_true(load(SPACE_KEY, &read, note));
+    const Interface *b = &read.interface;
+    assert_memory_equal(&made.sizes, &read.sizes, sizeof made.sizes);
+    assert_true(b->dim == 3 && b->count == 10 && b->line_count == 2);
+    assert_memory_equal(a->y, b->y, 3 * sizeof(double));
+    assert_memory_equal(a->rod_y, b->rod_y, sizeof(double));
+    assert_memory_equal(a->rod_length, b->rod_length, sizeof(double));
+    assert_memory_equal(a->line, b->line, 2 * sizeof(int32_t));
+    assert_memory_equal(a->dofs, b->dofs, 10 * sizeof(int32_t));
+    shape_destroy(&made);
+    shape_destroy(&read);
+}
+
+TEST(test_round_trip)
+{
     Shape made, read;
     char note[CACHE_NOTE_SIZE];
     int64_t live = memory_counters().live;
@@ -299,9 +327,8 @@ static void test_round_trip(void **state)
 }
 
 // A spoilt file, or another shape's: not used, and a reason given.
-static void test_not_trusted(void **state)
+TEST(test_not_trusted)
 {
-    (void)state;
     Shape read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE], other[PATH_SIZE];
     static const char OTHER[] = "00112233445566778899aabbccddeef0";
@@ -321,9 +348,8 @@ static void test_not_trusted(void **state)
 
 // A sum that holds says nothing about who wrote the file: what would be read beyond an array's end
 // is not used.
-static void test_impossible(void **state)
+TEST(test_impossible)
 {
-    (void)state;
     Shape made, read;
     char note[CACHE_NOTE_SIZE];
     make_shape(5, &made);
@@ -345,9 +371,8 @@ static void test_impossible(void **state)
 }
 
 // No folder, an empty name, no key: no cache, and never an error.
-static void test_nowhere(void **state)
+TEST(test_nowhere)
 {
-    (void)state;
     Shape read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
     store("", 5, note);
@@ -378,9 +403,8 @@ static void test_nowhere(void **state)
     setenv("AMONTONS_CACHE", cache, 1);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char note[CACHE_NOTE_SIZE];
     Shape read;
     store(KEY, 5, note);
@@ -411,17 +435,4 @@ static void test_memory_faults(void **state)
     shape_destroy(&made);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_changes_the_key),
-        cmocka_unit_test(test_what_does_not),
-        cmocka_unit_test(test_no_key),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_not_trusted),
-        cmocka_unit_test(test_impossible),
-        cmocka_unit_test(test_nowhere),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

@@ -20,9 +20,8 @@ static Drive runaway(void)
     return (Drive){.load = 0.5, .yield = 2, .damping = 0, .mass = 1, .weakening = 100};
 }
 
-static void test_slidings(void **state)
+TEST(test_slidings)
 {
-    (void)state;
     Scene scene = scene_by_hand(0.3);
     Drive drive = runaway();
     double rest = stages_expect(&scene, &drive);
@@ -51,9 +50,8 @@ static void test_slidings(void **state)
 }
 
 // A slower rod pays more a sliding, a longer way costs nothing where the block slides steadily.
-static void test_slow_and_steady(void **state)
+TEST(test_slow_and_steady)
 {
-    (void)state;
     Scene scene = scene_by_hand(20), longer = scene_by_hand(2000);
     Drive drive = runaway(), damped = runaway();
     double usual = stages_expect(&scene, &drive);
@@ -74,9 +72,8 @@ static void test_slow_and_steady(void **state)
 
 // Slip that grows too slowly to run away: the block sticks again after half a period, so that a
 // tenth of V makes ten times as many drops of a tenth each, on the same way.
-static void test_small_oscillations(void **state)
+TEST(test_small_oscillations)
 {
-    (void)state;
     Scene scene = scene_by_hand(20);
     Drive drive = runaway();
     drive.weakening = 0.3;   // 2 sqrt(M/y) is 1.41
@@ -88,12 +85,4 @@ static void test_small_oscillations(void **state)
     assert_near("ten times as many", many / some, 10, 0.01);
     drive.weakening = 3;
     assert_true(stages_expect(&scene, &drive) < 0.1 * many);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_slidings),
-                                       cmocka_unit_test(test_slow_and_steady),
-                                       cmocka_unit_test(test_small_oscillations)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

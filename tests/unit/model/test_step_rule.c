@@ -15,9 +15,8 @@ static Scene scene_by_hand(void)
 
 static const StepSizes SIZES = {.slip = 0.25, .crossing = 2, .tolerance = 1e-3};
 
-static void test_driven(void **state)
+TEST(test_driven)
 {
-    (void)state;
     Scene scene = scene_by_hand();
     StepControlDef def = step_rule(&scene, &SIZES);
     assert_int_equal(def.scheme, TABLEAU_SDIRK2);
@@ -37,9 +36,8 @@ static void test_driven(void **state)
 }
 
 // For a slow rod or a fast one the wave step stays a rung: their ratio is a power of 2.
-static void test_the_wave_step_is_a_rung(void **state)
+TEST(test_the_wave_step_is_a_rung)
 {
-    (void)state;
     Scene scene = scene_by_hand();
     for (double V = 1e-9; V < 1e3; V *= 3.7) {
         scene.rod.velocity = V;
@@ -51,9 +49,8 @@ static void test_the_wave_step_is_a_rung(void **state)
 }
 
 // Keys of steps mean the explicit scheme, not the one that relaxes the block before it.
-static void test_explicit_keeps_its_keys(void **state)
+TEST(test_explicit_keeps_its_keys)
 {
-    (void)state;
     Scene scene = scene_by_hand();
     scene.time.scheme = SCHEME_EXPLICIT;
     scene.time.step_max = 1e-6;
@@ -64,9 +61,8 @@ static void test_explicit_keeps_its_keys(void **state)
     assert_near("shortest", def.step_min, 4e-12, 1e-24);
 }
 
-static void test_end(void **state)
+TEST(test_end)
 {
-    (void)state;
     Scene scene = scene_by_hand();
     assert_near("by the rod", step_rule_end(&scene), 40, 0);
     scene.time.until_t = 50;
@@ -77,12 +73,4 @@ static void test_end(void **state)
     scene.rod.kind = ROD_NONE;
     assert_near("by time", step_rule_end(&scene), 30, 0);
     assert_near("at least 50 steps", step_rule(&scene, &SIZES).step_max, 0.6, 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_driven), cmocka_unit_test(test_the_wave_step_is_a_rung),
-        cmocka_unit_test(test_explicit_keeps_its_keys), cmocka_unit_test(test_end)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

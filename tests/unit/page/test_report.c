@@ -55,9 +55,8 @@ static void refuse(const char *const *results, int32_t count, const char *words)
     assert_false(place_has(place, "page.html") || place_has(place, "page.html.part"));
 }
 
-static void test_refused(void **state)
+TEST_BETWEEN(test_refused, begin, end)
 {
-    (void)state;
     const char *const results[] = {here()};
     refuse(results, 0, "a report needs a result folder");
     refuse(results, 1, "not the result of a run or a sweep");
@@ -73,9 +72,8 @@ static void test_refused(void **state)
 }
 
 // A report alone: its numbers, its scene, the film beside it; nothing of a history.
-static void test_run_of_a_report_alone(void **state)
+TEST_BETWEEN(test_run_of_a_report_alone, begin, end)
 {
-    (void)state;
     place_write(place, "run.json",
                 "{\n  \"version\": \"0.0\",\n  \"status\": \"done\",\n  \"scene\": {\n"
                 "    \"title\": \"By <hand>\",\n    \"groups\": {\"top\": [\"a\",\n      \"b\"], "
@@ -97,9 +95,8 @@ static void test_run_of_a_report_alone(void **state)
 }
 
 // The page is meant to be sent.
-static void test_films_that_are_none(void **state)
+TEST_BETWEEN(test_films_that_are_none, begin, end)
 {
-    (void)state;
     char link[2 * PLACE_SIZE];
     place_write(place, "run.json", "{\"status\": \"done\"}");
     place_write(place, "secret", "GIF89a but mine");
@@ -115,9 +112,8 @@ static void test_films_that_are_none(void **state)
     expect_not(page, "data:image/gif");
 }
 
-static void test_run_that_failed(void **state)
+TEST_BETWEEN(test_run_that_failed, begin, end)
 {
-    (void)state;
     place_write(place, "run.json", "{\"status\": \"failed\", \"message\": \"it broke\"}");
     const char *page = page_here();
     expect(page, "it broke");
@@ -136,9 +132,8 @@ static void write_table(const char *rows)
 }
 
 // Nothing is done yet: no scene, no numbers of one.
-static void test_sweep_that_has_not_begun(void **state)
+TEST_BETWEEN(test_sweep_that_has_not_begun, begin, end)
 {
-    (void)state;
     write_table("0,p0,pending,0.003,,,,,\n1,p1,failed,0.006,,,,no <way>,\n");
     const char *page = page_here();
     expect(page, "0 of 2 points are done, 1 failed, 1 are not computed yet");
@@ -149,9 +144,8 @@ static void test_sweep_that_has_not_begun(void **state)
 }
 
 // Each sentence that points warned of stands there once; a figure that is none is told of.
-static void test_sweep_that_is_done(void **state)
+TEST_BETWEEN(test_sweep_that_is_done, begin, end)
 {
-    (void)state;
     char rows[3000], path[PLACE_SIZE + 20];
     snprintf(path, sizeof path, "%s/p0", place);
     assert_int_equal(mkdir(path, 0700), 0);
@@ -177,9 +171,8 @@ static void test_sweep_that_is_done(void **state)
 }
 
 // Runs that have no history have no curve, and one that failed has no numbers.
-static void test_comparison(void **state)
+TEST_BETWEEN(test_comparison, begin, end)
 {
-    (void)state;
     char paths[2][PLACE_SIZE + 20];
     const char *const results[] = {paths[0], paths[1]};
     for (int k = 0; k < 2; k++) {
@@ -224,9 +217,8 @@ static void write_history(const char *name, const char *units, const double *kin
 }
 
 // The last 300 of them, and kinds that no version wrote by no name.
-static void test_many_events(void **state)
+TEST_BETWEEN(test_many_events, begin, end)
 {
-    (void)state;
     double kinds[EVENTS_MAX] = {0};
     kinds[EVENTS_MAX - 1] = -1;
     kinds[EVENTS_MAX - 2] = 7;
@@ -242,9 +234,8 @@ static void test_many_events(void **state)
     expect(page, ">400</td><td>unknown<");
 }
 
-static void test_without_events(void **state)
+TEST_BETWEEN(test_without_events, begin, end)
 {
-    (void)state;
     write_history("", "normalised", NULL, 0);
     expect(page_here(), "Events are known at the end of a run.");   // no run.json
     place_write(place, "run.json", "{\"status\": \"done\", \"scene\": {}}");
@@ -252,9 +243,8 @@ static void test_without_events(void **state)
 }
 
 // Metres and lengths over L have no axis in common.
-static void test_units_that_differ(void **state)
+TEST_BETWEEN(test_units_that_differ, begin, end)
 {
-    (void)state;
     char paths[2][PLACE_SIZE + 20];
     const char *const results[] = {paths[0], paths[1]};
     for (int k = 0; k < 2; k++) {
@@ -269,21 +259,4 @@ static void test_units_that_differ(void **state)
                       : "{\"status\": \"done\", \"scene\": {\"units\": \"normalised\"}}");
     }
     expect(page_of(results, 2), "their curves have no common axis");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_refused, begin, end),
-        cmocka_unit_test_setup_teardown(test_run_of_a_report_alone, begin, end),
-        cmocka_unit_test_setup_teardown(test_films_that_are_none, begin, end),
-        cmocka_unit_test_setup_teardown(test_run_that_failed, begin, end),
-        cmocka_unit_test_setup_teardown(test_sweep_that_has_not_begun, begin, end),
-        cmocka_unit_test_setup_teardown(test_sweep_that_is_done, begin, end),
-        cmocka_unit_test_setup_teardown(test_comparison, begin, end),
-        cmocka_unit_test_setup_teardown(test_many_events, begin, end),
-        cmocka_unit_test_setup_teardown(test_without_events, begin, end),
-        cmocka_unit_test_setup_teardown(test_units_that_differ, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 #include "drops_by_hand.h"
 #include "plane.h"
 
-static void test_nothing(void **state)
+TEST(test_nothing)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     see(&hand, 0.2, SLOW);
@@ -23,9 +22,8 @@ static void test_nothing(void **state)
 }
 
 // The start's drop never counts beside others, even when it agrees. Three that do make a period.
-static void test_settling(void **state)
+TEST(test_settling)
 {
-    (void)state;
     const double mu[] = {0.3, 0.3, 0.302, 0.301};
     const int32_t counted[] = {1, 1, 2, 3};
     HandDrops hand;
@@ -55,9 +53,8 @@ static void test_settling(void **state)
 
 // By turns 7 pads, say, and the whole block: one period rules both answers. mu_M is the mean of the
 // bulk slidings alone, which then repeat after one; the contact holds what the lower drops say.
-static void test_pads_by_turns(void **state)
+TEST(test_pads_by_turns)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.1, ACROSS);
@@ -77,9 +74,8 @@ static void test_pads_by_turns(void **state)
 
 // A period in which the block never slides as a whole, the pads by turns: the start's peak is not
 // mu_M.
-static void test_parts_only(void **state)
+TEST(test_parts_only)
 {
-    (void)state;
     static const double right[] = {0, 0, 0, 9, 9};
     HandDrops hand;
     hand_drops_begin(&hand, 2);
@@ -95,9 +91,8 @@ static void test_parts_only(void **state)
 
 // One pad alone slides: the other is loaded more and more, however alike mu is at these drops.
 // Before the other has slipped at all there is no answer; when it lags behind only one for now.
-static void test_stuck_pad(void **state)
+TEST(test_stuck_pad)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     hand.drops.mu_static = 0.33;
@@ -121,9 +116,8 @@ static void test_stuck_pad(void **state)
 
 // mu of a drop as a stranger's problem had it: each within 1 % of the last, and a trend all the
 // same. When it has faded there is a period.
-static void test_trend(void **state)
+TEST(test_trend)
 {
-    (void)state;
     static const double rising[] = {0.5, 0.5434, 0.5446, 0.5459, 0.5473};
     HandDrops hand;
     hand_drops_begin(&hand, 1);
@@ -139,9 +133,8 @@ static void test_trend(void **state)
 }
 
 // mu alone comes back, the load is shared out otherwise each time: no period.
-static void test_shares_move(void **state)
+TEST(test_shares_move)
 {
-    (void)state;
     for (int32_t moves = 0; moves < 2; moves++) {
         HandDrops hand;
         hand_drops_begin(&hand, 2);
@@ -161,9 +154,8 @@ static void test_shares_move(void **state)
 // No period: all but the first quarter count, and 30 of them are enough once their mean is known to
 // 2 %. mu_M is the mean of the largest mu before each bulk sliding among them, also where only
 // parts slid when it was reached.
-static void test_without_period(void **state)
+TEST(test_without_period)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     for (int32_t k = 0; k < 10; k++) drop(&hand, 0.1, 0.05, ACROSS);
@@ -196,9 +188,8 @@ static void test_without_period(void **state)
 // because its drops repeat says after how many, and mu_M is the mean of whole rounds. (Down to
 // 0.0022, and above 0.00223, rounding decides: of 24 pressures within 0.24 % the whole mesh has
 // period 2 at 19, others at the rest. Between them whole mesh and halves all have it.)
-static void test_block_of_period_two(void **state)
+TEST(test_block_of_period_two)
 {
-    (void)state;
     static const char *const overrides[] = {
         "mesh.set={length: 4, height: 2, nx: 32, nz: 16}",
         "rod.height=1",
@@ -226,20 +217,4 @@ static void test_block_of_period_two(void **state)
     // more. (How well two rounds agree, within 2 %, is a matter of rounding: 0.02 to 0.11.)
     assert_true(summary.mu_M_error < 0.2 * summary.mu_M_spread);
     amontons_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing),
-        cmocka_unit_test(test_settling),
-        cmocka_unit_test(test_pads_by_turns),
-        cmocka_unit_test(test_parts_only),
-        cmocka_unit_test(test_stuck_pad),
-        cmocka_unit_test(test_trend),
-        cmocka_unit_test(test_shares_move),
-        cmocka_unit_test(test_without_period),
-        cmocka_unit_test(test_block_of_period_two),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 
 // Which drops of mu are load drops depends on their size relative to mu alone, whoever slips and at
 // whatever load.
-static void test_least_drop(void **state)
+TEST(test_least_drop)
 {
-    (void)state;
     const double near = 0.01;
     for (double mu = 0.01; mu < 2; mu *= 7) {
         HandDrops hand;
@@ -27,9 +26,8 @@ static void test_least_drop(void **state)
 
 // Where pads or the whole block slide it is a drop even if mu hardly falls; a bulk sliding is a
 // load drop then, too.
-static void test_kinds(void **state)
+TEST(test_kinds)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     drop(&hand, 0.3, 0.299, LEFT);
@@ -55,9 +53,8 @@ static void test_kinds(void **state)
 
 // A block that moves at t = 0 slides without having held anything; from its first rest on all is as
 // ever.
-static void test_moving_at_the_start(void **state)
+TEST(test_moving_at_the_start)
 {
-    (void)state;
     for (int32_t part = 0; part < 2; part++) {
         HandDrops hand;
         hand_drops_begin(&hand, 2);
@@ -73,9 +70,8 @@ static void test_moving_at_the_start(void **state)
 }
 
 // A drop of one kind holds the largest mu since the last one of its kind.
-static void test_since_the_last_of_its_kind(void **state)
+TEST(test_since_the_last_of_its_kind)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.1, ACROSS);   // t = 0 to 4
@@ -100,9 +96,8 @@ static void test_since_the_last_of_its_kind(void **state)
 }
 
 // So it does the first fronts, on a contact without gaps.
-static void test_fronts_since_the_last_of_its_kind(void **state)
+TEST(test_fronts_since_the_last_of_its_kind)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 1);
     drop(&hand, 0.5, 0.1, ACROSS);
@@ -123,9 +118,8 @@ static void test_fronts_since_the_last_of_its_kind(void **state)
 // slow slip turned fast, and other fronts are not looked at. The second event begins on the right
 // pad, of which a node that weighs 1/8 slipped; only drops from a given one on are asked for how
 // many cells slipped.
-static void test_slip_on_pads(void **state)
+TEST(test_slip_on_pads)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     assert_null(drops_least_resolved(&hand.drops, 0));
@@ -156,9 +150,8 @@ static void test_slip_on_pads(void **state)
 // What sinks slowly does not drop. Within an event mu may rise before it falls, and rise again
 // after: the top before the fall counts. A drop that is not a bulk sliding is known when its event
 // has ended.
-static void test_within_an_event(void **state)
+TEST(test_within_an_event)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     see(&hand, 0.3, REST);
@@ -176,9 +169,8 @@ static void test_within_an_event(void **state)
 }
 
 // A bulk sliding is known when it has crossed the interface; whatever mu does then is no peak.
-static void test_bulk_sliding(void **state)
+TEST(test_bulk_sliding)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 1);
     see(&hand, 0.2, REST);
@@ -211,9 +203,8 @@ static void test_bulk_sliding(void **state)
 }
 
 // An event that begins in the step after another has ended falls from where that one ended.
-static void test_one_event_after_the_other(void **state)
+TEST(test_one_event_after_the_other)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.3, PART);   // ends at 0.3
@@ -229,9 +220,8 @@ static void test_one_event_after_the_other(void **state)
 }
 
 // A rod that pulls, or none.
-static void test_no_load(void **state)
+TEST(test_no_load)
 {
-    (void)state;
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     drop(&hand, 0, 0, PART);
@@ -240,9 +230,8 @@ static void test_no_load(void **state)
     hand_drops_end(&hand);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Error err = {0};
     HandDrops hand;
     hand_drops_begin(&hand, 2);
@@ -276,22 +265,4 @@ static void test_memory_faults(void **state)
     for (int32_t k = 0; k < 100; k++)
         assert_near("mu", hand.drops.list[full + k].mu, 0.3 + 1e-3 * k, 0);
     hand_drops_end(&hand);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_least_drop),
-        cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_moving_at_the_start),
-        cmocka_unit_test(test_since_the_last_of_its_kind),
-        cmocka_unit_test(test_fronts_since_the_last_of_its_kind),
-        cmocka_unit_test(test_slip_on_pads),
-        cmocka_unit_test(test_within_an_event),
-        cmocka_unit_test(test_bulk_sliding),
-        cmocka_unit_test(test_one_event_after_the_other),
-        cmocka_unit_test(test_no_load),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,9 +24,8 @@ static void add(Levels *levels, double mu_M, double mu_hold, double error)
 }
 
 // One level: mean, spread 0.02 / sqrt(2), and no mesh part.
-static void test_one_level(void **state)
+TEST(test_one_level)
 {
-    (void)state;
     Levels levels = {0};
     begin(&levels, 0.5, 21);
     add(&levels, 0.29, 0.2, 0.003);
@@ -44,9 +43,8 @@ static void test_one_level(void **state)
 }
 
 // Of a run that stands alone: what is usual of its mesh, and what its drops leave.
-static void test_without_a_bar(void **state)
+TEST(test_without_a_bar)
 {
-    (void)state;
     Level level = {.contact_nodes = 40, .nodes_along = 40, .slip_cells = 10};
     Answers answers = {.mu_M = {0.3, 0.004}, .mu_hold = {0.2, NAN}, .mu_max = 0.4};
     double usual = 0.5 / 40;
@@ -63,9 +61,8 @@ static void test_without_a_bar(void **state)
 }
 
 // The spread of runs is that of both levels: squares 2 * 0.01^2 and 2 * 0.02^2 over two freedoms.
-static void test_two_levels(void **state)
+TEST(test_two_levels)
 {
-    (void)state;
     Levels levels = {0};
     begin(&levels, 1, 20);
     add(&levels, 0.29, 0.2, NAN);
@@ -106,9 +103,8 @@ static void test_two_levels(void **state)
 }
 
 // Differences of 0.08 and 0.02, the second between cells of 2 and 1: order 2.
-static void test_three_levels(void **state)
+TEST(test_three_levels)
 {
-    (void)state;
     Levels levels = {0};
     double values[] = {0.2, 0.28, 0.30};
     int32_t nodes[] = {20, 30, 60};
@@ -124,9 +120,8 @@ static void test_three_levels(void **state)
 }
 
 // A run in which the block never slid as a whole: the request is about mu_hold.
-static void test_without_mu_M(void **state)
+TEST(test_without_mu_M)
 {
-    (void)state;
     Levels levels = {0};
     begin(&levels, 1, 21);
     add(&levels, 0.3, 0.2, NAN);
@@ -139,9 +134,8 @@ static void test_without_mu_M(void **state)
 
 // A mesh on which the block never slid as a whole says nothing of mu_M: the bar is that of the
 // other two, and they are two.
-static void test_a_level_without_an_answer(void **state)
+TEST(test_a_level_without_an_answer)
 {
-    (void)state;
     Levels levels = {0};
     begin(&levels, 1, 20);
     add(&levels, 0.29, 0.2, NAN);
@@ -183,9 +177,8 @@ static void test_a_level_without_an_answer(void **state)
 
 // The last mesh is another world than those before it: the bar holds its value, too, and says so.
 // A run whose contact does not all go along has no answer.
-static void test_last_mesh_apart(void **state)
+TEST(test_last_mesh_apart)
 {
-    (void)state;
     Levels levels = {0};
     Answers answers = {.mu_M = {0.3, NAN}, .mu_hold = {0.2, NAN}};
     for (int32_t k = 0; k < 8; k++) {
@@ -208,9 +201,8 @@ static void test_last_mesh_apart(void **state)
 
 // Meshes behind a bar that is met differ by a factor of two in cell size; one without an answer
 // has no part in that.
-static void test_span(void **state)
+TEST(test_span)
 {
-    (void)state;
     Levels levels = {0};
     begin(&levels, 0.5, 20);
     add(&levels, NAN, 0.2, NAN);
@@ -227,15 +219,4 @@ static void test_span(void **state)
     begin(&levels, 4, 160);
     add(&levels, 0.3, 0.2, NAN);
     assert_near("more", levels_span_left(&levels, ANSWER_MU_M), 1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_level),       cmocka_unit_test(test_without_a_bar),
-        cmocka_unit_test(test_two_levels),      cmocka_unit_test(test_three_levels),
-        cmocka_unit_test(test_without_mu_M),    cmocka_unit_test(test_a_level_without_an_answer),
-        cmocka_unit_test(test_last_mesh_apart), cmocka_unit_test(test_span),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

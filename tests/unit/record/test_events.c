@@ -8,17 +8,15 @@
 static HandSeen hand;
 static Events events;
 
-static int setup(void **state)
+FIXTURE(setup)
 {
-    (void)state;
     Error err = {0};
     hand_seen_init(&hand);
     return events_create(&hand.interface, 1, &events, &err) ? 0 : 1;
 }
 
-static int teardown(void **state)
+FIXTURE(teardown)
 {
-    (void)state;
     events_destroy(&events);
     events_destroy(&events);
     return 0;
@@ -66,9 +64,8 @@ static void expect_kinds(int32_t slow, int32_t bounded, int32_t leading)
 }
 
 // The front goes from 0 over 0.25 to 0.75 in 20: one slow event, open until it is closed.
-static void test_slow(void **state)
+TEST_BETWEEN(test_slow, setup, teardown)
 {
-    (void)state;
     see(0, 0, 0, 0, 0, 0);
     see(5, 0.5, 0, 0, 0, 0);   // the first node alone is no front yet
     expect_kinds(0, 0, 0);
@@ -87,9 +84,8 @@ static void test_slow(void **state)
 }
 
 // A rapid event within slow growth: begins above 2, goes on between 2 and 1, ends below 1.
-static void test_bounded(void **state)
+TEST_BETWEEN(test_bounded, setup, teardown)
 {
-    (void)state;
     see(1, 0.5, 0.5, 0, 0, 0);
     see(2, 5, 0.5, 0, 0, 0);
     expect_flags(true, false, false);
@@ -112,9 +108,8 @@ static void test_bounded(void **state)
 }
 
 // The fast front starts at node 1 at t = 2 and is at node 3 when the reach last grew, at t = 4.
-static void test_front_speed(void **state)
+TEST_BETWEEN(test_front_speed, setup, teardown)
 {
-    (void)state;
     see(1, 0.5, 0.5, 0, 0, 0);
     see(2, 3, 3, 0, 0, 0);
     see(3, 3, 3, 3, 0, 0);
@@ -129,9 +124,8 @@ static void test_front_speed(void **state)
 
 // On pads of nodes 0 to 2, and 3 and 4: the slow front passes the gap of 0.25, and the fast one is
 // followed on the second pad, where slip turned fast while the first one only creeps.
-static void test_front_speed_on_pads(void **state)
+TEST_BETWEEN(test_front_speed_on_pads, setup, teardown)
 {
-    (void)state;
     split(2);
     see(0, 0, 0, 0, 0, 0);
     see(10, 0.9, 0.8, 0, 0, 0);
@@ -146,9 +140,8 @@ static void test_front_speed_on_pads(void **state)
 
 // How much slips on the pad where slow slip turns fast: nodes weigh 1/8, 1/4, 1/4, 1/4, 1/8, and an
 // end of a pad is half a cell. On the second pad slip comes from its leading end.
-static void test_slip_length(void **state)
+TEST_BETWEEN(test_slip_length, setup, teardown)
 {
-    (void)state;
     split(2);
     see(1, 0.5, 0.5, 0, 0, 0.5);
     see(2, 3, 0.5, 0.5, 0.5, 0.5);
@@ -168,9 +161,8 @@ static void test_slip_length(void **state)
 
 // The front passes node i when its rate rises through 2: times in closed form, from t_start = 2.
 // Station 5 k stands at node k.
-static void test_front_times(void **state)
+TEST_BETWEEN(test_front_times, setup, teardown)
 {
-    (void)state;
     see(1, 0.5, 0.5, 0, 0, 0);
     see(2, 3.5, 2.5, 0, 0, 0);   // passes 2 at 1.5 and 1.75
     see(4, 3, 3, 8, 1, 0);   // at 2.5
@@ -193,9 +185,8 @@ static void test_front_times(void **state)
 
 // Leading when every node has slipped in the course of the event, not all at once; backward slip
 // too.
-static void test_leading(void **state)
+TEST_BETWEEN(test_leading, setup, teardown)
 {
-    (void)state;
     see(1, 0.5, 0.5, 0, 0, 0);
     see(2, 90, 90, 0, 0, 0);
     see(3, 0, 90, 90, 0, 0);
@@ -218,9 +209,8 @@ static void test_leading(void **state)
 }
 
 // A block that does not stand at x = 0, slipping fast in the first step that is seen.
-static void test_first_step(void **state)
+TEST_BETWEEN(test_first_step, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     events_destroy(&events);
     for (int32_t i = 0; i < SEEN_NODES; i++) hand.x[i] += 5;
@@ -231,9 +221,8 @@ static void test_first_step(void **state)
 }
 
 // Rapid slip ahead of a node that holds: the reach is without a gap.
-static void test_gap(void **state)
+TEST_BETWEEN(test_gap, setup, teardown)
 {
-    (void)state;
     see(1, 0, 0, 0, 9, 9);
     see(2, 0.1, 0.1, 0, 9, 9);
     see(3, 0, 0, 0, 0, 0);
@@ -243,9 +232,8 @@ static void test_gap(void **state)
 
 // Nodes 3 and 4 are a pad of their own, and slide while the trailing pad holds. A third pad, whose
 // first node only creeps, has no part in the event; nor has the second one, when it only creeps.
-static void test_pad_behind_one_that_sticks(void **state)
+TEST_BETWEEN(test_pad_behind_one_that_sticks, setup, teardown)
 {
-    (void)state;
     split(2);
     see(1, 0.1, 0, 0, 0, 0);
     see(2, 0.1, 0, 0, 9, 9);
@@ -262,9 +250,8 @@ static void test_pad_behind_one_that_sticks(void **state)
 }
 
 // A node that has lifted off counts as let go.
-static void test_open_node(void **state)
+TEST_BETWEEN(test_open_node, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     double rate[] = {9, 9, 9, 9, 0};
     hand_seen(&hand, 1, rate);
@@ -273,9 +260,8 @@ static void test_open_node(void **state)
     expect_kinds(0, 0, 1);
 }
 
-static void test_run_ends_within(void **state)
+TEST_BETWEEN(test_run_ends_within, setup, teardown)
 {
-    (void)state;
     see(1, 5, 5, 0, 0, 0);
     see(2, 5, 5, 5, 0, 0);
     hand.seen.t = 2.5;
@@ -288,9 +274,8 @@ static void test_run_ends_within(void **state)
 }
 
 // More events than there was room for at first; none is lost, none moves.
-static void test_many(void **state)
+TEST_BETWEEN(test_many, setup, teardown)
 {
-    (void)state;
     for (int32_t k = 0; k < 300; k++) {
         see(2 * k, 3 + k, 0, 0, 0, 0);
         see(2 * k + 1, 0, 0, 0, 0, 0);
@@ -302,9 +287,8 @@ static void test_many(void **state)
     }
 }
 
-static void test_memory_faults(void **state)
+TEST_BETWEEN(test_memory_faults, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
     for (int32_t k = 0; k < 6; k++) {
@@ -329,25 +313,4 @@ static void test_memory_faults(void **state)
     expect_kinds(0, 64, 0);   // what there was is still there
     Events none = {0};
     events_close(&none, &hand.seen);   // of a run that failed before it had any
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_slow, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_bounded, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_front_speed, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_front_speed_on_pads, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_slip_length, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_front_times, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_leading, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_first_step, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_gap, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_pad_behind_one_that_sticks, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_open_node, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_run_ends_within, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_many, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_memory_faults, setup, teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

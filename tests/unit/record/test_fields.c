@@ -14,9 +14,8 @@ static Fields fields;
 static Observation seen;
 static char place[PLACE_SIZE];
 
-static int setup(void **state)
+FIXTURE(setup)
 {
-    (void)state;
     Error err = {0};
     if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // many small files
     RigDef def = rig_def();
@@ -31,9 +30,8 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
+FIXTURE(teardown)
 {
-    (void)state;
     fields_destroy(&fields);
     fields_destroy(&fields);
     state_destroy(&now);
@@ -68,18 +66,16 @@ static void expect_written(const double *times, const bool *wanted, int32_t coun
         if (record(times[k]) != wanted[k]) fail_msg("t = %g: %d", times[k], !wanted[k]);
 }
 
-static void test_every_U(void **state)
+TEST_BETWEEN(test_every_U, setup, teardown)
 {
-    (void)state;
     start((FieldsDef){.every_U = 0.1});
     expect_written((double[]){0, 5, 9.9, 10.5, 11, 26, 29, 30.5, 30.6, 61, 62},
                    (bool[]){1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0}, 11);
 }
 
 // At a slip rate of 0.1 in steps of 1 that do not show in U: by hand, every third.
-static void test_every_slip(void **state)
+TEST_BETWEEN(test_every_slip, setup, teardown)
 {
-    (void)state;
     start((FieldsDef){.every_slip = 0.25});
     seen.max_slip_rate = 0.1;
     seen.step_size = 1;
@@ -87,16 +83,14 @@ static void test_every_slip(void **state)
     seen.max_slip_rate = seen.step_size = 0;
 }
 
-static void test_every_t(void **state)
+TEST_BETWEEN(test_every_t, setup, teardown)
 {
-    (void)state;
     start((FieldsDef){.every_t = 2});
     expect_written((double[]){0, 1, 2, 3, 7, 7.9, 8}, (bool[]){1, 0, 1, 0, 1, 0, 1}, 7);
 }
 
-static void test_at_events(void **state)
+TEST_BETWEEN(test_at_events, setup, teardown)
 {
-    (void)state;
     bool *const flags[] = {&events.began, &events.crossed, &events.ended};
     start((FieldsDef){.at_events = true});
     assert_true(record(0));   // the start in any case
@@ -115,9 +109,8 @@ static void test_at_events(void **state)
 }
 
 // 150 frames: every file is there, and the list names each with its time.
-static void test_many(void **state)
+TEST_BETWEEN(test_many, setup, teardown)
 {
-    (void)state;
     static char list[100000];
     start((FieldsDef){.every_t = 1});
     for (int32_t k = 0; k < 150; k++) assert_true(record(k));
@@ -143,9 +136,8 @@ static void test_many(void **state)
     assert_null(strstr(at, "<DataSet"));
 }
 
-static void test_memory_faults(void **state)
+TEST_BETWEEN(test_memory_faults, setup, teardown)
 {
-    (void)state;
     int64_t live = memory_counters().live;
     bool done = false;
     FieldsDef def = {.every_t = 1};
@@ -174,17 +166,4 @@ static void test_memory_faults(void **state)
     assert_int_equal(fields.entry_count, 2 * 65);
     assert_string_equal(fields.entries[0].file, "fields/bulk_000000.vtu");
     assert_string_equal(fields.entries[129].file, "fields/interface_000064.vtp");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_every_U, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_every_t, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_every_slip, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_at_events, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_many, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_memory_faults, setup, teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

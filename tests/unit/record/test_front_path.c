@@ -18,9 +18,8 @@ static void see_front(HandSeen *hand, FrontPath *path, double t, double c)
     front_path_keep(path, seen);
 }
 
-static void test_a_steady_front(void **state)
+TEST(test_a_steady_front)
 {
-    (void)state;
     Error err = {0};
     HandSeen hand;
     FrontPath path;
@@ -41,9 +40,8 @@ static void test_a_steady_front(void **state)
 
 // Between nodes 2 and 3, at x = 0.5 and 0.75, there is no contact: no time there, and no speed
 // across. On either side all is as without a gap.
-static void test_a_gap(void **state)
+TEST(test_a_gap)
 {
-    (void)state;
     Error err = {0};
     HandSeen hand;
     FrontPath path;
@@ -67,9 +65,8 @@ static void test_a_gap(void **state)
 }
 
 // Nodes 0 to 2 pass, the others never: stations up to x = 0.5 have a time, none beyond.
-static void test_a_front_that_stops(void **state)
+TEST(test_a_front_that_stops)
 {
-    (void)state;
     Error err = {0};
     HandSeen hand;
     FrontPath path;
@@ -95,9 +92,8 @@ static void test_a_front_that_stops(void **state)
 
 // In the first step there is nothing to interpolate from; a node that was fast before arrives with
 // the step in which it is asked for.
-static void test_no_step_before(void **state)
+TEST(test_no_step_before)
 {
-    (void)state;
     Error err = {0};
     HandSeen hand;
     FrontPath path;
@@ -113,9 +109,8 @@ static void test_no_step_before(void **state)
     front_path_destroy(&path);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     HandSeen hand;
     hand_seen_init(&hand);
     int64_t live = memory_counters().live;
@@ -129,13 +124,4 @@ static void test_memory(void **state)
         front_path_destroy(&path);
         assert_int_equal(memory_counters().live, live);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_steady_front), cmocka_unit_test(test_a_gap),
-        cmocka_unit_test(test_a_front_that_stops), cmocka_unit_test(test_no_step_before),
-        cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

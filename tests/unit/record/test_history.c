@@ -110,6 +110,7 @@ static void check_series(ArrayFile *file)
 {
     Error err = {0};
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
+        if (series == SERIES_STATE) continue;   // LAW remembers nothing
         double *values = NULL;
         int64_t rows = 0;
         int32_t width = 0;
@@ -156,9 +157,8 @@ static void record_steps(ContactArrays *contact, History *history)
     }
 }
 
-static void test_written_and_read_back(void **state)
+TEST(test_written_and_read_back)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE];
     place_make(place);
@@ -231,9 +231,8 @@ static void test_written_and_read_back(void **state)
 }
 
 // A history that is given up leaves what it had, under the name of an unfinished file.
-static void test_abandoned(void **state)
+TEST(test_abandoned)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE];
     place_make(place);
@@ -256,9 +255,8 @@ static void test_abandoned(void **state)
     place_remove(place);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char place[PLACE_SIZE];
     place_make(place);
     hand_seen_init(&hand);
@@ -288,14 +286,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(place_has(place, "history.h5"), done);
     }
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_written_and_read_back),
-        cmocka_unit_test(test_abandoned),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

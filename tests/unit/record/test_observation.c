@@ -6,9 +6,8 @@
 #include "plane.h"
 
 // Some steps of a pushed block; then the state and everything around it is known.
-static void test_sums_over_the_mesh(void **state)
+TEST(test_sums_over_the_mesh)
 {
-    (void)state;
     Error err = {0};
     RigDef def = rig_def();
     def.rod_kind = ROD_PUSHES;
@@ -79,12 +78,4 @@ static void test_sums_over_the_mesh(void **state)
     assert_near("moment", seen.moment_error, rig.interface.x[2], 1e-10);
     step_control_destroy(&control);
     rig_destroy(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums_over_the_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static const double REST[] = {0, 0, 0, 0, 0}, ACROSS[] = {9, 9, 9, 9, 9};
 static const double TAIL[] = {0.5, 0.5, 0.5, 0.5, 0.5};
 
 // What the pads are: nodes weigh 1/8, 1/4, 1/4 and 1/4, 1/8.
-static void test_what_they_are(void **state)
+TEST(test_what_they_are)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(&fixture);
     const Pad *left = &fixture.pads.list[0], *right = &fixture.pads.list[1];
@@ -68,9 +67,8 @@ static void test_what_they_are(void **state)
 }
 
 // Slow slip on the left pad up to two of its nodes, then fast; the whole block goes from there.
-static void test_cycle(void **state)
+TEST(test_cycle)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(&fixture);
     see(&fixture, 0.1, REST);
@@ -100,9 +98,8 @@ static void test_cycle(void **state)
 
 // The slow tail of a sliding belongs to no cycle; slip counts once a node has stuck. Pads that go
 // in one step share their place, and the next one after two is third.
-static void test_next_cycle(void **state)
+TEST(test_next_cycle)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(&fixture);
     see(&fixture, 0.1, REST);
@@ -126,9 +123,8 @@ static void test_next_cycle(void **state)
 }
 
 // Slip that turned fast, came to rest and turned fast again: the last time counts.
-static void test_bounded_first(void **state)
+TEST(test_bounded_first)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(&fixture);
     see(&fixture, 0.1, REST);
@@ -144,9 +140,8 @@ static void test_bounded_first(void **state)
 }
 
 // Each rapid event in which all of a pad slipped counts for it, whether or not others slid as well.
-static void test_slidings(void **state)
+TEST(test_slidings)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(&fixture);
     for (int32_t k = 0; k < 3; k++) {
@@ -164,9 +159,8 @@ static void test_slidings(void **state)
     fixture_destroy(&fixture);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(&fixture);
     int64_t live = memory_counters().live;
@@ -214,9 +208,8 @@ static double sum_of(ArrayFile *file, ResultSeries series, int64_t row)
 }
 
 // The second run of a shape takes the pads' names from the cache.
-static void test_names_from_cache(void **state)
+TEST(test_names_from_cache)
 {
-    (void)state;
     char place[PLACE_SIZE], cache[PLACE_SIZE + 8];
     place_make(place);
     snprintf(cache, sizeof cache, "%s/cache", place);
@@ -240,9 +233,8 @@ static void test_names_from_cache(void **state)
 
 // Pads carry the whole load and, at rest at the end, hold the whole rod's force; they are named in
 // the history, and the trailing pad lets go first.
-static void test_block_on_pads(void **state)
+TEST(test_block_on_pads)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE], names[128], path[600];
     place_make(place);
@@ -274,15 +266,4 @@ static void test_block_on_pads(void **state)
     free(text);
     amontons_scene_destroy(scene);
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_they_are), cmocka_unit_test(test_cycle),
-        cmocka_unit_test(test_next_cycle),    cmocka_unit_test(test_bounded_first),
-        cmocka_unit_test(test_slidings),      cmocka_unit_test(test_memory_faults),
-        cmocka_unit_test(test_block_on_pads), cmocka_unit_test(test_names_from_cache),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

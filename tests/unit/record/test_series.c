@@ -29,9 +29,8 @@ static void expect(const char *letters, int32_t period, int32_t counted)
         fail_msg("%s: period %d of %d items", letters, found.period, found.count);
 }
 
-static void test_periods(void **state)
+TEST(test_periods)
 {
-    (void)state;
     expect("xaaa", 1, 3);
     expect("aaa", 0, 2);   // the first item is the start's in any case
     expect("aaaa", 1, 3);
@@ -47,9 +46,8 @@ static void test_periods(void **state)
 }
 
 // What repeats must be a third of the series; without a period the first quarter is the start's.
-static void test_share(void **state)
+TEST(test_share)
 {
-    (void)state;
     expect("abcdefaaa", 1, 3);
     expect("abcdefgaaa", 0, 8);
     expect("abcdefgaaaa", 1, 4);
@@ -60,9 +58,8 @@ static void test_share(void **state)
 }
 
 // Items of different kinds do not agree, whatever their values.
-static void test_kinds(void **state)
+TEST(test_kinds)
 {
-    (void)state;
     for (int32_t k = 0; k < 8; k++) items[k] = (SeriesItem){.value = 1, .kind = k % 2};
     assert_int_equal(series_regime(items, 8, 1e-2, 0).period, 2);
     for (int32_t k = 0; k < 8; k++) items[k].kind = 0;
@@ -71,9 +68,8 @@ static void test_kinds(void **state)
 
 // Every item is judged by the last one at its place: a drift ends the regime, even where each step
 // of it is small.
-static void test_drift(void **state)
+TEST(test_drift)
 {
-    (void)state;
     for (int32_t period = 1; period <= 2; period++) {
         for (int32_t k = 0; k < 12; k++)
             items[k].value = (1 + 0.004 * (k / period)) * (k % period ? 1.2 : 1);
@@ -87,9 +83,8 @@ static void test_drift(void **state)
 
 // With n equally likely values two items agree with q = 1/n: three in a row with q^2, and of five,
 // those at odd and those at even places (but not all of them) with q^3 - q^4.
-static void test_chance(void **state)
+TEST(test_chance)
 {
-    (void)state;
     const int32_t trials = 40000;
     Random random = {5};
     for (int32_t n = 2; n <= 4; n++) {
@@ -107,9 +102,8 @@ static void test_chance(void **state)
 
 // States must come back, too, and a period above 1 stands out from what lies between: five items by
 // chance of the same kinds, all within the tolerance, are none.
-static void test_states(void **state)
+TEST(test_states)
 {
-    (void)state;
     static const double parts[][2] = {{0.6, 0.4}, {0.4, 0.6}, {0.504, 0.496}, {0.5, 0.5}};
     for (int32_t k = 0; k < 8; k++) items[k] = (SeriesItem){.value = 1, .state = parts[k % 2]};
     assert_int_equal(series_regime(items, 8, 0.01, 2).period, 2);
@@ -122,9 +116,8 @@ static void test_states(void **state)
 // --- trend --------------------------------------------------------------------------------------
 
 // By hand; a round of two has the slope of each place.
-static void test_trend(void **state)
+TEST(test_trend)
 {
-    (void)state;
     set_values((double[]){1, 3, 2, 5, 4, 6}, 6);
     SeriesTrend trend = series_trend(items, 6, 1, false);
     assert_near("slope", trend.slope, 31.0 / 35, 1e-14);
@@ -143,9 +136,8 @@ static void test_trend(void **state)
 }
 
 // Where there is none, one in twenty stands out.
-static void test_no_trend(void **state)
+TEST(test_no_trend)
 {
-    (void)state;
     const int32_t trials = 4000;
     Random random = {13};
     int32_t found[3] = {0};
@@ -167,9 +159,8 @@ static void test_no_trend(void **state)
 // --- mean and decile ----------------------------------------------------------------------------
 
 // 0, 1, ..., 10 in any order: quantiles are linear in between.
-static void test_ladder(void **state)
+TEST(test_ladder)
 {
-    (void)state;
     set_values((double[]){7, 0, 10, 3, 5, 1, 9, 2, 8, 4, 6}, 11);
     Estimate mean = series_mean(items, 11, 1), decile = series_lowest_decile(items, 11);
     assert_near("mean", mean.value, 5, 1e-14);
@@ -180,9 +171,8 @@ static void test_ladder(void **state)
     assert_near("between the lowest two", series_lowest_decile(items, 4).value, 0.9, 1e-14);
 }
 
-static void test_few(void **state)
+TEST(test_few)
 {
-    (void)state;
     series_sort(NULL, 0);   // a run that failed before its first drop
     set_values((double[]){2, 2, 2, 2, 2}, 5);
     assert_true(isnan(series_mean(items, 0, 1).value));
@@ -196,9 +186,8 @@ static void test_few(void **state)
 
 // 1, 2 and 1.2, 2.2: two rounds whose means are 1.5 and 1.7. What differs within a round is no
 // error of the mean.
-static void test_rounds(void **state)
+TEST(test_rounds)
 {
-    (void)state;
     set_values((double[]){1, 2, 1.2, 2.2}, 4);
     Estimate mean = series_mean(items, 4, 2);
     assert_near("mean", mean.value, 1.6, 1e-15);
@@ -207,9 +196,8 @@ static void test_rounds(void **state)
 }
 
 // 4096 independent draws: mean 1/2, decile 1/10, errors sqrt(1/12/N) and sqrt(0.09/N).
-static void test_independent(void **state)
+TEST(test_independent)
 {
-    (void)state;
     Random random = {7};
     for (int32_t k = 0; k < LONG; k++) items[k].value = random_between(&random, 0, 1);
     Estimate mean = series_mean(items, LONG, 1), decile = series_lowest_decile(items, LONG);
@@ -222,9 +210,8 @@ static void test_independent(void **state)
 
 // x_k+1 = a x_k + noise, a = 0.8: three times the error that independent items would have; with
 // rounds of 4 of them as well.
-static void test_correlated(void **state)
+TEST(test_correlated)
 {
-    (void)state;
     double x = 0;
     Random random = {11};
     for (int32_t k = 0; k < LONG; k++) {
@@ -241,9 +228,8 @@ static void test_correlated(void **state)
 
 // x_k+1 = a x_k + noise: of bars of twice the error, from so many items, at least this part holds
 // the mean 0. By batch means alone, as until 0.2, it was 0.96, 0.86, 0.78, 0.89 and 0.93 of them.
-static void test_bars_hold(void **state)
+TEST(test_bars_hold)
 {
-    (void)state;
     static const struct {
         double along;
         int32_t count;
@@ -283,9 +269,8 @@ static void expect_branch(int32_t *from, int32_t kind, int32_t count, double low
 }
 
 // A branch goes on as long as the next value is near its highest, and holds one kind.
-static void test_branches(void **state)
+TEST(test_branches)
 {
-    (void)state;
     static const double values[] = {1.018, 3, 1.009, 2, 1, 3.01, 3.02};
     static const int32_t kinds[] = {0, 0, 0, 1, 0, 1, 1};
     for (int32_t k = 0; k < 7; k++) items[k] = (SeriesItem){.value = values[k], .kind = kinds[k]};
@@ -299,19 +284,4 @@ static void test_branches(void **state)
     SeriesBranch every;
     assert_int_equal(series_branch(items, 7, 0, INFINITY, &every), 4);
     assert_near("mean", every.mean, (1 + 1.009 + 1.018 + 3) / 4, 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_periods),     cmocka_unit_test(test_share),
-        cmocka_unit_test(test_kinds),       cmocka_unit_test(test_drift),
-        cmocka_unit_test(test_chance),      cmocka_unit_test(test_ladder),
-        cmocka_unit_test(test_few),         cmocka_unit_test(test_rounds),
-        cmocka_unit_test(test_independent), cmocka_unit_test(test_correlated),
-        cmocka_unit_test(test_branches),    cmocka_unit_test(test_states),
-        cmocka_unit_test(test_trend),       cmocka_unit_test(test_no_trend),
-        cmocka_unit_test(test_bars_hold),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,9 +30,8 @@ typedef struct HandSpace {
 static HandSpace hand;
 static Events events;
 
-static int setup(void **state)
+FIXTURE(setup)
 {
-    (void)state;
     Error err = {0};
     hand = (HandSpace){
         .interface = {.dim = 3,
@@ -66,9 +65,8 @@ static int setup(void **state)
     return events_create(&hand.interface, 1, &events, &err) ? 0 : 1;
 }
 
-static int teardown(void **state)
+FIXTURE(teardown)
 {
-    (void)state;
     events_destroy(&events);
     memory_free(hand.interface.line);
     return 0;
@@ -113,9 +111,8 @@ static void expect_line(int32_t count, double *x, double *y, const int32_t *line
     memory_free(interface.line);
 }
 
-static void test_line(void **state)
+TEST_BETWEEN(test_line, setup, teardown)
 {
-    (void)state;
     assert_int_equal(interface_line_count(&hand.interface), 3);
     for (int32_t k = 0; k < 3; k++)
         assert_int_equal(interface_line_node(&hand.interface, k), 3 * k + 1);
@@ -143,9 +140,8 @@ static const double FAST[NODES] = {3, 3, 3, 3, 3, 0, 0, 3};   // the line to its
 
 // All of the line slips, and the block does not: corners and a side hold. In the second event the
 // last of them let go one after the other.
-static void test_bulk_sliding_takes_all_nodes(void **state)
+TEST_BETWEEN(test_bulk_sliding_takes_all_nodes, setup, teardown)
 {
-    (void)state;
     see(0, REST);
     see(1, SLOW);
     see(2, FAST);
@@ -174,9 +170,8 @@ static void test_bulk_sliding_takes_all_nodes(void **state)
 
 // Speeds pass the threshold 2 at times known by hand, also where v_x never does; slip that turns
 // fast beside the line has a front from when it comes to it.
-static void test_front(void **state)
+TEST_BETWEEN(test_front, setup, teardown)
 {
-    (void)state;
     see(0, REST);
     see(1, (const double[NODES]){4});   // a corner, at t = 0.5
     see(2, (const double[NODES]){4, 4});   // node 1 at 1.5
@@ -193,9 +188,8 @@ static void test_front(void **state)
     assert_near("reach", event->reach, 0.5, 0);
 }
 
-static void test_critical_area(void **state)
+TEST_BETWEEN(test_critical_area, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     Drops drops;
     assert_true(drops_create(&hand.interface, &events, 0.01, &drops, &err));
@@ -214,9 +208,8 @@ static void test_critical_area(void **state)
 }
 
 // Pads side by side, y <= 0.5 and y = 1: forces, sizes; the second is none of the line.
-static void test_pads(void **state)
+TEST_BETWEEN(test_pads, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     PadSum sums[2];
     Pads pads;
@@ -258,9 +251,8 @@ static void expect_values(ArrayFile *file, ResultSeries series, int32_t width, c
 }
 
 // Slip, its rate and shear are vectors; what is judged by |v| is no longer weakening at 3.
-static void test_history(void **state)
+TEST_BETWEEN(test_history, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE];
     ContactArrays contact;
@@ -307,9 +299,8 @@ static void test_history(void **state)
 }
 
 // A rotation by 0.01 about (2, 1) and slip of (1, -0.2), with a stretch across that is no rotation.
-static void test_turning(void **state)
+TEST_BETWEEN(test_turning, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     ContactArrays contact;
     assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
@@ -333,9 +324,8 @@ static void test_turning(void **state)
 }
 
 // A history of a format that is not known yet is refused in words.
-static void test_later_format(void **state)
+TEST_BETWEEN(test_later_format, setup, teardown)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE], path[PLACE_SIZE + 16];
     place_make(place);
@@ -347,19 +337,4 @@ static void test_later_format(void **state)
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "later version"));
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_line, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_bulk_sliding_takes_all_nodes, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_front, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_critical_area, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_pads, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_history, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_turning, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_later_format, setup, teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

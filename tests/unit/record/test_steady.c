@@ -35,9 +35,8 @@ static double mu_of(const Slide *slide)
     return steady_mu(&slide->steady).value;
 }
 
-static void test_steady(void **state)
+TEST(test_steady)
 {
-    (void)state;
     Slide slide;
     begin(&slide);
     assert_true(isnan(mu_of(&slide)));
@@ -63,9 +62,8 @@ static void test_steady(void **state)
 }
 
 // Slip that stops for a step begins anew; so does mu that leaves the range slowly.
-static void test_begins_anew(void **state)
+TEST(test_begins_anew)
 {
-    (void)state;
     Slide slide;
     begin(&slide);
     slide.now = 0.3;
@@ -82,9 +80,8 @@ static void test_begins_anew(void **state)
 }
 
 // What mu_M is then, and why there is none.
-static void test_answer(void **state)
+TEST(test_answer)
 {
-    (void)state;
     Slide slide;
     Answers none = {.mu_M = {NAN, NAN}},
             peaks = {.mu_M = {0.35, 0.01}, .peaks_counted = 3, .peaks = 4};
@@ -111,12 +108,4 @@ static void test_answer(void **state)
     none.peaks = 1;
     assert_non_null(strstr(steady_words(&slide.steady, &none), "belong to the start or run-in"));
     events_destroy(&slide.run.events);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_steady),
-                                       cmocka_unit_test(test_begins_anew),
-                                       cmocka_unit_test(test_answer)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,8 @@
 #include "plane.h"
 #include "seen_by_hand.h"
 
-static void test_state(void **state)
+TEST(test_state)
 {
-    (void)state;
     Error err = {0};
     HandSeen hand;
     Stretches stretches;
@@ -37,9 +36,8 @@ static void test_state(void **state)
 
 // 200 nodes on a long pad, 20 on a short one, 1 on a third: parts with as many nodes each, and no
 // pad without.
-static void test_shared_out(void **state)
+TEST(test_shared_out)
 {
-    (void)state;
     enum { NODES = 221 };
     Error err = {0};
     Stretches stretches;
@@ -64,13 +62,4 @@ static void test_shared_out(void **state)
         stretches_destroy(&stretches);
         assert_int_equal(memory_counters().live, live);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_state),
-        cmocka_unit_test(test_shared_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

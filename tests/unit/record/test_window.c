@@ -72,9 +72,8 @@ static void expect_inside(const Rig *rig, int32_t first, int32_t last)
     assert_int_equal(rig->window.steps, rig->inside_count);
 }
 
-static void test_from_one_place_to_another(void **state)
+TEST(test_from_one_place_to_another)
 {
-    (void)state;
     Rig rig;
     start(&rig, (WindowDef){.from_U = 0.25, .to_U = 0.65});
     run(&rig);
@@ -91,9 +90,8 @@ static void test_from_one_place_to_another(void **state)
 
 // The second one, from the step before its rapid event; the run is taken back to step 3, and its
 // steps go to the recorders outside of the window once only.
-static void test_around_a_sliding(void **state)
+TEST(test_around_a_sliding)
 {
-    (void)state;
     Rig rig;
     Error err = {0};
     start(&rig, (WindowDef){.around = 2});
@@ -112,9 +110,8 @@ static void test_around_a_sliding(void **state)
     for (int32_t t = 0; t < STEPS; t++) assert_int_equal(rig.outside[t], t);
 }
 
-static void test_run_that_ends_within_it(void **state)
+TEST(test_run_that_ends_within_it)
 {
-    (void)state;
     Rig rig;
     start(&rig, (WindowDef){.around = 2});
     for (int32_t t = 0; t < 7; t++)
@@ -137,9 +134,8 @@ static void test_run_that_ends_within_it(void **state)
     assert_false(rig.window.found);
 }
 
-static void test_last_slidings(void **state)
+TEST(test_last_slidings)
 {
-    (void)state;
     Rig rig;
     start(&rig, (WindowDef){.last = 2});
     run(&rig);
@@ -149,15 +145,4 @@ static void test_last_slidings(void **state)
     run(&rig);
     window_close(&rig.window, 1);
     assert_false(rig.window.found);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_from_one_place_to_another),
-        cmocka_unit_test(test_around_a_sliding),
-        cmocka_unit_test(test_run_that_ends_within_it),
-        cmocka_unit_test(test_last_slidings),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

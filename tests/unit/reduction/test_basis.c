@@ -4,7 +4,6 @@
 // mesh to boundary motions it was given; and what it condenses to, against elimination by hand.
 #include "reduction/basis.h"
 
-#include "base/memory.h"
 #include "reduced_block.h"
 
 static const Material MATERIAL = {
@@ -118,9 +117,8 @@ static void assert_matrices(Rig *rig, double tolerance)
     }
 }
 
-static void test_matrices(void **state)
+TEST(test_matrices)
 {
-    (void)state;
     // Always made by the mesh; never, which costs some digits of what little of a response is new.
     static const struct {
         double loss_max, tolerance;
@@ -138,9 +136,8 @@ static void test_matrices(void **state)
 }
 
 // What is in the basis already adds nothing to it.
-static void test_dependent_responses(void **state)
+TEST(test_dependent_responses)
 {
-    (void)state;
     Rig rig;
     start(&rig, 0);
     extend(&rig, (ParameterPoint){0, 0.4}, 3);
@@ -176,9 +173,8 @@ static double largest_error(const Rig *rig, ParameterPoint point, int32_t column
 }
 
 // (Products of responses lose some 1e-12 here.) The same ones again bring nothing but rounding.
-static void test_responses_are_those_of_the_mesh(void **state)
+TEST(test_responses_are_those_of_the_mesh)
 {
-    (void)state;
     const ParameterPoint points[] = {{0.2, 3}, {0.9, 500}, {0.2, 3}};
     for (int formed = 0; formed < 2; formed++) {
         Rig rig;
@@ -191,9 +187,8 @@ static void test_responses_are_those_of_the_mesh(void **state)
 }
 
 // A of the basis as it is, Phi neither orthogonal nor of length 1.
-static void test_condensed(void **state)
+TEST(test_condensed)
 {
-    (void)state;
     Rig rig;
     Error err = {0};
     start(&rig, 1e300);
@@ -232,15 +227,4 @@ static void test_condensed(void **state)
     assert_false(definite);
     free(a), free(schur), free(made), free(inner), free(response);
     end(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_matrices),
-        cmocka_unit_test(test_dependent_responses),
-        cmocka_unit_test(test_responses_are_those_of_the_mesh),
-        cmocka_unit_test(test_condensed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,9 +72,8 @@ static void end(Rig *rig)
     reduced_block_destroy(&rig->block);
 }
 
-static void test_in_order(void **state)
+TEST(test_in_order)
 {
-    (void)state;
     for (int32_t count = 0; count <= COUNT; count++) {
         Rig rig;
         Error err = {0};
@@ -89,9 +88,8 @@ static void test_in_order(void **state)
 }
 
 // The points before it are there all the same.
-static void test_a_point_that_cannot_be(void **state)
+TEST(test_a_point_that_cannot_be)
 {
-    (void)state;
     Rig rig;
     Error err = {0};
     start(&rig);
@@ -105,9 +103,8 @@ static void test_a_point_that_cannot_be(void **state)
     end(&rig);
 }
 
-static void test_stopped_early(void **state)
+TEST(test_stopped_early)
 {
-    (void)state;
     Rig rig;
     Error err = {0};
     start(&rig);
@@ -118,14 +115,4 @@ static void test_stopped_early(void **state)
     assert_string_equal(err.message, "enough is seen");
     assert_int_equal(memory_counters().live, live);
     end(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_in_order),
-        cmocka_unit_test(test_a_point_that_cannot_be),
-        cmocka_unit_test(test_stopped_early),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,9 +61,8 @@ static void check_response(const BlockDef *shape, int32_t patches, double kept)
     reduced_block_destroy(&block);
 }
 
-static void test_response(void **state)
+TEST(test_response)
 {
-    (void)state;
     check_response(&WIDE, 2, 0.65);
     check_response(&TALL, 2, 0.55);
     check_response(&PATCHED, 5, 0.5);
@@ -80,9 +79,8 @@ static void recover_static(const ReducedBulk *reduced, const double *motion, dou
 
 // Moves of the interface come out in every node as CHOLMOD's static responses; a shift and a
 // rotation of it as the same of all nodes.
-static void test_statics_everywhere(void **state)
+TEST(test_statics_everywhere)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     BulkOperator system;
@@ -115,9 +113,8 @@ static void test_statics_everywhere(void **state)
 }
 
 // A block that is hardly deeper than the near part stays as it is.
-static void test_nothing_far(void **state)
+TEST(test_nothing_far)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     FarField far;
@@ -131,9 +128,8 @@ static void test_nothing_far(void **state)
     reduced_block_destroy(&block);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     ReducedBlock block;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 2, .nz = 200, .length = 1, .height = 50};
     reduced_block_build(&shape, &MATERIAL, LOAD, 0, &block);
@@ -154,15 +150,4 @@ static void test_memory_faults(void **state)
         assert_true(k < 3000);
     }
     reduced_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_response),
-        cmocka_unit_test(test_statics_everywhere),
-        cmocka_unit_test(test_nothing_far),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Patches of a rectangle of even cells, whose distances and nearest nodes can be counted.
 #include "reduction/far_patches.h"
-#include "random_numbers.h"
 #include "reduced_block.h"
 
 static const Material MATERIAL = {.young = 2, .poisson = 0.3, .density = 3, .eta1 = 1, .eta2 = 0.5};
@@ -24,9 +23,8 @@ static void list_contact(const ReducedBlock *block, int32_t *dofs)
 }
 
 // Rows 1 to 15 are near; layers of 15, 30 and, to the top, 80 rows follow, of 16, 8 and 4 parts.
-static void test_rectangle(void **state)
+TEST(test_rectangle)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     FarPatches patches;
@@ -58,9 +56,8 @@ static void test_rectangle(void **state)
 }
 
 // Each far unknown stands once in the list of its patch, in order.
-static void test_lists(void **state)
+TEST(test_lists)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     FarPatches patches;
@@ -85,13 +82,4 @@ static void test_lists(void **state)
         assert_int_equal(patches.of[block.dofs[j]], NO_PATCH);
     far_patches_destroy(&patches);
     reduced_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_lists),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

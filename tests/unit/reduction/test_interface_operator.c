@@ -53,9 +53,8 @@ static double *dense_sum(const Bulk *bulk, OperatorTerms terms)
     return a;
 }
 
-static void test_schur(void **state)
+TEST(test_schur)
 {
-    (void)state;
     Error err = {0};
     const OperatorTerms tried[] = {
         {.mass = 10, .damping = 1, .stiffness = 0.1},   {.mass = 1e4, .damping = 1},
@@ -82,9 +81,8 @@ static void test_schur(void **state)
 }
 
 // S v = g + r, expanded, satisfies A v = b + r in every row.
-static void test_whole_solve(void **state)
+TEST(test_whole_solve)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 9};
     Fixture fixture;
@@ -127,9 +125,8 @@ static void test_whole_solve(void **state)
 }
 
 // What the operator knows of the block: load, unit rotation (which K does not resist), mass.
-static void test_block_data(void **state)
+TEST(test_block_data)
 {
-    (void)state;
     Error err = {0};
     Fixture fixture;
     fixture_build(ELEMENT_T6, &fixture);
@@ -156,9 +153,8 @@ static void test_block_data(void **state)
     fixture_destroy(&fixture);
 }
 
-static void test_not_definite(void **state)
+TEST(test_not_definite)
 {
-    (void)state;
     Error err = {0};
     Fixture fixture;
     fixture_build(ELEMENT_Q4, &fixture);
@@ -170,9 +166,8 @@ static void test_not_definite(void **state)
     fixture_destroy(&fixture);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(ELEMENT_Q4, &fixture);
     int64_t live = memory_counters().live;
@@ -193,14 +188,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     fixture_destroy(&fixture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_schur),         cmocka_unit_test(test_whole_solve),
-        cmocka_unit_test(test_block_data),    cmocka_unit_test(test_not_definite),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static void solve_all(const double *schur, const double *g, const double *bound,
         if (b != FIRST + 1) v[b] = bound[b] + v[COUNT];
 }
 
-static void test_at_once(void **state)
+TEST(test_at_once)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 5};
     for (double stiffness = 1e-3; stiffness < 1e7; stiffness *= 30) {
@@ -95,9 +94,8 @@ static void test_at_once(void **state)
 
 // Damping alone, or a step so short that the spring is rounding beside the block: a rod that
 // nothing touches leaves S' regular, and hardly more than nothing against its own motion.
-static void test_loose(void **state)
+TEST(test_loose)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 8};
     const double reaches[] = {0, 1e-30, 1e-13};
@@ -115,11 +113,4 @@ static void test_loose(void **state)
         assert_true(along > 0.1 * part * resists && along < 10 * part * resists);
         machine_column_destroy(&column);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_at_once),
-                                       cmocka_unit_test(test_loose)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

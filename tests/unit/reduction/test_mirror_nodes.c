@@ -14,9 +14,8 @@ static const double APART = 3e-9;   // of a length of 1
 static const double PLACES[2 * NODES] = {1, 0, 2, 0.5, 2, 0, 1, 0.5, 1.25, 1, 1.75, 1, 1.5, 0.25};
 static const int32_t IMAGES[NODES] = {2, 3, 0, 1, 5, 4, 6};
 
-static void test_images(void **state)
+TEST(test_images)
 {
-    (void)state;
     Error err = {0};
     double places[2 * NODES];
     int32_t *image;
@@ -37,9 +36,8 @@ static void test_images(void **state)
     memory_free(image);
 }
 
-static void test_one_has_none(void **state)
+TEST(test_one_has_none)
 {
-    (void)state;
     Error err = {0};
     for (int32_t moved = 0; moved < 2 * NODES; moved++) {
         double places[2 * NODES], before[2 * NODES];
@@ -52,13 +50,4 @@ static void test_one_has_none(void **state)
         assert_null(image);
         assert_memory_equal(places, before, sizeof places);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_images),
-        cmocka_unit_test(test_one_has_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

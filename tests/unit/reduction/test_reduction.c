@@ -72,9 +72,8 @@ static void check_modes(const ReducedBlock *block, const double *stiffness)
 }
 
 // K = diag(S_K, 1), M and C: what stands in the struct is what the modes make of the full matrices.
-static void test_blocks(void **state)
+TEST(test_blocks)
 {
-    (void)state;
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         double tolerance = s < 2 ? 1e-6 : 1e-2;
@@ -115,9 +114,8 @@ static void test_blocks(void **state)
     }
 }
 
-static void test_rigid_motions_and_load(void **state)
+TEST(test_rigid_motions_and_load)
 {
-    (void)state;
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         reduced_block_build(&SHAPES[s], &MATERIAL, LOAD, 1e-2, &block);
@@ -128,9 +126,8 @@ static void test_rigid_motions_and_load(void **state)
 
 // The response at rest to the load, the interface held, is the first interior mode: exact however
 // coarse the basis.
-static void test_static_load_is_exact(void **state)
+TEST(test_static_load_is_exact)
 {
-    (void)state;
     Error err = {0};
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
@@ -164,9 +161,8 @@ static void test_static_load_is_exact(void **state)
 
 // Its size, besides, bounds what moves: sqrt(2 elastic energy of the interior / E), or the
 // interface's largest.
-static void test_operator(void **state)
+TEST(test_operator)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     BulkOperator system;
@@ -185,9 +181,8 @@ static void test_operator(void **state)
     reduced_block_destroy(&block);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     ReducedBlock block;
     reduced_block_build(&SHAPES[0], &MATERIAL, LOAD, 0, &block);
     block.def.tolerance = 1e-2;
@@ -212,16 +207,4 @@ static void test_memory_faults(void **state)
         assert_true(k < 2000);
     }
     reduced_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_rigid_motions_and_load),
-        cmocka_unit_test(test_static_load_is_exact),
-        cmocka_unit_test(test_operator),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

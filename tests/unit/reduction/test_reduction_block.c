@@ -52,9 +52,8 @@ static void build(Case what, Mesh *mesh, ReductionBlock *block, char name[HASH_T
 }
 
 // Same bits, in numbers that no rounding of the scene's could hide: M, C, K and f.
-static void test_similar_blocks_are_one(void **state)
+TEST(test_similar_blocks_are_one)
 {
-    (void)state;
     Case cases[] = {BASE, BASE, BASE, BASE};
     cases[0].length = 0.04;
     cases[1] = (Case){4, -1.7, {1, 0.34, 7, 1, 1, false}, 0.3, 0.1, -1, -1, 12};
@@ -80,9 +79,8 @@ static void test_similar_blocks_are_one(void **state)
 }
 
 // Normalised: K/E of a material with other E is the one of E = 1, on the scene's own mesh.
-static void test_normalised(void **state)
+TEST(test_normalised)
 {
-    (void)state;
     Error err = {0};
     Case si = BASE;
     si.length = 0.1;
@@ -110,9 +108,8 @@ static void test_normalised(void **state)
     mesh_destroy(&mesh);
 }
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     Case cases[8];
     for (int k = 0; k < 8; k++) cases[k] = BASE;
     cases[1].material.poisson = 0.35;
@@ -134,9 +131,8 @@ static void test_names(void **state)
     }
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     Error err = {0};
     Mesh mesh;
     Bulk bulk;
@@ -158,15 +154,4 @@ static void test_memory_faults(void **state)
     }
     bulk_destroy(&bulk);
     mesh_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_similar_blocks_are_one),
-        cmocka_unit_test(test_normalised),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,9 +88,8 @@ static void check_error(const BlockDef *shape, const Material *material, double 
     check_error_of(shape, &one, 0, tolerance, random);
 }
 
-static void test_error_is_known(void **state)
+TEST(test_error_is_known)
 {
-    (void)state;
     const BlockDef shapes[] = {
         {.kind = ELEMENT_Q4, .nx = 12, .nz = 12, .length = 1, .height = 0.5},
         {.kind = ELEMENT_Q4, .nx = 20, .nz = 6, .length = 1, .height = 0.1},
@@ -102,9 +101,8 @@ static void test_error_is_known(void **state)
 }
 
 // The same where C is nothing like K: almost all in the change of volume, or in shear alone.
-static void test_error_of_unlike_damping(void **state)
+TEST(test_error_of_unlike_damping)
 {
-    (void)state;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 16, .nz = 8, .length = 1, .height = 0.5};
     const Material materials[] = {
         {.young = 2, .poisson = 0.34, .density = 1, .eta1 = 0.3, .eta2 = 3},
@@ -123,9 +121,8 @@ static void test_error_of_unlike_damping(void **state)
 }
 
 // A block on a layer of another material, softer or stiffer, and of another viscous time.
-static void test_error_of_regions(void **state)
+TEST(test_error_of_regions)
 {
-    (void)state;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 6, .length = 1, .height = 0.3};
     const Material layers[] = {
         {.young = 0.01, .poisson = 0.45, .density = 0.5, .eta1 = 0.01, .eta2 = 0.02},
@@ -142,9 +139,8 @@ static void test_error_of_regions(void **state)
 // From 80 interface unknowns on only what is wanted of the eigenvalues is computed, where that is
 // little: still what is said of a level is the largest error that was met there, or 1 % more, as at
 // the one that was visited last.
-static void test_error_of_many_nodes(void **state)
+TEST(test_error_of_many_nodes)
 {
-    (void)state;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 48, .nz = 4, .length = 1, .height = 0.1};
     ReducedBlock block;
     reduced_block_build(&shape, &MATERIAL, 0.003, 2e-2, &block);
@@ -161,9 +157,8 @@ static void test_error_of_many_nodes(void **state)
 }
 
 // Beyond the inertia of an element S is worse, and the basis says so.
-static void test_shortest_steps(void **state)
+TEST(test_shortest_steps)
 {
-    (void)state;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 12, .nz = 12, .length = 1, .height = 0.5};
     ReducedBlock block;
     reduced_block_build(&shape, &MATERIAL, 0.003, 2e-2, &block);
@@ -190,9 +185,8 @@ static double *eigenvalues_of(const double *a, int32_t n)
 
 // PMMA-like numbers in SI, and the same block in units of its own: rho L^2 E / eta^2 and eta2/eta1
 // agree, so do the normalised matrices (the interior up to a rotation of its basis).
-static void test_units(void **state)
+TEST(test_units)
 {
-    (void)state;
     Material si = {.young = 3e9, .poisson = 0.37, .density = 1200, .eta1 = 6e4, .eta2 = 4e4};
     Material own = {.young = 1, .poisson = 0.37, .density = 1, .eta1 = 0.6, .eta2 = 0.4};
     BlockDef shape = {.kind = ELEMENT_Q4, .nx = 6, .nz = 6, .length = 0.1, .height = 0.05};
@@ -234,9 +228,8 @@ static void test_units(void **state)
 
 // A basis built of the block of length 1 steps the block of a fortieth and of four times that
 // length, with waves and layers of its own, as one built there would: S of every step.
-static void test_another_length(void **state)
+TEST(test_another_length)
 {
-    (void)state;
     ReducedBlock built, other;
     BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 10, .length = 1, .height = 0.5};
     const double lengths[] = {0.02, 0.25, 4}, tolerance = 2e-2;
@@ -269,15 +262,4 @@ static void test_another_length(void **state)
     free(schur);
     reduced_block_destroy(&other);
     reduced_block_destroy(&built);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error_is_known),   cmocka_unit_test(test_error_of_unlike_damping),
-        cmocka_unit_test(test_error_of_regions), cmocka_unit_test(test_error_of_many_nodes),
-        cmocka_unit_test(test_shortest_steps),   cmocka_unit_test(test_units),
-        cmocka_unit_test(test_another_length),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,9 +104,8 @@ static const double *column(const Rig *rig, int64_t k)
 
 // An equation loses what the other terms of it weigh more than the one it gives: 1e-10 of the
 // energies of x and z.
-static void test_products(void **state)
+TEST(test_products)
 {
-    (void)state;
     Error err = {0};
     Rig rig;
     start(&rig);
@@ -134,9 +133,8 @@ static void test_products(void **state)
     end(&rig);
 }
 
-static void test_combination(void **state)
+TEST(test_combination)
 {
-    (void)state;
     Rig rig;
     start(&rig);
     for (int32_t p = 0; p < 3; p++) {
@@ -162,9 +160,8 @@ static void test_combination(void **state)
 
 // A block that is not kept leaves nothing but the room for its fields, which the next one takes;
 // there is room for so many points only.
-static void test_blocks(void **state)
+TEST(test_blocks)
 {
-    (void)state;
     Error err = {0};
     Rig rig;
     start(&rig);
@@ -183,14 +180,4 @@ static void test_blocks(void **state)
     assert_null(responses_next(&rig.responses, POINTS[0], 1, &err));
     assert_non_null(strstr(err.message, "more than"));
     end(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_products),
-        cmocka_unit_test(test_combination),
-        cmocka_unit_test(test_blocks),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

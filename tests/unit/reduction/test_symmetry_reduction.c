@@ -70,9 +70,8 @@ static void build(const BlockDef *shape, ReducedBlock *block)
     memory_free(image);
 }
 
-static void test_response(void **state)
+TEST(test_response)
 {
-    (void)state;
     static const OperatorTerms ASKED[] = {
         {.stiffness = 1, .mass = 1e-3}, {.stiffness = 1, .damping = 1, .mass = 1e-2},
         {.stiffness = 1, .mass = 3},    {.damping = 1, .mass = 50},
@@ -97,9 +96,8 @@ static void test_response(void **state)
     }
 }
 
-static void test_operator(void **state)
+TEST(test_operator)
 {
-    (void)state;
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         build(&SHAPES[s], &block);
@@ -108,9 +106,8 @@ static void test_operator(void **state)
     }
 }
 
-static void test_rigid_motions_and_load(void **state)
+TEST(test_rigid_motions_and_load)
 {
-    (void)state;
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         build(&SHAPES[s], &block);
@@ -120,9 +117,8 @@ static void test_rigid_motions_and_load(void **state)
 }
 
 // A node moved, a layer of another material on one side: no image, or not its own.
-static void test_what_is_none(void **state)
+TEST(test_what_is_none)
 {
-    (void)state;
     Mirror mirror;
     ReducedBlock block;
     BlockDef shaken = SHAPES[0];
@@ -160,9 +156,8 @@ static void test_what_is_none(void **state)
 
 // Without a rod node nothing is mirrored; with those of the contact's left half there are as many
 // as on the contact's right half, which is too one-sided. What is likely is found.
-static void test_mirrored(void **state)
+TEST(test_mirrored)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     Mirror mirror;
@@ -288,9 +283,8 @@ static void expect_rigid_motions(const Lattice *lattice, const ReducedBulk *redu
 }
 
 // Four parts, from which S of the whole comes back; with a spring more on one side, two.
-static void test_two_mirrors(void **state)
+TEST(test_two_mirrors)
 {
-    (void)state;
     static Lattice lattice;
     Error err = {0};
     if (DIM_MAX < 3) skip();
@@ -340,9 +334,8 @@ static void test_two_mirrors(void **state)
     }
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     ReducedBlock block;
     reduced_block_build(&SHAPES[1], &MATERIAL, LOAD, 0, &block);
     block.def.tolerance = 1e-1;
@@ -368,18 +361,4 @@ static void test_memory_faults(void **state)
     }
     memory_free(image);
     reduced_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_response),
-        cmocka_unit_test(test_operator),
-        cmocka_unit_test(test_rigid_motions_and_load),
-        cmocka_unit_test(test_what_is_none),
-        cmocka_unit_test(test_mirrored),
-        cmocka_unit_test(test_two_mirrors),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,13 +4,8 @@
 #include "reduction/training_points.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
-
-#include <cmocka.h>
 
 #include "near.h"
 
@@ -36,9 +31,8 @@ static int32_t visits_of(const TrainingPoints *training, int32_t level, double v
     return found;
 }
 
-static void test_one_material(void **state)
+TEST(test_one_material)
 {
-    (void)state;
     const Material paper = {.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1};
     ReductionErrors errors = {0};
     TrainingPoints training = list(&paper, 3.6, 4e4, &errors);
@@ -65,9 +59,8 @@ static void test_one_material(void **state)
 
 // The quotient of the two moduli goes from that of K to that of C by at most 2 from one viscosity
 // to the next; on a mesh of a few elements the levels do not begin above its slowest mode.
-static void test_unlike_damping(void **state)
+TEST(test_unlike_damping)
 {
-    (void)state;
     const Material unlike = {.young = 2, .poisson = 0.3, .density = 1, .eta1 = 0.2, .eta2 = 4};
     ReductionErrors errors = {0};
     TrainingPoints training = list(&unlike, 50, 100, &errors);
@@ -86,13 +79,4 @@ static void test_unlike_damping(void **state)
     }
     assert_true(found > 3);
     assert_near("all viscous", before, c_volume / c_shear, 1e-9 * before);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_material),
-        cmocka_unit_test(test_unlike_damping),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,9 +77,8 @@ static void check_matrix(const Bulk *from, const double *values, const Bulk *to,
     free(a), free(wanted), free(found);
 }
 
-static void test_bulk(void **state)
+TEST(test_bulk)
 {
-    (void)state;
     Error err = {0};
     ReducedBlock block;
     Transform by;
@@ -118,9 +117,8 @@ static void test_bulk(void **state)
 }
 
 // T y of blocks; T y and T'x of pairs and unknowns as they are, and of T = 1.
-static void test_vectors(void **state)
+TEST(test_vectors)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 11};
     enum { SIZE = 130 };
@@ -162,9 +160,8 @@ static void test_vectors(void **state)
 }
 
 // a + T s T' of pairs, two unknowns that are their own images, one in none.
-static void test_square(void **state)
+TEST(test_square)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 7};
     Transform by;
@@ -194,9 +191,8 @@ static void test_square(void **state)
     transform_destroy(&by);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     ReducedBlock block;
     reduced_block_build(&SHAPE, &MATERIAL, 0.3, 0, &block);
     int64_t live = memory_counters().live;
@@ -219,15 +215,4 @@ static void test_memory_faults(void **state)
         assert_true(k < 40);
     }
     reduced_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bulk),
-        cmocka_unit_test(test_vectors),
-        cmocka_unit_test(test_square),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,19 +3,15 @@
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "io/hdf5/result_file.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { NODES = 5, STEPS = 200, PATH_SIZE = 400, FAULTS_MAX = 2000 };
 
@@ -40,14 +36,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-static int result_write(void **state)
+FIXTURE(result_write)
 {
     static const double x[NODES] = {0, 0.25, 0.5, 0.75, 1}, pad[NODES] = {0, 0, 1, 1, 1};
     const double kind[2] = {1, 2}, U_start[2] = {0.9, 1}, U_stop[2] = {0.91, 1.01};
-    ResultHead head = {
-        .title = "t", .units = "si", .version = "0", .rod_on_spring = true, .contact_count = NODES};
+    ResultHead head = {.title = "t",
+                       .units = "si",
+                       .version = "0",
+                       .rod_on_spring = true,
+                       .remembers = true,
+                       .contact_count = NODES};
     Error err = {0};
-    (void)state;
     for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : x;
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k) head.numbers[k] = 0.01 * (k + 1);
     snprintf(folder, sizeof folder, "/tmp/amontons_render_XXXXXX");
@@ -63,10 +62,9 @@ static int result_write(void **state)
     return array_file_close(file, &err) && done ? 0 : -1;
 }
 
-static int result_remove(void **state)
+FIXTURE(result_remove)
 {
     char command[PATH_SIZE + 20];
-    (void)state;
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     return system(command);
 }
@@ -78,9 +76,8 @@ static bool picture_exists(const char *name)
     return access(path, F_OK) == 0;
 }
 
-static void draws_all_and_frees_all(void **state)
+TEST(draws_all_and_frees_all)
 {
-    (void)state;
     Error err = {0};
     PictureRequest request = {0};
     int64_t live = memory_counters().live;
@@ -92,9 +89,8 @@ static void draws_all_and_frees_all(void **state)
     assert_false(picture_exists("force.png.part"));
 }
 
-static void memory_runs_out_everywhere(void **state)
+TEST(memory_runs_out_everywhere)
 {
-    (void)state;
     PictureRequest request = {.style = {.dpi = 120}};
     int64_t live = memory_counters().live, k = 0;
     for (; k < FAULTS_MAX; ++k) {
@@ -109,9 +105,8 @@ static void memory_runs_out_everywhere(void **state)
     assert_in_range(k, 20, FAULTS_MAX - 1);
 }
 
-static void figures_can_be_chosen(void **state)
+TEST(figures_can_be_chosen)
 {
-    (void)state;
     Error err = {0};
     const char *const names[] = {"contact-density"};
     char command[PATH_SIZE + 20];
@@ -123,22 +118,17 @@ static void figures_can_be_chosen(void **state)
     assert_false(picture_exists("force.png"));
 }
 
-static void unknown_figures_are_named(void **state)
+TEST(unknown_figures_are_named)
 {
-    (void)state;
     Error err = {0};
     const char *const names[] = {"force", "colour"};
     PictureRequest request = {.figures = names, .figure_count = 2};
     assert_false(amontons_render(folder, &request, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
-    assert_non_null(strstr(err.message, "force, slip-map, contact-density, field, field-strip"));
+    assert_non_null(strstr(err.message,
+                           "force, slip-map, contact-density, contact-plane, precursors, "
+                           "front-speed, field, field-strip"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_all_and_frees_all), cmocka_unit_test(memory_runs_out_everywhere),
-        cmocka_unit_test(figures_can_be_chosen), cmocka_unit_test(unknown_figures_are_named)};
-    return cmocka_run_group_tests(tests, result_write, result_remove);
-}
+GROUP_BETWEEN(result_write, result_remove);

@@ -71,9 +71,8 @@ static Watch stop_in(int32_t runs, const char *folder, bool overwrite, Error *er
     return watch;
 }
 
-static void test_stopped_in_the_first_run(void **state)
+TEST_BETWEEN(test_stopped_in_the_first_run, begin, end)
 {
-    (void)state;
     Error err = {0};
     stop_in(0, place, false, &err);
     if (!strstr(err.message, "no run has ended yet, nothing was written"))
@@ -82,9 +81,8 @@ static void test_stopped_in_the_first_run(void **state)
 }
 
 // mu_M of the first mesh's two runs is kept, but not beside an earlier result.
-static void test_stopped_on_the_second_mesh(void **state)
+TEST_BETWEEN(test_stopped_on_the_second_mesh, begin, end)
 {
-    (void)state;
     static char text[8000];
     char said[PLACE_SIZE + 300];
     Error err = {0};
@@ -98,9 +96,8 @@ static void test_stopped_on_the_second_mesh(void **state)
 }
 
 // Without a folder the message is all that is left.
-static void test_stopped_without_a_folder(void **state)
+TEST(test_stopped_without_a_folder)
 {
-    (void)state;
     char said[400];
     Error err = {0};
     Watch watch = stop_in(3, NULL, false, &err);
@@ -118,9 +115,8 @@ static void test_stopped_without_a_folder(void **state)
         fail_msg("%s", err.message);
 }
 
-static void test_stopped_over_an_earlier_result(void **state)
+TEST_BETWEEN(test_stopped_over_an_earlier_result, begin, end)
 {
-    (void)state;
     Error err = {0};
     RunSummary summary;
     Scene *scene = small_scene((const char *const[]){"time.until={t: 1}", NULL});
@@ -146,9 +142,8 @@ static RunSummary searched(const char *one, const char *other)
 
 // A traction of the same size on the top instead of pressure gives the same block, and runs whose
 // loads are scaled alike.
-static void test_loads_of_the_runs(void **state)
+TEST(test_loads_of_the_runs)
 {
-    (void)state;
     const char wide[] = "accuracy={mu: 0.3, window: 0.1}";
     RunSummary pressed = searched(wide, NULL);
     RunSummary pulled = searched(wide, "load={pressure: 0, tractions: [{group: top, z: -0.006}]}");
@@ -157,9 +152,8 @@ static void test_loads_of_the_runs(void **state)
 }
 
 // `refine` of each mesh needs a place among the parameters.
-static void test_no_room_for_refine(void **state)
+TEST_BETWEEN(test_no_room_for_refine, NULL, end)
 {
-    (void)state;
     char geo[8000] = "", text[4000] = "mesh={file: ", source[600];
     size_t used = 0, named = strlen(text);
     for (int32_t k = 0; k < SCENE_LIST_MAX - 4; k++)
@@ -213,9 +207,8 @@ static void expect(Levels levels, const char *wanted)
     if (!strstr(found.text[0], wanted)) fail_msg("%s, not\n%s", found.text[0], wanted);
 }
 
-static void test_what_is_said_of_a_bar(void **state)
+TEST(test_what_is_said_of_a_bar)
 {
-    (void)state;
     Levels levels = {.count = 3};
     for (int32_t k = 0; k < 3; k++) levels.list[k].slip_cells = 100, levels.list[k].refine = 1 + k;
     expect(levels, "mu_M is known to 10.0 %, asked for 1.0 % (no time for more)");
@@ -226,18 +219,4 @@ static void test_what_is_said_of_a_bar(void **state)
     expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
     levels.list[2].undamped = true;
     expect(levels, "not known (cells are too long for slip: no time for more)");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_stopped_in_the_first_run, begin, end),
-        cmocka_unit_test_setup_teardown(test_stopped_on_the_second_mesh, begin, end),
-        cmocka_unit_test(test_stopped_without_a_folder),
-        cmocka_unit_test_setup_teardown(test_stopped_over_an_earlier_result, begin, end),
-        cmocka_unit_test(test_loads_of_the_runs),
-        cmocka_unit_test_teardown(test_no_room_for_refine, end),
-        cmocka_unit_test(test_what_is_said_of_a_bar),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

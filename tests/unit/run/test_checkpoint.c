@@ -158,16 +158,14 @@ static void compare_killed(const char *const *settings, int32_t steps, int32_t k
 }
 
 // The rod's own way is part of the state.
-static void test_reduced(void **state)
+TEST(test_reduced)
 {
-    (void)state;
     compare_killed((const char *const[]){"time.until={U: 0.008}", "rod.stiffness=1", NULL}, 70, 3);
 }
 
 // Strong friction lets corners open; a scheme of three stages.
-static void test_open_nodes(void **state)
+TEST(test_open_nodes)
 {
-    (void)state;
     compare_killed((const char *const[]){"mesh.set.nx=8", "mesh.set.nz=8", "time.scheme=sdirk3",
                                          "rod.height=0.45", "friction.mu_static=0.9",
                                          "friction.mu_kinetic=0.3", "time.until={U: 0.012}", NULL},
@@ -217,17 +215,15 @@ static void expect_put_back(const Scene *scene, int32_t steps, bool changed)
 }
 
 // With all that a caller may have changed on the way.
-static void test_put_back(void **state)
+TEST(test_put_back)
 {
-    (void)state;
     Scene *scene = small_scene((const char *const[]){"reduction.use=never", "mesh.set.nx=6", NULL});
     expect_put_back(scene, 150, true);
     amontons_scene_destroy(scene);
 }
 
-static void test_put_back_explicit(void **state)
+TEST(test_put_back_explicit)
 {
-    (void)state;
     Scene *scene = small_scene((const char *const[]){
         "mesh.set.nx=4", "mesh.set.nz=4", "time.scheme=explicit", "rod.stiffness=0.3", NULL});
     expect_put_back(scene, 40, false);
@@ -243,9 +239,8 @@ static void expect_refused(Simulation *simulation, const SavedState *saved, cons
 }
 
 // Every byte counts, and so do scene and mesh. A refusal changes nothing.
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     Error err = {0};
     SavedState saved = {0}, shorter;
     Scene *scene = small_scene((const char *const[]){"reduction.cache=true", NULL});
@@ -284,9 +279,8 @@ static void seal(SavedState *saved)
 }
 
 // What another version wrote, or half a state, under a checksum that holds.
-static void test_of_other_versions(void **state)
+TEST(test_of_other_versions)
 {
-    (void)state;
     Error err = {0};
     SavedState saved = {0}, none;
     Scene *scene = small_scene((const char *const[]){"mesh.set.nx=4", "mesh.set.nz=4", NULL});
@@ -327,9 +321,8 @@ static void test_of_other_versions(void **state)
 }
 
 // A history goes back with the state, and no farther than it has steps.
-static void test_history_is_cut(void **state)
+TEST(test_history_is_cut)
 {
-    (void)state;
     Error err = {0};
     SavedState early = {0}, late = {0};
     RunSummary summary;
@@ -362,9 +355,8 @@ static void test_history_is_cut(void **state)
 }
 
 // A checkpoint beside the history of another scene's run, which has steps enough.
-static void test_history_of_another_run(void **state)
+TEST(test_history_of_another_run)
 {
-    (void)state;
     char place[PLACE_SIZE], folder[2][2 * PLACE_SIZE], command[8 * PLACE_SIZE];
     Error err = {0};
     RunSummary summary;
@@ -398,13 +390,4 @@ static void test_history_of_another_run(void **state)
     place_remove(place);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reduced),        cmocka_unit_test(test_open_nodes),
-        cmocka_unit_test(test_put_back),       cmocka_unit_test(test_put_back_explicit),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_of_other_versions),
-        cmocka_unit_test(test_history_is_cut), cmocka_unit_test(test_history_of_another_run)};
-    // One cache: bulks are made once.
-    return cmocka_run_group_tests(tests, cache_begin, cache_end);
-}
+GROUP_BETWEEN(cache_begin, cache_end);

@@ -61,9 +61,8 @@ static double mu_at(const char *scheme, double U)
 }
 
 // The block sticks, and mu follows the rod.
-static void test_ramp(void **state)
+TEST(test_ramp)
 {
-    (void)state;
     for (double U = 2e-4; U < 1.1e-3; U += 4e-4) {
         double wanted = mu_at("time.scheme=sdirk2", U);
         assert_true(wanted > 0.1 * U / 1e-3);
@@ -72,9 +71,8 @@ static void test_ramp(void **state)
 }
 
 // The first sliding and what led to it.
-static void test_peak(void **state)
+TEST(test_peak)
 {
-    (void)state;
     const char *explicit_run[4] = {"time.until.U=0.0033", "time.scheme=explicit"};
     const char *implicit_run[4] = {"time.until.U=0.0033", "time.scheme=sdirk2",
                                    "time.accuracy=fine"};
@@ -91,9 +89,8 @@ static void test_peak(void **state)
 }
 
 // Explicit steps are counted, in equal numbers a record; time.step_max shortens them and no more.
-static void test_counting(void **state)
+TEST(test_counting)
 {
-    (void)state;
     const char *stable[4] = {"time.until={t: 10}", "time.scheme=explicit"};
     const char *shorter[4] = {"time.until={t: 10}", "time.scheme=explicit", "time.step_max=1e-4"};
     const char *longer[4] = {"time.until={t: 10}", "time.scheme=explicit", "time.step_max=10"};
@@ -111,9 +108,8 @@ static void test_counting(void **state)
     amontons_scene_destroy(scene);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     const char *more[4] = {"time.until={t: 10}", "time.scheme=explicit"};
     Scene *scene = read_scene(more);
     RunOptions options = {0};
@@ -132,15 +128,4 @@ static void test_memory(void **state)
         assert_int_equal(memory_counters().live, before.live);
     }
     amontons_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ramp),
-        cmocka_unit_test(test_peak),
-        cmocka_unit_test(test_counting),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

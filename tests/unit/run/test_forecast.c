@@ -24,9 +24,8 @@ static double taken_over_expected(const char *const *settings)
 
 // Two of validation/strangers (10 and 30) on coarser meshes, and the block without a layer. The
 // first sticks and slips with drops far below mu_S - mu_K, the second slides without drops.
-static void test_soft_layers(void **state)
+TEST(test_soft_layers)
 {
-    (void)state;
     static const char *const layers[][SETTINGS] = {
         {"mesh={file: ../../meshes/layers.geo, set: {length: 1, height: 0.31383, layer: 0.02, "
          "nx: 10, nz: 3, nz_layer: 1}}",
@@ -51,10 +50,4 @@ static void test_soft_layers(void **state)
         double ratio = taken_over_expected(layers[k]);
         if (!(fabs(log2(ratio)) <= 2)) fail_msg("layer %zu: %g times the stages", k, ratio);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_soft_layers)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

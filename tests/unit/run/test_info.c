@@ -3,16 +3,13 @@
 // allocation is an error and leaks nothing.
 #include "amontons.h"
 #include "base/memory.h"
+#include "cases.h"
 #include "io/hdf5/result_file.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 enum { EVENTS_MAX = 600 };
 
@@ -82,9 +79,8 @@ static void assert_faults_are_clean(const char *path)
     }
 }
 
-static void test_result(void **state)
+TEST(test_result)
 {
-    (void)state;
     static const char *const unfinished[] = {"no run.json", "By hand", NULL};
     static const char *const whole[] = {
         "status             done",
@@ -129,9 +125,8 @@ static void test_result(void **state)
 }
 
 // Kinds that no version wrote, more events than are shown, and none.
-static void test_events(void **state)
+TEST(test_events)
 {
-    (void)state;
     double kinds[EVENTS_MAX] = {-1, 7};
     static const char *const odd[] = {
         "  unknown                 0.1", "  unknown                 0.2",
@@ -145,9 +140,8 @@ static void test_events(void **state)
 }
 
 // By the file's name alone in the folder where it lies; and what makes no sense there.
-static void test_where_one_stands(void **state)
+TEST(test_where_one_stands)
 {
-    (void)state;
     static const char *const said[] = {"3 states at 2 contact nodes", NULL};
     char here[4000];
     Error err = {0};
@@ -178,9 +172,8 @@ static void test_where_one_stands(void **state)
     assert_int_equal(chdir(here), 0);
 }
 
-static void test_scene(void **state)
+TEST(test_scene)
 {
-    (void)state;
     static const char *const parts[] = {"By hand", "material.poisson             0.3\n",
                                         "rod.kind                     push   (default)\n", NULL};
     char path[200];
@@ -193,7 +186,7 @@ static void test_scene(void **state)
 }
 
 // A run of some seconds: thousands of events, 200000 values in run.json.
-static void test_long_result(void **state)
+TEST(test_long_result)
 {
     static const char *const parts[] = {"mu_M               0.25\n", "accepted steps     7\n",
                                         NULL};
@@ -201,7 +194,6 @@ static void test_long_result(void **state)
     char *text = malloc(EVENTS * EACH + 200);
     char *end = text + sprintf(text, "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
                                      "\"events\": [");
-    (void)state;
     for (int32_t k = 0; k < EVENTS; k++)
         end += sprintf(end, "%s{\"kind\": \"bounded\", \"U\": %d, \"x\": [1, 2]}",
                        k > 0 ? ",\n" : "", k);
@@ -212,9 +204,8 @@ static void test_long_result(void **state)
 }
 
 // Killed, with and without a checkpoint; a file that is nothing of ours, a picture of one.
-static void test_odd_folders(void **state)
+TEST(test_odd_folders)
 {
-    (void)state;
     Error err = {0};
     char path[200], other[200];
     snprintf(other, sizeof other, "%s/run.json", folder);
@@ -245,9 +236,8 @@ static void test_odd_folders(void **state)
     unlink(other);
 }
 
-static void test_broken_results(void **state)
+TEST(test_broken_results)
 {
-    (void)state;
     Error err = {0};
     char path[200];
     write_text("run.json", "{\"status\": ");
@@ -263,19 +253,17 @@ static void test_broken_results(void **state)
     assert_non_null(strstr(err.message, "not a result folder"));
 }
 
-int main(void)
+FIXTURE(group_begin)
 {
-    assert_non_null(mkdtemp(folder));
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_result),      cmocka_unit_test(test_long_result),
-        cmocka_unit_test(test_events),      cmocka_unit_test(test_where_one_stands),
-        cmocka_unit_test(test_scene),       cmocka_unit_test(test_broken_results),
-        cmocka_unit_test(test_odd_folders),
-    };
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+FIXTURE(group_end)
+{
     char path[200];
     snprintf(path, sizeof path, "%s/s.yaml", folder);
     unlink(path);
-    rmdir(folder);
-    return failed;
+    return rmdir(folder);
 }
+
+GROUP_BETWEEN(group_begin, group_end);

@@ -73,9 +73,8 @@ static void use_everything(const char *place)
     assert_int_equal(unfinished.code, ERROR_COMPUTE);
 }
 
-static void test_leaves_the_process_alone(void **state)
+TEST(test_leaves_the_process_alone)
 {
-    (void)state;
     char place[PLACE_SIZE] = "";
     Surroundings before, after;
     place_make(place);
@@ -97,9 +96,8 @@ static void test_leaves_the_process_alone(void **state)
 
 // Where numbers are written with a comma nothing could be read: it is said at once. A thread may
 // have a locale of its own: then all works, and the process keeps its comma.
-static void test_refuses_a_comma(void **state)
+TEST(test_refuses_a_comma)
 {
-    (void)state;
     Error err = {0};
     Scene *scene = NULL;
     char place[PLACE_SIZE] = "", command[2 * PLACE_SIZE];
@@ -150,9 +148,8 @@ static void *compute(void *argument)
     return NULL;
 }
 
-static void test_threads_compute_as_if_alone(void **state)
+TEST(test_threads_compute_as_if_alone)
 {
-    (void)state;
     Work alone[THREADS] = {{.pressure = "load.pressure=0.003"},
                            {.pressure = "load.pressure=0.006"}};
     Work together[THREADS];
@@ -203,9 +200,8 @@ static void check_contact(const StepView *view)
     }
 }
 
-static void test_arrays_of_a_step(void **state)
+TEST(test_arrays_of_a_step)
 {
-    (void)state;
     Error err = {0};
     Simulation *simulation = NULL;
     StepView start, view;
@@ -247,9 +243,8 @@ static void test_arrays_of_a_step(void **state)
     amontons_scene_destroy(scene);
 }
 
-static void test_block_must_be_asked_for(void **state)
+TEST(test_block_must_be_asked_for)
 {
-    (void)state;
     Error err = {0};
     Simulation *simulation = NULL;
     BlockView block;
@@ -261,14 +256,4 @@ static void test_block_must_be_asked_for(void **state)
     assert_int_equal(err.code, ERROR_INPUT);
     amontons_simulation_destroy(simulation);
     amontons_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_leaves_the_process_alone),    cmocka_unit_test(test_refuses_a_comma),
-        cmocka_unit_test(test_threads_compute_as_if_alone), cmocka_unit_test(test_arrays_of_a_step),
-        cmocka_unit_test(test_block_must_be_asked_for),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,9 +71,8 @@ static void expect_all(const char *const *names, size_t count, bool there)
             fail_msg("%s is %s", names[k], there ? "gone" : "still there");
 }
 
-static void test_made_with_parents(void **state)
+TEST_BETWEEN(test_made_with_parents, begin, end)
 {
-    (void)state;
     Error err = {0};
     char folder[PLACE_SIZE + 32];
     snprintf(folder, sizeof folder, "%s/a/b/c", place);
@@ -86,9 +85,8 @@ static void test_made_with_parents(void **state)
     assert_true(place_has(place, "d"));
 }
 
-static void test_refuses_an_earlier_result(void **state)
+TEST_BETWEEN(test_refuses_an_earlier_result, begin, end)
 {
-    (void)state;
     const char *const files[] = {"run.json", "history.h5", "history.h5.part", "fields.pvd"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         place_write(place, files[k], ours(files[k]));
@@ -123,9 +121,8 @@ static const char *const OTHERS[] = {"notes.txt",
 enum { OWN_COUNT = sizeof OWN / sizeof *OWN, OTHER_COUNT = sizeof OTHERS / sizeof *OTHERS };
 
 // Refused, nothing is touched; overwritten, our files go and all others stay.
-static void test_overwrites_only_its_own(void **state)
+TEST_BETWEEN(test_overwrites_only_its_own, begin, end)
 {
-    (void)state;
     Error err = {0};
     write_ours(OWN, OWN_COUNT);
     write_theirs(OTHERS, OTHER_COUNT);
@@ -138,9 +135,8 @@ static void test_overwrites_only_its_own(void **state)
 
 // A picture or a field that no run has written is somebody's: a run that would write over it, also
 // through a link, is refused, whatever else lies in the folder.
-static void test_what_is_somebodys_is_not_written_over(void **state)
+TEST_BETWEEN(test_what_is_somebodys_is_not_written_over, begin, end)
 {
-    (void)state;
     const char *const theirs[] = {"figures/force.png", "fields/bulk_000000.vtu"};
     for (int k = 0; k < 2; k++) {
         write_theirs(&theirs[k], 1);
@@ -163,9 +159,8 @@ static void test_what_is_somebodys_is_not_written_over(void **state)
 }
 
 // A user's own file may have the name of one of ours: it is not taken for an earlier result.
-static void test_proofs_of_somebody(void **state)
+TEST_BETWEEN(test_proofs_of_somebody, begin, end)
 {
-    (void)state;
     Error err = {0};
     const char *const theirs[] = {"run.json",    "history.h5", "report.html",
                                   "static.json", "fields.pvd", "checkpoint.bin"};
@@ -182,9 +177,8 @@ static void test_proofs_of_somebody(void **state)
 
 // Pictures of ours that lie there alone: replaced where the user said so, or where a run that was
 // killed has left its lock; a picture that the new run does not draw does not stay.
-static void test_pictures_of_ours_alone(void **state)
+TEST_BETWEEN(test_pictures_of_ours_alone, begin, end)
 {
-    (void)state;
     Error err = {0};
     const char *const drawn[] = {"figures/force.png", "figures/slip-map.pdf"};
     for (int killed = 0; killed < 2; killed++) {
@@ -197,9 +191,8 @@ static void test_pictures_of_ours_alone(void **state)
 }
 
 // An error bar that was stopped keeps what it has; the same command begins anew.
-static void test_a_stopped_search_may_begin_anew(void **state)
+TEST_BETWEEN(test_a_stopped_search_may_begin_anew, begin, end)
 {
-    (void)state;
     Error err = {0};
     const char *const kept[] = {"figures/accuracy.json"};
     write_ours(kept, 1);
@@ -211,9 +204,8 @@ static void test_a_stopped_search_may_begin_anew(void **state)
 }
 
 // Until the input is accepted nothing goes, and then nothing behind a link.
-static void test_cleared_late_and_not_through_links(void **state)
+TEST_BETWEEN(test_cleared_late_and_not_through_links, begin, end)
 {
-    (void)state;
     Error err = {0};
     ResultFolder folder;
     char elsewhere[PLACE_SIZE];
@@ -234,9 +226,8 @@ static void test_cleared_late_and_not_through_links(void **state)
 
 // What was cleared is back where the new computation did not come to its first step, also where it
 // was killed: `moment` is the name that its folder has then.
-static void test_back_until_settled(void **state)
+TEST_BETWEEN(test_back_until_settled, begin, end)
 {
-    (void)state;
     Error err = {0};
     ResultFolder folder;
     static const char *const moments[] = {"amontons.aside", "amontons.earlier", "amontons.gone"};
@@ -267,9 +258,8 @@ static void test_back_until_settled(void **state)
 }
 
 // The second of two is told who holds the folder; when that has let go, it may.
-static void test_one_computation_at_a_time(void **state)
+TEST_BETWEEN(test_one_computation_at_a_time, begin, end)
 {
-    (void)state;
     Error err = {0};
     ResultFolder first;
     char holder[64];
@@ -283,9 +273,8 @@ static void test_one_computation_at_a_time(void **state)
 
 // Somebody holds it who has not said who that is; and a process that a signal is about to end takes
 // its own lock along.
-static void test_locks(void **state)
+TEST_BETWEEN(test_locks, begin, end)
 {
-    (void)state;
     Error err = {0};
     ResultFolder own;
     place_write(place, "amontons.lock", "");
@@ -300,9 +289,8 @@ static void test_locks(void **state)
     result_folder_release(&own);
 }
 
-static void test_impossible_folders(void **state)
+TEST_BETWEEN(test_impossible_folders, begin, end)
 {
-    (void)state;
     char folder[PLACE_SIZE + 32];
     place_write(place, "file", "x");
     snprintf(folder, sizeof folder, "%s/file", place);
@@ -320,23 +308,4 @@ static void test_impossible_folders(void **state)
     if (root) assert_int_equal(chmod(place, 0755) || setresuid(NOBODY, NOBODY, 0), 0);
     expect_error(folder, true, ERROR_FILE, "cannot write into");
     if (root) assert_int_equal(setresuid(0, 0, 0), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_made_with_parents, begin, end),
-        cmocka_unit_test_setup_teardown(test_refuses_an_earlier_result, begin, end),
-        cmocka_unit_test_setup_teardown(test_overwrites_only_its_own, begin, end),
-        cmocka_unit_test_setup_teardown(test_what_is_somebodys_is_not_written_over, begin, end),
-        cmocka_unit_test_setup_teardown(test_proofs_of_somebody, begin, end),
-        cmocka_unit_test_setup_teardown(test_pictures_of_ours_alone, begin, end),
-        cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, begin, end),
-        cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, begin, end),
-        cmocka_unit_test_setup_teardown(test_back_until_settled, begin, end),
-        cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, begin, end),
-        cmocka_unit_test_setup_teardown(test_locks, begin, end),
-        cmocka_unit_test_setup_teardown(test_impossible_folders, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,9 +39,8 @@ static RunSummary run_small(const char *const *more, const char *folder, Track *
     return summary;
 }
 
-static void test_same_bits_twice(void **state)
+TEST(test_same_bits_twice)
 {
-    (void)state;
     const char *const settings[][2] = {{"reduction.use=always", NULL},
                                        {"reduction.use=never", NULL}};
     int64_t live = memory_counters().live;
@@ -64,9 +63,8 @@ static void test_same_bits_twice(void **state)
 
 // Moments, contact conditions, energy; the energy the better the smaller the steps, left to
 // themselves.
-static void test_balances(void **state)
+TEST(test_balances)
 {
-    (void)state;
     const char *const tolerances[][3] = {{"time.tolerance=1e-2", "time.energy_tolerance=1", NULL},
                                          {"time.tolerance=1e-3", "time.energy_tolerance=1", NULL},
                                          {"time.tolerance=1e-4", "time.energy_tolerance=1", NULL}};
@@ -82,9 +80,8 @@ static void test_balances(void **state)
 }
 
 // Steps go forward to the end, and the views say so.
-static void test_views(void **state)
+TEST(test_views)
 {
-    (void)state;
     RunSummary summary = run_small((const char *const[]){NULL}, NULL, &track);
     const StepView *last = &track.view[track.count - 1];
     assert_near("t", track.view[0].t, 0, 0);
@@ -110,9 +107,8 @@ static void test_views(void **state)
 
 // The reduced bulk and the full one agree where steps are so fine that they leave less than the
 // reduction does: errors are measured differently in them, so their steps differ.
-static void test_reduced_and_full_agree(void **state)
+TEST(test_reduced_and_full_agree)
 {
-    (void)state;
     RunSummary summary[2];
     for (int full = 0; full < 2; full++)
         summary[full] =
@@ -125,9 +121,8 @@ static void test_reduced_and_full_agree(void **state)
 }
 
 // In the time loop memory is asked for where a rung is built, and nowhere else.
-static void test_allocations(void **state)
+TEST(test_allocations)
 {
-    (void)state;
     Error err = {0};
     RunOptions options = {0};
     Simulation *simulation = NULL;
@@ -160,9 +155,8 @@ static int count_entries(const char *folder)
     return count;
 }
 
-static void test_no_folder_writes_nothing(void **state)
+TEST(test_no_folder_writes_nothing)
 {
-    (void)state;
     char place[PLACE_SIZE], home[4096];
     Error err = {0};
     RunSummary summary;
@@ -207,9 +201,8 @@ static double history_rows(const char *place)
     return (double)rows;
 }
 
-static void test_results(void **state)
+TEST(test_results)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE];
     place_make(place);
@@ -242,9 +235,8 @@ static void test_results(void **state)
     place_remove(place);
 }
 
-static void test_interrupted(void **state)
+TEST(test_interrupted)
 {
-    (void)state;
     Error err = {0};
     RunSummary summary;
     char place[PLACE_SIZE];
@@ -268,9 +260,8 @@ static void test_interrupted(void **state)
 }
 
 // Without checkpoints nothing is said of going on; without a folder there is nothing to go on from.
-static void test_without_checkpoints(void **state)
+TEST(test_without_checkpoints)
 {
-    (void)state;
     Error err = {0};
     RunSummary summary;
     char place[PLACE_SIZE];
@@ -296,9 +287,8 @@ static void test_without_checkpoints(void **state)
 }
 
 // A scene that was warned of is told so again when its energy does not close.
-static void test_failed_as_warned(void **state)
+TEST(test_failed_as_warned)
 {
-    (void)state;
     Error err = {0};
     RunSummary summary;
     Scene *scene = small_scene((const char *const[]){
@@ -311,9 +301,8 @@ static void test_failed_as_warned(void **state)
 }
 
 // A ledger that cannot close to the digits asked for ends the run with an error, and a report.
-static void test_failed(void **state)
+TEST(test_failed)
 {
-    (void)state;
     Error err = {0};
     RunSummary summary;
     char place[PLACE_SIZE];
@@ -329,22 +318,4 @@ static void test_failed(void **state)
     assert_near("rows", history_rows(place), track.count, 0);
     amontons_scene_destroy(scene);
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits_twice),
-        cmocka_unit_test(test_balances),
-        cmocka_unit_test(test_views),
-        cmocka_unit_test(test_reduced_and_full_agree),
-        cmocka_unit_test(test_allocations),
-        cmocka_unit_test(test_no_folder_writes_nothing),
-        cmocka_unit_test(test_results),
-        cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_failed),
-        cmocka_unit_test(test_without_checkpoints),
-        cmocka_unit_test(test_failed_as_warned),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,9 +38,8 @@ static double shear_force(const Simulation *simulation)
 }
 
 // Relaxed with friction, the bottom cannot spread as it wants; without, it does, and p is even.
-static void test_friction_while_relaxing(void **state)
+TEST(test_friction_while_relaxing)
 {
-    (void)state;
     for (int on = 0; on < 2; on++) {
         Simulation *simulation = simulation_of(
             (const char *const[]){on ? "start.friction=on" : "start.friction=off", NULL});
@@ -65,9 +64,8 @@ static void test_friction_while_relaxing(void **state)
 
 // The rod comes to the relaxed face, or stands there while the block spreads against it: then it
 // presses, and a bonded one would pull as well.
-static void test_rod_at_the_start(void **state)
+TEST(test_rod_at_the_start)
 {
-    (void)state;
     const struct {
         const char *kind, *start;
         RodKind found;
@@ -99,9 +97,8 @@ static void test_rod_at_the_start(void **state)
 }
 
 // Loads add up, whatever they are called; F_N is what presses.
-static void test_loads(void **state)
+TEST(test_loads)
 {
-    (void)state;
     Simulation *simulation = simulation_of((const char *const[]){
         "load.tractions=[{group: top, x: 1e-4, z: -1e-3}, {group: leading, x: -2e-4, z: 0}]",
         NULL});
@@ -114,9 +111,8 @@ static void test_loads(void **state)
 
 // E, nu, rho and eta reach the bulk: u_z of the top of a frictionless block is -P H (1 - nu^2)/E in
 // plane strain.
-static void test_material(void **state)
+TEST(test_material)
 {
-    (void)state;
     Simulation *simulation = simulation_of((const char *const[]){
         "material={young: 2, poisson: 0.3, density: 3, eta1: 0.5, eta2: 0.7, plane: strain}",
         "start.friction=off", "reduction.use=never", NULL});
@@ -134,9 +130,8 @@ static void test_material(void **state)
 }
 
 // Whichever of U and t comes first ends the run; steps are no longer than asked.
-static void test_end_and_steps(void **state)
+TEST(test_end_and_steps)
 {
-    (void)state;
     // 0.2 of the slip that the drop of friction drives, 0.28 * 0.003 * 0.5, are 8.4 time units; the
     // next 2^k times the wave step, 0.2 L / c_L with c_L^2 = 1 / (1 - 0.34^2), k = 6:
     const double slip_step = 64 * 0.2 * sqrt(1 - 0.34 * 0.34);
@@ -159,9 +154,8 @@ static void test_end_and_steps(void **state)
 }
 
 // A periodic regime ends the run where the scene says so.
-static void test_until_periodic(void **state)
+TEST(test_until_periodic)
 {
-    (void)state;
     Error err = {0};
     RunOptions options = {0};
     RunSummary summary[2];
@@ -178,9 +172,8 @@ static void test_until_periodic(void **state)
 
 // A free run of 1e-7 time units takes steps of 2e-9 and yet relaxes in a few dozen; a rod that
 // hardly moves leaves a shortest step far below the waves'.
-static void test_extreme_speeds(void **state)
+TEST(test_extreme_speeds)
 {
-    (void)state;
     Simulation *simulation =
         simulation_of((const char *const[]){"time.until={t: 1e-7}", "rod.kind=none", NULL});
     assert_true(simulation->relaxation_steps < 200);
@@ -195,9 +188,8 @@ static void test_extreme_speeds(void **state)
     amontons_simulation_destroy(simulation);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     const struct {
         const char *setting, *words;
     } cases[] = {
@@ -222,19 +214,4 @@ static void test_refused(void **state)
             fail_msg("'%s' is not in: %s", cases[k].words, err.message);
         assert_int_equal(memory_counters().live, live);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction_while_relaxing),
-        cmocka_unit_test(test_rod_at_the_start),
-        cmocka_unit_test(test_loads),
-        cmocka_unit_test(test_material),
-        cmocka_unit_test(test_end_and_steps),
-        cmocka_unit_test(test_until_periodic),
-        cmocka_unit_test(test_extreme_speeds),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

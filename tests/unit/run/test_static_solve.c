@@ -3,20 +3,16 @@
 // rod that slides the block, a base that lifts; and what happens when memory or the disk fails.
 #include "amontons.h"
 #include "base/memory.h"
+#include "cases.h"
 #include "scene/scene.h"
 #include "run/static_solve.h"
 #include "scene_of_text.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { TEXT_SIZE = 2000 };
@@ -54,9 +50,8 @@ static const char *const UNIFORM =
     "load: {pressure: 0.01, supports: [{group: rod, direction: x}]}\n"
     "rod: {kind: none}";
 
-static void test_uniform_pressure(void **state)
+TEST(test_uniform_pressure)
 {
-    (void)state;
     StaticSummary summary = solve(UNIFORM);
     assert_int_equal(summary.nodes, 15);
     assert_int_equal(summary.contact_nodes, 5);
@@ -69,9 +64,8 @@ static void test_uniform_pressure(void **state)
     assert_true(isnan(summary.rod_height));
 }
 
-static void test_rod_slides_the_block(void **state)
+TEST(test_rod_slides_the_block)
 {
-    (void)state;
     StaticSummary summary = solve("friction: {law: coulomb, mu_static: 0.2}\n"
                                   "load: {pressure: 0.01}\n"
                                   "rod: {displacement: 0.05, height: 0.25, width: 0.1}");
@@ -84,9 +78,8 @@ static void test_rod_slides_the_block(void **state)
     assert_true(fabs(summary.pressure_moment - (0.01 * 0.5 + 0.002 * 0.25)) < 1e-11);
 }
 
-static void test_push_never_pulls(void **state)
+TEST(test_push_never_pulls)
 {
-    (void)state;
     StaticSummary pushed = solve("friction: {law: coulomb, mu_static: 0.5}\n"
                                  "load: {pressure: 0.01}\n"
                                  "rod: {displacement: -0.01, height: 0.25, width: 0.1}");
@@ -98,9 +91,8 @@ static void test_push_never_pulls(void **state)
     assert_true(glued.rod_force < -1e-4);
 }
 
-static void test_cylinder_touches_in_the_middle(void **state)
+TEST(test_cylinder_touches_in_the_middle)
 {
-    (void)state;
     StaticSummary summary = solve("friction: {law: coulomb, mu_static: 0.2}\n"
                                   "contact: {radius: 10}\n"
                                   "load: {pressure: 0.01}\n"
@@ -111,9 +103,8 @@ static void test_cylinder_touches_in_the_middle(void **state)
     assert_true(fabs(summary.pressure_moment - 0.005) < 1e-11);
 }
 
-static void test_nothing_holds(void **state)
+TEST(test_nothing_holds)
 {
-    (void)state;
     Scene scene = read_scene("friction: {law: coulomb, mu_static: 0.2}\n"
                              "load: {pressure: 0.01, tractions: [{group: top, x: 0.0021, z: 0}]}\n"
                              "rod: {kind: none}");
@@ -130,9 +121,8 @@ static void test_nothing_holds(void **state)
     assert_non_null(strstr(err.message, "amontons static"));
 }
 
-static void test_unknown_support(void **state)
+TEST(test_unknown_support)
 {
-    (void)state;
     Scene scene = read_scene("friction: {law: coulomb, mu_static: 0}\n"
                              "load: {pressure: 0.01, supports: [{group: lid, direction: x}]}\n"
                              "rod: {kind: none}");
@@ -155,9 +145,8 @@ static void remove_results(const char *folder)
     assert_int_equal(rmdir(folder), 0);   // nothing else was left
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char folder[] = "/tmp/static-faults-XXXXXX";
     assert_non_null(mkdtemp(folder));
     Scene scene = read_scene(UNIFORM);
@@ -177,9 +166,8 @@ static void test_memory_faults(void **state)
     remove_results(folder);
 }
 
-static void test_folder(void **state)
+TEST(test_folder)
 {
-    (void)state;
     char folder[] = "/tmp/static-folder-XXXXXX";
     assert_non_null(mkdtemp(folder));
     Scene scene = read_scene(UNIFORM);
@@ -192,19 +180,4 @@ static void test_folder(void **state)
     error_clear(&err);
     assert_true(amontons_static(&scene, folder, true, &summary, &err));
     remove_results(folder);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform_pressure),
-        cmocka_unit_test(test_rod_slides_the_block),
-        cmocka_unit_test(test_push_never_pulls),
-        cmocka_unit_test(test_cylinder_touches_in_the_middle),
-        cmocka_unit_test(test_nothing_holds),
-        cmocka_unit_test(test_unknown_support),
-        cmocka_unit_test(test_folder),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,9 +66,8 @@ static double mu_at(Steered *steered, double U)
 
 // Some viscous times after the change mu is what it is under a rod that had this velocity from the
 // start.
-static void test_rod_goes_on_from_where_it_is(void **state)
+TEST(test_rod_goes_on_from_where_it_is)
 {
-    (void)state;
     const char *const settings[] = {NULL}, *const fast[] = {"rod.velocity=3e-5", NULL};
     Steered slow = begin(settings), usual = begin(fast), steered = begin(settings);
     mu_at(&steered, 0.0008);
@@ -101,9 +100,8 @@ static void test_rod_goes_on_from_where_it_is(void **state)
 
 // A rod that is a hundred times as fast all at once hits the block. The ledger closes the better
 // the smaller the steps are.
-static void test_energy_of_a_jump(void **state)
+TEST(test_energy_of_a_jump)
 {
-    (void)state;
     const char *const tolerances[][3] = {{"time.tolerance=1e-2", "reduction.use=never", NULL},
                                          {"time.tolerance=1e-4", "reduction.use=never", NULL}};
     double error[2];
@@ -121,9 +119,8 @@ static void test_energy_of_a_jump(void **state)
 
 // Without friction the block under its load is a linear problem with one parameter: all
 // displacements at rest go with the pressure.
-static void test_pressure_of_a_block_without_friction(void **state)
+TEST(test_pressure_of_a_block_without_friction)
 {
-    (void)state;
     Error err = {0};
     BlockView block;
     const char *const settings[] = {"friction={law: coulomb, mu_static: 1e-9}", "rod.kind=none",
@@ -151,9 +148,8 @@ static void test_pressure_of_a_block_without_friction(void **state)
 
 // mu is over the load that acts: with Poisson's ratio 0 the rod's force stays when the pressure is
 // doubled.
-static void test_mu_is_over_the_load_that_acts(void **state)
+TEST(test_mu_is_over_the_load_that_acts)
 {
-    (void)state;
     Error err = {0};
     const char *const settings[] = {"reduction.use=never", "material.poisson=0", NULL};
     Steered steered = begin(settings);
@@ -169,9 +165,8 @@ static void test_mu_is_over_the_load_that_acts(void **state)
 }
 
 // A rod of its own speed ends a run at the scene's U; one that stands ends it at t alone.
-static void test_ends(void **state)
+TEST(test_ends)
 {
-    (void)state;
     Steered twice = begin((const char *const[]){"time.until={U: 0.002}", NULL});
     set_velocity(&twice, 2 * V);
     while (!twice.finished) step(&twice);
@@ -187,9 +182,8 @@ static void test_ends(void **state)
 }
 
 // A state of a steered run, put into a scene that ends elsewhere: there, by the rod's speed now.
-static void test_end_of_another_scene(void **state)
+TEST(test_end_of_another_scene)
 {
-    (void)state;
     Error err = {0};
     SavedState saved = {0};
     Steered first = begin((const char *const[]){"time.until={U: 0.004}", NULL});
@@ -206,9 +200,8 @@ static void test_end_of_another_scene(void **state)
     end(&other);
 }
 
-static void test_what_is_refused(void **state)
+TEST(test_what_is_refused)
 {
-    (void)state;
     const struct {
         const char *settings[4];
         double velocity, pressure;   // NAN: not tried
@@ -250,9 +243,8 @@ static void test_what_is_refused(void **state)
 }
 
 // Its history is closed, and its events have ended.
-static void test_nothing_follows_the_end(void **state)
+TEST(test_nothing_follows_the_end)
 {
-    (void)state;
     Error err = {0};
     RunSummary summary;
     SavedState saved = {0}, later = {0};
@@ -282,19 +274,4 @@ static void test_nothing_follows_the_end(void **state)
     amontons_simulation_destroy(simulation);
     amontons_scene_destroy(steered.scene);
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rod_goes_on_from_where_it_is),
-        cmocka_unit_test(test_energy_of_a_jump),
-        cmocka_unit_test(test_pressure_of_a_block_without_friction),
-        cmocka_unit_test(test_mu_is_over_the_load_that_acts),
-        cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_end_of_another_scene),
-        cmocka_unit_test(test_what_is_refused),
-        cmocka_unit_test(test_nothing_follows_the_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static double factor_of(const char *setting, const char *more)
     return strtod(words + strlen("elements "), NULL);
 }
 
-static void test_resolution(void **state)
+TEST(test_resolution)
 {
-    (void)state;
     assert_int_equal(warnings_of("load.pressure=0.003", NULL).count, 0);
     double hundred = factor_of("load.pressure=0.3", NULL);
     assert_true(hundred < 0.2);
@@ -52,9 +51,8 @@ static void test_resolution(void **state)
     assert_true(finer > 2.5 * hundred && finer < 6 * hundred);
 }
 
-static void test_without_viscosity(void **state)
+TEST(test_without_viscosity)
 {
-    (void)state;
     RunWarnings found = warnings_of("material.eta1=0", "material.eta2=1");
     assert_int_equal(found.count, 1);
     assert_non_null(strstr(found.text[0], "ill-posed"));
@@ -64,9 +62,8 @@ static void test_without_viscosity(void **state)
 }
 
 // Strip 0.2 to 0.3 of a face from 0 to 0.5; then half of it above the face, then a fifth below.
-static void test_rod_beside_its_face(void **state)
+TEST(test_rod_beside_its_face)
 {
-    (void)state;
     assert_int_equal(warnings_of("rod.height=0.25", "rod.width=0.1").count, 0);
     assert_int_equal(warnings_of("rod.height=0.45", "rod.width=0.1").count, 0);   // to the edge
     RunWarnings found = warnings_of("rod.height=0.5", "rod.width=0.1");
@@ -78,9 +75,8 @@ static void test_rod_beside_its_face(void **state)
     assert_non_null(strstr(found.text[0], "only 80 % of the strip"));
 }
 
-static void test_tall_block(void **state)
+TEST(test_tall_block)
 {
-    (void)state;
     const char *const lengths[] = {"mesh.set={length: 0.04, nx: 4}", "mesh.set={length: 2}",
                                    "mesh.set={length: 0.04, height: 0.1}"};
     for (int32_t k = 0; k < 3; k++) {
@@ -105,9 +101,8 @@ static void slip_warning(double cells, int32_t pads, const char *setting, RunWar
     amontons_scene_destroy(scene);
 }
 
-static void test_too_few_cells(void **state)
+TEST(test_too_few_cells)
 {
-    (void)state;
     RunWarnings found = {0};
     warnings_of_slip(NULL, NULL, NULL, &found);   // nothing dropped
     assert_int_equal(found.count, 0);
@@ -126,9 +121,8 @@ static void test_too_few_cells(void **state)
 
 // An answer of the last mesh outside the bar of all is told beside the other; the bar is as long as
 // they are apart only where there is one.
-static void test_last_mesh_apart(void **state)
+TEST(test_last_mesh_apart)
 {
-    (void)state;
     RunWarnings found = {0};
     Levels levels = {.count = 1};
     Level *last = &levels.list[0];
@@ -146,23 +140,11 @@ static void test_last_mesh_apart(void **state)
     assert_string_equal(strstr(found.text[1], "0.2000"), "0.2000 by all");
 }
 
-static void test_list_is_bounded(void **state)
+TEST(test_list_is_bounded)
 {
-    (void)state;
     RunWarnings warnings = {0};
     for (int k = 0; k < RUN_WARNINGS_MAX + 3; k++) warnings_add(&warnings, "%d %600d", k, k);
     assert_int_equal(warnings.count, RUN_WARNINGS_MAX);
     assert_int_equal(strlen(warnings.text[RUN_WARNINGS_MAX - 1]), RUN_WARNING_SIZE - 1);
     assert_true(warnings.text[1][0] == '1');
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_resolution),          cmocka_unit_test(test_without_viscosity),
-        cmocka_unit_test(test_rod_beside_its_face), cmocka_unit_test(test_too_few_cells),
-        cmocka_unit_test(test_list_is_bounded),     cmocka_unit_test(test_tall_block),
-        cmocka_unit_test(test_last_mesh_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

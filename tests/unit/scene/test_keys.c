@@ -2,22 +2,18 @@
 // The key table itself, and what is written by it: a scene written as JSON must read back as the
 // same scene.
 #include "base/memory.h"
+#include "cases.h"
 #include "scene/keys.h"
 #include "scene_of_text.h"
 #include "unit/scene/scene_texts.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
-static void test_every_key_is_complete(void **state)
+TEST(test_every_key_is_complete)
 {
-    (void)state;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
     assert_true(count > 40);
@@ -39,9 +35,8 @@ static void test_every_key_is_complete(void **state)
 }
 
 // No two keys share a byte of the scene (but for output.fields, whose flag stands alone).
-static void test_fields_do_not_overlap(void **state)
+TEST(test_fields_do_not_overlap)
 {
-    (void)state;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
     for (int32_t i = 0; i < count; i++)
@@ -53,9 +48,8 @@ static void test_fields_do_not_overlap(void **state)
         }
 }
 
-static void test_ranges(void **state)
+TEST(test_ranges)
 {
-    (void)state;
     assert_true(scene_range_holds(RANGE_ANY, -1e300));
     assert_false(scene_range_holds(RANGE_ANY, NAN));
     assert_false(scene_range_holds(RANGE_ANY, INFINITY));
@@ -68,9 +62,8 @@ static void test_ranges(void **state)
     assert_true(scene_range_holds(RANGE_PART_OR_ZERO, 0));
 }
 
-static void test_groups_and_suggestions(void **state)
+TEST(test_groups_and_suggestions)
 {
-    (void)state;
     assert_true(scene_key_is_group("material"));
     assert_true(scene_key_is_group("time.until"));
     assert_false(scene_key_is_group("mat"));
@@ -82,9 +75,8 @@ static void test_groups_and_suggestions(void **state)
     assert_null(scene_key_nearest("xyzzyxyzzy"));
 }
 
-static void test_reference_has_every_key(void **state)
+TEST(test_reference_has_every_key)
 {
-    (void)state;
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -167,9 +159,8 @@ static void assert_round_trip(const char *text)
     rmdir(folder);
 }
 
-static void test_scenes_round_trip(void **state)
+TEST(test_scenes_round_trip)
 {
-    (void)state;
     char text[SCENE_TEXT_MAX];
     scene_text_with(1, "title: 'with \"quotes\" and \\ and é'", text);
     assert_round_trip(text);
@@ -210,9 +201,8 @@ static void test_scenes_round_trip(void **state)
 }
 
 // The nesting, against a text written by hand.
-static void test_json_is_nested_as_the_scene(void **state)
+TEST(test_json_is_nested_as_the_scene)
 {
-    (void)state;
     char text[SCENE_TEXT_MAX], folder[] = "/tmp/scene-json-XXXXXX", path[100];
     static Scene scene;
     Error err = {0};
@@ -236,18 +226,4 @@ static void test_json_is_nested_as_the_scene(void **state)
         if (!strstr(compact, parts[k])) fail_msg("no %s in\n%s", parts[k], compact);
     unlink(path);
     rmdir(folder);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_key_is_complete),
-        cmocka_unit_test(test_fields_do_not_overlap),
-        cmocka_unit_test(test_ranges),
-        cmocka_unit_test(test_groups_and_suggestions),
-        cmocka_unit_test(test_reference_has_every_key),
-        cmocka_unit_test(test_scenes_round_trip),
-        cmocka_unit_test(test_json_is_nested_as_the_scene),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

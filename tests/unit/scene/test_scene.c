@@ -2,6 +2,7 @@
 // Good scenes: values against the file's own text, overrides, units; faults and mutated texts.
 #include "amontons.h"
 #include "base/memory.h"
+#include "cases.h"
 #include "scene/scene.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
@@ -9,13 +10,9 @@
 #include "unit/scene/scene_texts.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 static char fig1[600];
 
@@ -37,9 +34,8 @@ static Scene read_with(int32_t line, const char *text)
     return scene;
 }
 
-static void test_figure_1(void **state)
+TEST(test_figure_1)
 {
-    (void)state;
     Scene scene = read_fig1(NULL, 0);
     assert_string_equal(scene.title, "Figure 1 of the paper");
     assert_int_equal(scene.units, UNITS_NORMALISED);
@@ -76,9 +72,8 @@ static void test_figure_1(void **state)
     assert_string_equal(scene.output.figures.name[1], "slip-map");
 }
 
-static void test_defaults(void **state)
+TEST(test_defaults)
 {
-    (void)state;
     Scene scene = read_with(1, "title: Defaults");
     assert_string_equal(scene.mesh.file, "folder/block.geo");
     assert_string_equal(scene.groups.top, "top");
@@ -98,9 +93,8 @@ static void test_defaults(void **state)
     assert_false(scene.given[scene_key_index("material.young")]);
 }
 
-static void test_overrides(void **state)
+TEST(test_overrides)
 {
-    (void)state;
     static const char *const texts[] = {
         "load.pressure=0.006",
         "mesh.set.nx=40",
@@ -143,9 +137,8 @@ static void test_overrides(void **state)
 }
 
 // A formula of --set is worked out over all that is set, and over those before it.
-static void test_formulas(void **state)
+TEST(test_formulas)
 {
-    (void)state;
     static const char *const texts[] = {
         "time.until.U== 6*load.pressure",
         "load.pressure=0.007",
@@ -160,9 +153,8 @@ static void test_formulas(void **state)
     assert_string_equal(scene.title, "= 3");   // in quotes it is none
 }
 
-static void test_override_of_a_part(void **state)
+TEST(test_override_of_a_part)
 {
-    (void)state;
     static const char *const some[] = {"output.fields=none", "output.fields.every_t=5"};
     Scene scene = read_fig1(some, 2);
     assert_true(scene.output.fields && scene.output.fields_every_t == 5);
@@ -180,9 +172,8 @@ static void test_override_of_a_part(void **state)
 
 // Nothing where a list or map may stand is an empty one, and a region without numbers is one of
 // `material`.
-static void test_what_may_be_empty(void **state)
+TEST(test_what_may_be_empty)
 {
-    (void)state;
     Scene scene = read_with(3, "mesh: {file: block.geo, set: }");
     assert_int_equal(scene.mesh.parameter_count, 0);
     scene = read_with(0, "groups: {contact: }");
@@ -199,9 +190,8 @@ static void test_what_may_be_empty(void **state)
 }
 
 // By the path that a formula may name.
-static void test_numbers_of_regions(void **state)
+TEST(test_numbers_of_regions)
 {
-    (void)state;
     Scene scene = read_with(0, "materials: {pads: {young: 2}}");
     double number = 0;
     assert_true(scene_materials_find(&scene, "materials.pads.young", &number) && number == 2);
@@ -213,9 +203,8 @@ static void test_numbers_of_regions(void **state)
 }
 
 // Warned of: weakening where nothing damps, also in one region alone.
-static void test_scenes_without_viscosity(void **state)
+TEST(test_scenes_without_viscosity)
 {
-    (void)state;
     Scene scene = read_with(0, "materials: {pads: {young: 2}}");
     assert_null(amontons_scene_warning(&scene));
     scene = read_with(0, "materials: {top: {young: 2}, pads: {eta1: 0}}");
@@ -225,9 +214,8 @@ static void test_scenes_without_viscosity(void **state)
 }
 
 // What is refused only together with something else.
-static void test_allowed_together(void **state)
+TEST(test_allowed_together)
 {
-    (void)state;
     Scene scene = read_with(5, "friction: {law: coulomb, mu_static: 0.3, mu_kinetic: 0.3}");
     assert_true(scene.friction.mu_static == 0.3);
     scene =
@@ -237,9 +225,8 @@ static void test_allowed_together(void **state)
     assert_int_equal(scene.material.plane, PLANE_STRESS);
 }
 
-static void test_si_units(void **state)
+TEST(test_si_units)
 {
-    (void)state;
     static const char text[] =
         "units: si\n"
         "mesh: {file: /m/b.msh, set: {length: 10 mm, nx: 4, name: \"3 kg\"}}\n"
@@ -263,9 +250,8 @@ static void test_si_units(void **state)
     assert_true(scene.time.until_U == 2e-5 && scene.time.until_t == 0.003);
 }
 
-static void test_special_cases(void **state)
+TEST(test_special_cases)
 {
-    (void)state;
     Scene scene = read_with(5, "friction: {law: coulomb, mu_static: 0.4}");
     assert_true(scene.friction.mu_kinetic == 0.4);
     scene = read_with(0, "groups: {contact: base}");
@@ -283,9 +269,8 @@ static void test_special_cases(void **state)
     assert_string_equal(scene.mesh.file, "block.geo");   // the scene stands in this folder
 }
 
-static void test_public_face(void **state)
+TEST(test_public_face)
 {
-    (void)state;
     Error err = {0};
     Scene *scene = NULL;
     const char *override = "title=Mine";
@@ -297,9 +282,8 @@ static void test_public_face(void **state)
     amontons_scene_destroy(NULL);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     static const char *const overrides[] = {"load.pressure=1", "output.figures=[force]"};
     int64_t live = memory_counters().live;
     bool done = false;
@@ -323,9 +307,8 @@ static uint32_t next_random(uint32_t *random)
 }
 
 // Whatever a text holds, reading ends with a scene or with ERROR_INPUT, and frees all.
-static void test_mutated_scenes(void **state)
+TEST(test_mutated_scenes)
 {
-    (void)state;
     static const char *const pieces[] = {"{",   "}",    "[",  "]",   ": ",  ",",   "-1", "1e999",
                                          "~",   "none", "\n", "\n ", "'",   "\"",  "#",  "&a ",
                                          "*a ", "!!x ", "|",  ">",   "nan", " Pa", "0",  "\xff"};
@@ -357,17 +340,10 @@ static void test_mutated_scenes(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-int main(void)
+FIXTURE(group_begin)
 {
     snprintf(fig1, sizeof fig1, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_figure_1),           cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_overrides),          cmocka_unit_test(test_formulas),
-        cmocka_unit_test(test_override_of_a_part), cmocka_unit_test(test_what_may_be_empty),
-        cmocka_unit_test(test_numbers_of_regions), cmocka_unit_test(test_scenes_without_viscosity),
-        cmocka_unit_test(test_allowed_together),   cmocka_unit_test(test_si_units),
-        cmocka_unit_test(test_special_cases),      cmocka_unit_test(test_public_face),
-        cmocka_unit_test(test_memory_faults),      cmocka_unit_test(test_mutated_scenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }
+
+GROUP_BETWEEN(group_begin, NULL);

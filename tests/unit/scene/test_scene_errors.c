@@ -258,22 +258,19 @@ static const BadScene bad_units[] = {
     {3, "mesh: {file: a.geo, set: {nx: 4 kg}}", "s.yaml:3:31: ", {"`kg` is no unit of length"}},
 };
 
-static void test_bad_values(void **state)
+TEST(test_bad_values)
 {
-    (void)state;
     assert_all_bad(bad_values, sizeof bad_values / sizeof bad_values[0]);
 }
 
-static void test_bad_combinations(void **state)
+TEST(test_bad_combinations)
 {
-    (void)state;
     assert_all_bad(bad_combinations, sizeof bad_combinations / sizeof bad_combinations[0]);
 }
 
 // The good scene in SI differs in its lines 2 and 4.
-static void test_bad_units(void **state)
+TEST(test_bad_units)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof bad_units / sizeof bad_units[0]; k++) {
         char text[SCENE_TEXT_MAX] = "";
         for (int32_t i = 1; i <= SCENE_LINES; i++) {
@@ -287,9 +284,8 @@ static void test_bad_units(void **state)
     }
 }
 
-static void test_not_scenes(void **state)
+TEST(test_not_scenes)
 {
-    (void)state;
     static const BadScene cases[] = {
         {0, "", "s.yaml:1:1: the scene is empty", {"a map of keys"}},
         {0, "# a comment\n", "s.yaml:2:1: the scene is empty", {0}},
@@ -301,9 +297,8 @@ static void test_not_scenes(void **state)
         assert_bad(&cases[k], cases[k].text);
 }
 
-static void test_lists_that_are_too_long(void **state)
+TEST(test_lists_that_are_too_long)
 {
-    (void)state;
     char line[3000] = "groups: {contact: [";
     for (int i = 0; i < 33; i++) snprintf(line + strlen(line), 20, "c%d, ", i);
     strcat(line, "]}");
@@ -349,9 +344,8 @@ static void test_lists_that_are_too_long(void **state)
     assert_bad(&bad, text);
 }
 
-static void test_bad_files(void **state)
+TEST(test_bad_files)
 {
-    (void)state;
     static Scene scene;
     static const struct {
         const char *path, *words;
@@ -383,9 +377,8 @@ static void test_bad_files(void **state)
     if (!strstr(err.message, "unknown key")) fail_msg("%s", err.message);
 }
 
-static void test_too_many_overrides(void **state)
+TEST(test_too_many_overrides)
 {
-    (void)state;
     static const char *words[20000];
     static Scene scene;
     char path[600];
@@ -396,9 +389,8 @@ static void test_too_many_overrides(void **state)
     if (!strstr(err.message, "settings of keys")) fail_msg("%s", err.message);
 }
 
-static void test_bad_overrides(void **state)
+TEST(test_bad_overrides)
 {
-    (void)state;
     static const struct {
         const char *text, *place, *words;
     } cases[] = {
@@ -442,15 +434,4 @@ static void test_bad_overrides(void **state)
             !strstr(err.message, cases[k].words))
             fail_msg("%s gave\n%s", cases[k].text, err.message);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_values),         cmocka_unit_test(test_bad_combinations),
-        cmocka_unit_test(test_bad_units),          cmocka_unit_test(test_not_scenes),
-        cmocka_unit_test(test_bad_files),          cmocka_unit_test(test_bad_overrides),
-        cmocka_unit_test(test_too_many_overrides), cmocka_unit_test(test_lists_that_are_too_long),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

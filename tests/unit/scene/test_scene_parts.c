@@ -138,16 +138,14 @@ static const BadScene bad_parts[] = {
      {"unknown key"}},
 };
 
-static void test_bad_parts(void **state)
+TEST(test_bad_parts)
 {
-    (void)state;
     assert_all_bad(bad_parts, sizeof bad_parts / sizeof bad_parts[0]);
 }
 
 // Without a rod nothing can follow its way, or drive it.
-static void test_without_a_rod(void **state)
+TEST(test_without_a_rod)
 {
-    (void)state;
     static const BadScene cases[] = {
         {0,
          "rod: {kind: none, program: {t: [0, 1], factor: [1, 2]}}",
@@ -171,13 +169,4 @@ static void test_without_a_rod(void **state)
         if (!loads) strcat(text, "\ntime: {until: {t: 1}}");
         assert_bad(&cases[k], text);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_parts),
-        cmocka_unit_test(test_without_a_rod),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

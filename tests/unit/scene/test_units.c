@@ -2,16 +2,13 @@
 // Conversions worked out by hand; equality is exact, because powers of ten are kept whole.
 #include "scene/units.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
+#include "cases.h"
+
 #include <stdint.h>
 #include <string.h>
-#include <cmocka.h>
 
-static void test_conversions(void **state)
+TEST(test_conversions)
 {
-    (void)state;
     static const struct {
         double given;
         const char *suffix, *dimension;
@@ -52,9 +49,8 @@ static void test_conversions(void **state)
     }
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"", "length"},     {"foo", "length"},       {"Mm/s", "length"},     {"m/s/s", "velocity"},
         {"m0", "length"},   {"m99", "length"},       {"m^", "velocity"},     {"/s", "1"},
@@ -72,9 +68,8 @@ static void test_refusals(void **state)
 }
 
 // What an error offers must be accepted.
-static void test_examples_are_units(void **state)
+TEST(test_examples_are_units)
 {
-    (void)state;
     static const char *const dimensions[] = {"length", "time",    "velocity",
                                              "stress", "density", "viscosity"};
     for (size_t k = 0; k < sizeof dimensions / sizeof dimensions[0]; k++) {
@@ -91,14 +86,4 @@ static void test_examples_are_units(void **state)
         assert_true(count >= 2);
     }
     assert_string_equal(unit_examples("1"), "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_conversions),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_examples_are_units),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ static void check_random_states(const RigDef *def, double scale)
         random_state(&random, scale * random_between(&random, 0.1, 3), &fixture);
         bool weakens;
         double least = least_eigenvalue(&fixture, fixture.schur, &weakens);
-        bool holds = certificate_holds(&fixture.built.certificate, &fixture.built.seen);
+        bool holds = certificate_holds(&fixture.built.certificate, &fixture.built.seen, 0);
         assert_int_equal(holds, !weakens || least > 0);
         held += weakens && holds;
         cases += weakens;
@@ -100,9 +100,8 @@ static void check_random_states(const RigDef *def, double scale)
 }
 
 // k p around eta: both answers are common.
-static void test_random_states(void **state)
+TEST(test_random_states)
 {
-    (void)state;
     RigDef def = rig_def();
     def.rod_width = 0.5;   // two rod nodes
     check_random_states(&def, def.law.critical_velocity / 0.28);
@@ -110,9 +109,8 @@ static void test_random_states(void **state)
 
 // A law that weakens, twice as steeply as it then strengthens: of random speeds a third has either,
 // and what strengthens helps the others to hold.
-static void test_strengthening(void **state)
+TEST(test_strengthening)
 {
-    (void)state;
     RigDef def = rig_def();
     def.rod_width = 0.5;
     const double velocity[] = {0, 1.7e-4, 3.4e-4, 6e-4}, mu[] = {0.38, 0.24, 0.1, 0.2};
@@ -122,9 +120,8 @@ static void test_strengthening(void **state)
 }
 
 // Every node with a law of its own: weakening at half or twice the rate, not at all, strengthening.
-static void test_laws_by_node(void **state)
+TEST(test_laws_by_node)
 {
-    (void)state;
     enum { NODES_MAX = 16 };
     FrictionLaw each[NODES_MAX];
     RigDef def = rig_def();
@@ -142,9 +139,8 @@ static void test_laws_by_node(void **state)
 }
 
 // One slipping node: lost exactly where (mu_S - mu_K) p w / v_c reaches S_C,tt.
-static void test_one_node(void **state)
+TEST(test_one_node)
 {
-    (void)state;
     RigDef def = rig_def();
     def.rod_width = 0;
     Fixture fixture;
@@ -157,41 +153,31 @@ static void test_one_node(void **state)
         seen->status[i] = CONTACT_SLIP_BACKWARD;
         seen->slip_rate[t] = -0.5 * def.law.critical_velocity;
         seen->reaction[t + 1] = limit * (1 - 1e-9);
-        assert_true(certificate_holds(&fixture.built.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen, 0));
         seen->reaction[t + 1] = limit * (1 + 1e-9);
-        assert_false(certificate_holds(&fixture.built.certificate, seen));
+        assert_false(certificate_holds(&fixture.built.certificate, seen, 0));
         seen->slip_rate[t] = -1.1 * def.law.critical_velocity;   // past the weakening branch
-        assert_true(certificate_holds(&fixture.built.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen, 0));
         seen->slip_rate[t] = 0;
         seen->status[i] = CONTACT_STICK;
-        assert_true(certificate_holds(&fixture.built.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen, 0));
     }
     fixture_destroy(&fixture);
 }
 
 // Without viscosity nothing that weakens is certified, but a step may still resolve it.
-static void test_no_viscosity(void **state)
+TEST(test_no_viscosity)
 {
-    (void)state;
     RigDef def = rig_def();
     def.material.eta1 = def.material.eta2 = 0;
     CertificateRig on;
     certificate_rig_build(&def, 0.1, 0.05, &on);
-    assert_true(certificate_holds(&on.certificate, &on.seen));   // all stick
+    assert_true(certificate_holds(&on.certificate, &on.seen, 0));   // all stick
     on.seen.status[2] = CONTACT_SLIP_FORWARD;
     on.seen.slip_rate[plane_tangent(2)] = 1e-6;
     on.seen.reaction[plane_normal(2)] = 1e-9;
-    assert_false(certificate_holds(&on.certificate, &on.seen));
-    assert_true(certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_rung(&on, 0)));
+    assert_false(certificate_holds(&on.certificate, &on.seen, 0));
+    assert_true(
+        certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_rung(&on, 0), 0));
     certificate_rig_destroy(&on);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_states), cmocka_unit_test(test_strengthening),
-        cmocka_unit_test(test_laws_by_node),  cmocka_unit_test(test_one_node),
-        cmocka_unit_test(test_no_viscosity),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,9 +122,8 @@ static void random_state(Random *random, const BlockRig *rig, double pressure, S
         seen->rod_touches[j] = (uint8_t)random_index(random, 2);
 }
 
-static void test_random_states(void **state)
+TEST(test_random_states)
 {
-    (void)state;
     Random random = {.state = 77};
     RigDef def = rig_def();
     def.law.mu_static = 1.2;   // large enough for pressure to matter
@@ -140,7 +139,7 @@ static void test_random_states(void **state)
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, rung);
+        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, rung, 0);
         int sign = sign_by_differences(&slip);
         if (resolves != (sign > 0)) fail_msg("trial %d: the sign is %d", trial, sign);
         bool positive = is_definite(&slip);
@@ -158,9 +157,8 @@ static void test_random_states(void **state)
 }
 
 // On all rungs that are built, but for one that is known: by the signs of its differences.
-static void test_all_rungs(void **state)
+TEST(test_all_rungs)
 {
-    (void)state;
     Random random = {.state = 78};
     RigDef def = rig_def();
     CertificateRig on;
@@ -210,9 +208,8 @@ static int sign_at(const Slip *slip, double part)
 
 // At 1/ratio of its weakening a state stands where the determinant changes sign, for the first
 // time.
-static void test_load(void **state)
+TEST(test_load)
 {
-    (void)state;
     Random random = {.state = 5};
     RigDef def = rig_def();
     CertificateRig on;
@@ -308,9 +305,8 @@ static void check_holes(int32_t apart)
     certificate_rig_destroy(&on);
 }
 
-static void test_holes(void **state)
+TEST(test_holes)
 {
-    (void)state;
     check_holes(20);
     check_holes(4);
 }
@@ -341,9 +337,8 @@ static double alike_state(const BlockRig *rig, const double *schur, double part,
 }
 
 // Where ratios lie close together powers are slow to tell them apart, but do.
-static void test_load_of_nodes_alike(void **state)
+TEST(test_load_of_nodes_alike)
 {
-    (void)state;
     RigDef def = rig_def();
     def.law.mu_kinetic = 0;
     def.rod_width = 0;
@@ -362,13 +357,4 @@ static void test_load_of_nodes_alike(void **state)
     print_message("%.9g to %.9g of the largest\n", least, most);
     assert_true(least > 0.999 && most < 1.001);
     certificate_rig_destroy(&on);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states),
-                                       cmocka_unit_test(test_all_rungs),
-                                       cmocka_unit_test(test_load), cmocka_unit_test(test_holes),
-                                       cmocka_unit_test(test_load_of_nodes_alike)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -98,9 +98,8 @@ static bool oscillates_less(Fixture *fixture, double growth)
 }
 
 // What is cleared does grow by less, and what grows by much less is cleared: the test loses little.
-static void test_against_eigenvalues(void **state)
+TEST(test_against_eigenvalues)
 {
-    (void)state;
     int32_t cleared = 0, oscillating = 0, refused = 0;
     for (int32_t trial = 0; trial < 6; trial++) {
         double length = trial % 2 ? 10 : 1;
@@ -128,10 +127,4 @@ static void test_against_eigenvalues(void **state)
     print_message("%d cleared, %d of them oscillate and grow; %d refused\n", cleared, oscillating,
                   refused);
     assert_true(oscillating > 50 && refused > 50);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_eigenvalues)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

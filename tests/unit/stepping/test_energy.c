@@ -4,9 +4,8 @@
 
 #include "block_rig.h"
 
-static void test_stored(void **state)
+TEST(test_stored)
 {
-    (void)state;
     Error err = {0};
     Random random = {.state = 51};
     RigDef def = rig_def();
@@ -43,9 +42,8 @@ static void test_stored(void **state)
 }
 
 // Two contact nodes and two rod nodes: friction takes -v_t r_t, the normals nothing, the rod gives.
-static void test_stage_powers(void **state)
+TEST(test_stage_powers)
 {
-    (void)state;
     Interface interface = {.dim = 2, .contact_count = 2, .rod_count = 2, .count = 6};
     double v[] = {1, 10, -2, 20, 3, 4}, r[] = {-0.5, 7, 0.25, 9, 6, 1};
     double bulk_velocity[] = {1, 2, 3}, viscous_force[] = {5, 6, -1};
@@ -56,9 +54,8 @@ static void test_stage_powers(void **state)
     assert_near("rod", power.rod, 18 + 4, 0);
 }
 
-static void test_sums(void **state)
+TEST(test_sums)
 {
-    (void)state;
     EnergyLedger ledger = {.rod_work = 10,
                            .load_work = -3,
                            .viscous = 2,
@@ -68,14 +65,4 @@ static void test_sums(void **state)
                            .stored_at_start = 2};
     assert_near("imbalance", energy_imbalance(&ledger), 10 - 3 - 2 - 1 - (5 + 0.5 - 2), 0);
     assert_near("turnover", energy_turnover(&ledger), 10 + 3 + 2 + 1 + 5 + 0.5 + 2, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stored),
-        cmocka_unit_test(test_stage_powers),
-        cmocka_unit_test(test_sums),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

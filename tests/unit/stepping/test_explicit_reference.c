@@ -136,16 +136,14 @@ static void check_order(double eta, int64_t steps, double order, double error_wa
     stepped_block_destroy(&half);
 }
 
-static void test_order_elastic(void **state)
+TEST(test_order_elastic)
 {
-    (void)state;
     check_order(0, 64, 2, 1e-2);
 }
 
 // Viscous forces lag: order 1, but with steps this short as good.
-static void test_order_viscous(void **state)
+TEST(test_order_viscous)
 {
-    (void)state;
     check_order(1, 512, 1, 1e-2);
 }
 
@@ -187,9 +185,8 @@ static void check_sled_stops(FrictionLaw law, double mu)
 
 // By Coulomb's law, by a formula that says the same (of such a law it is not known that it is
 // convex), and by one that does so from 1e-8 on and falls to there faster than speed can.
-static void test_sled_stops(void **state)
+TEST(test_sled_stops)
 {
-    (void)state;
     check_sled_stops((FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.3}, 0.3);
     check_sled_stops(own_formula("0.3", 1), 0.3);
     check_sled_stops(own_formula("0.3 + 0.1 * exp(-v / 1e-9)", 1), 0.3);
@@ -197,9 +194,8 @@ static void test_sled_stops(void **state)
 
 // The same sled under a law that weakens and strengthens again: its speed is that of Heun's method
 // for v' = -mu(v) P/(rho H). The block is soft, so its parts oscillate about the mean.
-static void test_sled_of_own_law(void **state)
+TEST(test_sled_of_own_law)
 {
-    (void)state;
     Error err = {0};
     const double pressure = 0.001, mass = STEPPED_LENGTH * STEPPED_HEIGHT;
     SteppedDef def = {.cells = 4,
@@ -239,9 +235,8 @@ static void test_sled_of_own_law(void **state)
 
 // Stick-slip with each law, pushed and bonded: every observed step keeps the conditions exactly,
 // and all three statuses have been seen.
-static void test_conditions(void **state)
+TEST(test_conditions)
 {
-    (void)state;
     Error err = {0};
     const FrictionKind laws[] = {FRICTION_LINEAR_WEAKENING, FRICTION_EXPONENTIAL_WEAKENING,
                                  FRICTION_COULOMB};
@@ -282,9 +277,8 @@ static void test_conditions(void **state)
 }
 
 // A law so steep that both stick and slip hold: who sticks goes on sticking, who slips slipping.
-static void test_both_hold(void **state)
+TEST(test_both_hold)
 {
-    (void)state;
     Error err = {0};
     for (int32_t slips = 0; slips < 2; slips++) {
         SteppedDef def = {.cells = 2,
@@ -314,9 +308,8 @@ static void test_both_hold(void **state)
 }
 
 // Lifted off and pulled down, the block lands without going through the plane, and loses the rod.
-static void test_landing(void **state)
+TEST(test_landing)
 {
-    (void)state;
     Error err = {0};
     SteppedDef def = {.cells = 4,
                       .pressure = 0.01,
@@ -360,9 +353,8 @@ static void test_landing(void **state)
 }
 
 // A load that comes on top at t = 0 moves its nodes by a t^2/2 (Taylor), from the first step on.
-static void test_sudden_load(void **state)
+TEST(test_sudden_load)
 {
-    (void)state;
     const double step = 1e-4, more = 1e-3;
     SteppedDef def = smooth_block(0);
     def.rod_kind = ROD_AWAY;
@@ -383,9 +375,8 @@ static void test_sudden_load(void **state)
     stepped_block_destroy(&block);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     SteppedDef def = smooth_block(1);
     SteppedBlock block;
     stepped_block_build(&def, &block);
@@ -405,16 +396,4 @@ static void test_memory(void **state)
         assert_true(allowed < 20);
     }
     stepped_block_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order_elastic), cmocka_unit_test(test_order_viscous),
-        cmocka_unit_test(test_sled_stops),    cmocka_unit_test(test_sled_of_own_law),
-        cmocka_unit_test(test_conditions),    cmocka_unit_test(test_both_hold),
-        cmocka_unit_test(test_landing),       cmocka_unit_test(test_sudden_load),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -260,8 +260,8 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
                     .height = length / 2, .distortion = 0.1};
     case_build_block(&test, &def, &SOFT);
     if (reduced) {
-        ReductionDef how = {1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false, NULL,
-                            NULL};
+        ReductionDef how = {
+            1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false, NULL, NULL, NULL};
         assert_true(symmetry_reduction_build(&test.bulk, test.interface.dofs, test.interface.count,
                                              &how, &test.reduced, &err));
         assert_true(bulk_operator_reduce(&test.reduced, 1, 1, &test.system, &err));
@@ -292,9 +292,8 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
     return growing;
 }
 
-static void test_against_dense(void **unused)
+TEST(test_against_dense)
 {
-    (void)unused;
     const FrictionLaw glass = {.kind = FRICTION_LINEAR_WEAKENING,
                                .mu_static = 1.2,
                                .mu_kinetic = 0.2,
@@ -360,9 +359,8 @@ static void check_rigid_block(double machine, double softness, double lag)
     case_close(&test);
 }
 
-static void test_rigid_block(void **unused)
+TEST(test_rigid_block)
 {
-    (void)unused;
     check_rigid_block(0, 0, 0);
     check_rigid_block(70, 0, 0);
     check_rigid_block(70, 0.01, 0);
@@ -427,9 +425,8 @@ static Complex column_equation(Complex s, double shear, double eta, double densi
 
 // The foot slips under ever more weakening: it rests, oscillates, and runs away, at the exact
 // rates.
-static void test_shear_column(void **unused)
+TEST(test_shear_column)
 {
-    (void)unused;
     Error err = {0};
     double poisson = 0.34, shear = 1 / (2 * (1 + poisson)), eta = 0.5, density = 1, height = 0.5;
     Case test = {.law = {.kind = FRICTION_LINEAR_WEAKENING,
@@ -467,9 +464,8 @@ static void test_shear_column(void **unused)
 
 // The scan's ratio is the factor by which all weakening can be raised until a real rate exists when
 // mu P_n is left out; here mu is small, so the exact problem agrees.
-static void test_scan(void **unused)
+TEST(test_scan)
 {
-    (void)unused;
     Error err = {0};
     Case test = {.law = {.kind = FRICTION_LINEAR_WEAKENING,
                          .mu_static = 1e-7,
@@ -494,9 +490,8 @@ static void test_scan(void **unused)
     case_close(&test);
 }
 
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     Error err = {0};
     Case test = {.law = LAW};
     BlockDef def = {ELEMENT_Q4, .nx = 3, .nz = 2, .length = 1, .height = 0.5};
@@ -526,13 +521,4 @@ static void test_memory(void **unused)
     assert_int_equal(memory_counters().allocations, allocations);
     growth_destroy(NULL);
     case_close(&test);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_dense),
-                                       cmocka_unit_test(test_rigid_block),
-                                       cmocka_unit_test(test_shear_column),
-                                       cmocka_unit_test(test_scan), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "block_rig.h"
 
-static void test_steps(void **state)
+TEST(test_steps)
 {
-    (void)state;
     Ladder ladder;
     ladder_init(NULL, 8, 1, &ladder);
     assert_int_equal(ladder.rung_count, 4);   // 8 4 2 1
@@ -22,9 +21,8 @@ static void test_steps(void **state)
     assert_near("gamma", ladder.gamma, 1 - 1 / sqrt(2), 1e-15);
 }
 
-static void test_find(void **state)
+TEST(test_find)
 {
-    (void)state;
     Ladder ladder;
     ladder_init(NULL, 0.7, 0.7 / 64, &ladder);
     for (int32_t k = 0; k < ladder.rung_count; k++) {
@@ -41,9 +39,8 @@ static void test_find(void **state)
 }
 
 // A rung is built when first asked for, once, from M/(gamma dt) + C + gamma dt K.
-static void test_rungs(void **state)
+TEST(test_rungs)
 {
-    (void)state;
     Error err = {0};
     RigDef def = rig_def();
     BlockRig rig;
@@ -80,9 +77,8 @@ static void test_rungs(void **state)
     rig_destroy(&rig);
 }
 
-static void test_state(void **state)
+TEST(test_state)
 {
-    (void)state;
     Error err = {0};
     RigDef def = rig_def();
     BlockRig rig;
@@ -121,15 +117,4 @@ static void test_state(void **state)
     state_destroy(&other);
     assert_int_equal(memory_counters().live, live);
     rig_destroy(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_find),
-        cmocka_unit_test(test_rungs),
-        cmocka_unit_test(test_state),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

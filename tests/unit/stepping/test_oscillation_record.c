@@ -51,9 +51,8 @@ static bool covered(const Fixture *fixture)
 
 // Covered after `duration`, counted from the last time something new was seen; the first look does
 // not count.
-static void test_duration(void **state)
+TEST(test_duration)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
     assert_false(covered(&fixture));
@@ -81,9 +80,8 @@ static void test_duration(void **state)
 
 // Weakening goes with pressure on the linear law's slope. What weakens a fifth more than was seen
 // is not covered, and slow growth, of a hundredth at a time, is noticed.
-static void test_weakening(void **state)
+TEST(test_weakening)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
     slip(&fixture, 3, 0.05, PRESSURE);
@@ -105,9 +103,8 @@ static void test_weakening(void **state)
 // Near v_c nothing is covered, all is forgotten, and what slows down from there does not count
 // until it was certified or has been slow for as long as oscillations are watched: a pad that slips
 // on slowly after a sliding, never certified, is not watched for ever.
-static void test_running(void **state)
+TEST(test_running)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
     slip(&fixture, 0, 0.05, PRESSURE);
@@ -126,9 +123,8 @@ static void test_running(void **state)
 }
 
 // Slow for `duration`, and watched for another one from there; a fast moment begins anew.
-static void test_slow_again(void **state)
+TEST(test_slow_again)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
     for (int32_t turn = 0; turn < 2; turn++) {
@@ -147,9 +143,8 @@ static void test_slow_again(void **state)
 }
 
 // What opens, and a rod node that lets go, are new too.
-static void test_open_and_rod(void **state)
+TEST(test_open_and_rod)
 {
-    (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
     assert_true(fixture.seen.rod_count > 0);
@@ -166,14 +161,4 @@ static void test_open_and_rod(void **state)
     oscillation_record_clear(&fixture.record);
     assert_false(covered(&fixture));
     fixture_destroy(&fixture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_duration),     cmocka_unit_test(test_weakening),
-        cmocka_unit_test(test_running),      cmocka_unit_test(test_slow_again),
-        cmocka_unit_test(test_open_and_rod),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,6 @@
 
 #include "block_rig.h"
 #include "plane.h"
-#include "contact/contact_check.h"
 
 static const double PRESSURE = 0.003;
 
@@ -33,9 +32,8 @@ static int64_t relax_rig(const RigDef *def, double speed_max, BlockRig *rig, Ste
 }
 
 // s_zz = -P on any mesh: r = P w, u_z = -P z / E, u_x = nu P (x - middle) / E.
-static void test_frictionless_is_exact(void **state)
+TEST(test_frictionless_is_exact)
 {
-    (void)state;
     const ElementKind kinds[] = {ELEMENT_Q4, ELEMENT_T6, ELEMENT_Q8};
     for (int32_t k = 0; k < 3; k++) {
         RigDef def = rig_def();
@@ -73,9 +71,8 @@ static void test_frictionless_is_exact(void **state)
 
 // With friction, dragged by half of what it holds: K u = f + r, r in the cone, resultants right,
 // and nothing is left of the viscous and inertial parts.
-static void test_friction_holds(void **state)
+TEST(test_friction_holds)
 {
-    (void)state;
     RigDef def = rig_def();
     def.block.nx = 8;
     def.block.nz = 4;
@@ -106,9 +103,8 @@ static void test_friction_holds(void **state)
 }
 
 // A block that is dragged away never settles.
-static void test_too_long(void **state)
+TEST(test_too_long)
 {
-    (void)state;
     Error err = {0};
     int64_t steps = 0;
     RigDef def = rig_def();
@@ -129,14 +125,4 @@ static void test_too_long(void **state)
     assert_true(control.now.time > 30 && control.now.time < 100);
     step_control_destroy(&control);
     rig_destroy(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frictionless_is_exact),
-        cmocka_unit_test(test_friction_holds),
-        cmocka_unit_test(test_too_long),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,9 +141,8 @@ static double largest_difference(const double *a, const double *b, int32_t n)
 }
 
 // Observed at two refinements: u and v of each scheme, on a smooth motion.
-static void test_order(void **state)
+TEST(test_order)
 {
-    (void)state;
     static const struct {
         TableauKind kind;
         double order, within[2];
@@ -180,9 +179,8 @@ static void test_order(void **state)
 
 // Where a node comes to stick or slip within a step, no scheme keeps its order; but all tend to the
 // same motion, of order 1 at least. A block that a bonded rod drags from rest, then slip weakens.
-static void test_order_with_slip(void **state)
+TEST(test_order_with_slip)
 {
-    (void)state;
     static const TableauKind kinds[] = {TABLEAU_EULER, TABLEAU_SDIRK2, TABLEAU_SDIRK3};
     RigDef def = rig_def();
     def.law = (FrictionLaw){.kind = FRICTION_LINEAR_WEAKENING,
@@ -221,9 +219,8 @@ static void test_order_with_slip(void **state)
 
 // One step of rung k from a state that fine steps have smoothed: the estimate is what the step
 // misses, of order p + 1.
-static void test_estimate(void **state)
+TEST(test_estimate)
 {
-    (void)state;
     static const TableauKind kinds[] = {TABLEAU_EULER, TABLEAU_SDIRK2, TABLEAU_SDIRK3};
     RigDef def = smooth_def();
     Stepper stepper;
@@ -248,9 +245,8 @@ static void test_estimate(void **state)
 }
 
 // What is missing in the ledger goes down with the square of the step.
-static void test_energy_order(void **state)
+TEST(test_energy_order)
 {
-    (void)state;
     RigDef def = smooth_def();
     Stepper stepper;
     double missing[3];
@@ -313,9 +309,8 @@ static void check_momentum(const RigDef *def, int32_t seen[4])
     stepper_destroy(&stepper);
 }
 
-static void test_momentum(void **state)
+TEST(test_momentum)
 {
-    (void)state;
     RigDef def = rig_def();
     def.rod_kind = ROD_PUSHES;
     def.rod_velocity = 2e-3;
@@ -330,9 +325,8 @@ static void test_momentum(void **state)
 
 // Dragged with more than friction holds, the whole block slides: every node carries mu p, and its
 // momentum grows with the difference.
-static void test_sliding_block(void **state)
+TEST(test_sliding_block)
 {
-    (void)state;
     RigDef def = rig_def();
     def.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.2};
     def.rod_width = 0;
@@ -363,9 +357,8 @@ static void test_sliding_block(void **state)
 }
 
 // L-stability: one enormous step ends at rest in the static state, s_zz = -P everywhere.
-static void test_enormous_step(void **state)
+TEST(test_enormous_step)
 {
-    (void)state;
     RigDef def = smooth_def();
     def.traction[0] = 0;
     Stepper stepper;
@@ -384,9 +377,8 @@ static void test_enormous_step(void **state)
 }
 
 // The rod's nodes are where the rod is, to rounding, at the end of every step.
-static void test_bonded_rod(void **state)
+TEST(test_bonded_rod)
 {
-    (void)state;
     RigDef def = rig_def();
     def.rod_kind = ROD_IS_BONDED;
     def.rod_velocity = 1e-3;
@@ -412,9 +404,8 @@ static void test_bonded_rod(void **state)
     stepper_destroy(&stepper);
 }
 
-static void test_unsolved_is_an_outcome(void **state)
+TEST(test_unsolved_is_an_outcome)
 {
-    (void)state;
     Error err = {0};
     RigDef def = rig_def();
     Stepper stepper;
@@ -428,9 +419,8 @@ static void test_unsolved_is_an_outcome(void **state)
     stepper_destroy(&stepper);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     RigDef def = rig_def();
     BlockRig rig;
     rig_build(&def, &rig);
@@ -454,21 +444,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     rig_destroy(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_order_with_slip),
-        cmocka_unit_test(test_estimate),
-        cmocka_unit_test(test_energy_order),
-        cmocka_unit_test(test_momentum),
-        cmocka_unit_test(test_sliding_block),
-        cmocka_unit_test(test_enormous_step),
-        cmocka_unit_test(test_bonded_rod),
-        cmocka_unit_test(test_unsolved_is_an_outcome),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

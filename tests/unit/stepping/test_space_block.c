@@ -82,9 +82,8 @@ static void motion_of(const StiffBlock *block, double motion[3], double total[2]
 
 // a = mu P/(rho H) against an oblique velocity of size v: it stays straight, stops after v/a,
 // v^2/(2 a) away, and holds.
-static void test_braking(void **state)
+TEST(test_braking)
 {
-    (void)state;
     Error err = {0};
     StiffBlock block;
     stiff_build(1e7, 1e-3, &block);
@@ -134,9 +133,8 @@ static void slide_on(const StiffBlock *block, const double total[2], double step
     }
 }
 
-static void test_spinning(void **state)
+TEST(test_spinning)
 {
-    (void)state;
     Error err = {0};
     StiffBlock block;
     stiff_build(1e7, 1e-3, &block);
@@ -155,9 +153,8 @@ static void test_spinning(void **state)
 }
 
 // Central differences of the same block, softer, come to the same motion.
-static void test_explicit(void **state)
+TEST(test_explicit)
 {
-    (void)state;
     enum { RECORDS = 5 };
     Error err = {0};
     StiffBlock implicit, block;
@@ -190,14 +187,4 @@ static void test_explicit(void **state)
     explicit_reference_destroy(&scheme);
     stiff_destroy(&implicit);
     stiff_destroy(&block);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_braking),
-        cmocka_unit_test(test_spinning),
-        cmocka_unit_test(test_explicit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

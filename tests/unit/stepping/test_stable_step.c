@@ -40,9 +40,8 @@ static double chain_largest(void)
     return 2 + 2 * cos(M_PI / (CHAIN + 1));
 }
 
-static void test_chain(void **state)
+TEST(test_chain)
 {
-    (void)state;
     Error err = {0};
     Bulk bulk = chain_build(0.25, 3, 0.7);
     double rate = 0, wanted = 3 / 0.25 * chain_largest();
@@ -52,9 +51,8 @@ static void test_chain(void **state)
     bulk_destroy(&bulk);
 }
 
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     Error err = {0};
     double step = 0, largest = chain_largest();
     Bulk elastic = chain_build(1, 4, 0), viscous = chain_build(1, 0, 5);
@@ -94,9 +92,8 @@ static bool stays_finite(SteppedBlock *block, double step)
 }
 
 // The estimate is both safe and sharp, with waves ruling the step, viscosity, and in between.
-static void test_sharpness(void **state)
+TEST(test_sharpness)
 {
-    (void)state;
     const double viscosities[] = {0, 0.02, 1};
     for (size_t k = 0; k < sizeof viscosities / sizeof *viscosities; k++) {
         Error err = {0};
@@ -114,9 +111,8 @@ static void test_sharpness(void **state)
     }
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     Error err = {0};
     Bulk bulk = chain_build(1, 1, 1);
     int64_t live = memory_counters().live;
@@ -132,15 +128,4 @@ static void test_memory(void **state)
     memory_fail_after(-1);
     assert_int_equal(memory_counters().live, live);
     bulk_destroy(&bulk);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_chain),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_sharpness),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

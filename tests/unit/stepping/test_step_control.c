@@ -33,12 +33,12 @@ static void check_rules(double wave_step, double tolerance)
         assert_true(step <= 2 * last);
         if (retried) assert_true(step < last * 2);
         assert_int_equal(control->certified,
-                         certificate_holds(&control->certificate, &control->now));
+                         certificate_holds(&control->certificate, &control->now, 0));
         if (!control->certified) {
             uncertified++;
             assert_true(step <= steps.wave_step);
             assert_true(certificate_step_resolves(&control->certificate, &control->now,
-                                                  ladder_contact(&control->ladder, k)));
+                                                  ladder_contact(&control->ladder, k), 0));
         }
         longest += step == steps.step_max;
         last = step;
@@ -57,9 +57,8 @@ static void check_rules(double wave_step, double tolerance)
 
 // Every accepted step keeps every rule, and the counters add up. A wave step far too long leaves it
 // to the sign of det J to find what grows faster than the step.
-static void test_rules(void **state)
+TEST(test_rules)
 {
-    (void)state;
     check_rules(0.1, 2.7e-6);
     check_rules(8, 2.7e-4);
 }
@@ -85,18 +84,16 @@ static double peak_force(bool use_certificate, double tolerance)
 // Ten times the usual tolerance leaves the answer where it is, as long as the certificate keeps
 // steps short where slip can grow. Without it every step converges too, and friction comes out too
 // high.
-static void test_certificate_prevents_the_wrong_answer(void **state)
+TEST(test_certificate_prevents_the_wrong_answer)
 {
-    (void)state;
     double right = peak_force(true, 2.7e-6), loose = peak_force(true, 2.7e-5);
     assert_near("loose", loose, right, 2e-3 * right);
     assert_true(peak_force(false, 2.7e-5) > 1.05 * right);
 }
 
 // A finer tolerance means smaller errors and more steps.
-static void test_tolerance(void **state)
+TEST(test_tolerance)
 {
-    (void)state;
     RigDef def = pushed_def(10);
     int64_t before = 0;
     for (double tolerance = 2.7e-5; tolerance > 2.7e-8; tolerance *= 0.1) {
@@ -115,9 +112,8 @@ static void test_tolerance(void **state)
 }
 
 // The last step does not overshoot when a built rung fits.
-static void test_remaining(void **state)
+TEST(test_remaining)
 {
-    (void)state;
     RigDef def = pushed_def(10);
     StepControlDef steps = pushed_steps();
     PushedBlock run;
@@ -136,9 +132,8 @@ static void test_remaining(void **state)
 
 // Contact that is never solved, or an error that is never small enough: not accepted at any step,
 // the state untouched, the reason said.
-static void test_gives_up(void **state)
+TEST(test_gives_up)
 {
-    (void)state;
     for (int which = 0; which < 2; which++) {
         Error err = {0};
         RigDef def = pushed_def(10);
@@ -170,9 +165,8 @@ static void test_gives_up(void **state)
 
 // A tolerance of the error far too coarse: steps as long as it allows lose more energy than a run
 // may. With the ledger's tolerance given the imbalance stays within that at all times.
-static void test_energy_balance(void **state)
+TEST(test_energy_balance)
 {
-    (void)state;
     const double allowed = 1e-3;
     RigDef def = pushed_def(10);
     double largest[2] = {0};
@@ -214,9 +208,8 @@ static bool go_on(Run *run, int64_t count, double dt)
 }
 
 // Many short steps between long ones, as in an event, are no standstill.
-static void test_short_steps_that_end(void **state)
+TEST(test_short_steps_that_end)
 {
-    (void)state;
     Run run = {0};
     assert_true(go_on(&run, STEPS_LOOKED / 2, 1e-2));
     assert_true(go_on(&run, STEPS_LOOKED - 10, 1e-9));
@@ -224,9 +217,8 @@ static void test_short_steps_that_end(void **state)
 }
 
 // Nor are events that take longer than a look, at steps that resolve waves, and come again.
-static void test_long_events(void **state)
+TEST(test_long_events)
 {
-    (void)state;
     Run run = {.control.def.wave_step = 1e-9};
     for (int32_t k = 0; k < 5; k++) {
         assert_true(go_on(&run, STEPS_LOOKED / 4, 1e-2));
@@ -237,9 +229,8 @@ static void test_long_events(void **state)
 }
 
 // 1000 away at 1e-6: 1e9 steps.
-static void test_standstill(void **state)
+TEST(test_standstill)
 {
-    (void)state;
     Run run = {0};
     assert_true(go_on(&run, STEPS_LOOKED / 2, 1e-2));
     assert_false(go_on(&run, 3 * STEPS_LOOKED, 1e-6));
@@ -250,17 +241,15 @@ static void test_standstill(void **state)
 }
 
 // 1e7 steps to go are many, and no reason to refuse.
-static void test_long_runs(void **state)
+TEST(test_long_runs)
 {
-    (void)state;
     Run run = {0};
     assert_true(go_on(&run, 2 * STEPS_LOOKED, 1e-4));
 }
 
 // In the loop nothing is allocated but new rungs.
-static void test_allocations(void **state)
+TEST(test_allocations)
 {
-    (void)state;
     Error err = {0};
     RigDef def = pushed_def(10);
     StepControlDef steps = pushed_steps();
@@ -275,9 +264,8 @@ static void test_allocations(void **state)
 
 // Before the first step, when no rung is built, any way left is one to go; where no rung resolves
 // waves the shortest is the first.
-static void test_before_the_first_step(void **state)
+TEST(test_before_the_first_step)
 {
-    (void)state;
     Error err = {0};
     BlockRig rig;
     StepControl control;
@@ -293,9 +281,8 @@ static void test_before_the_first_step(void **state)
     rig_destroy(&rig);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     RigDef def = rig_def();
     StepControlDef steps = pushed_steps();
     BlockRig rig;
@@ -314,24 +301,4 @@ static void test_memory_faults(void **state)
         assert_int_equal(memory_counters().live, live);
     }
     rig_destroy(&rig);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rules),
-        cmocka_unit_test(test_certificate_prevents_the_wrong_answer),
-        cmocka_unit_test(test_tolerance),
-        cmocka_unit_test(test_remaining),
-        cmocka_unit_test(test_gives_up),
-        cmocka_unit_test(test_energy_balance),
-        cmocka_unit_test(test_short_steps_that_end),
-        cmocka_unit_test(test_long_events),
-        cmocka_unit_test(test_standstill),
-        cmocka_unit_test(test_long_runs),
-        cmocka_unit_test(test_allocations),
-        cmocka_unit_test(test_before_the_first_step),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

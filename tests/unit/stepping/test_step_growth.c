@@ -64,9 +64,8 @@ static void check_refused(const RigDef *def, const StepControlDef *steps, double
     pushed_destroy(&run);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     RigDef weak = pushed_def(12), strong = strong_def();
     StepControlDef steps = long_steps(), short_steps = strong_steps();
     check_refused(&weak, &steps, 900);
@@ -103,9 +102,8 @@ static void tricked_peak(double from, bool use_certificate, double *place, doubl
     pushed_destroy(&run);
 }
 
-static void test_large_step_proposed_past_the_critical_length(void **state)
+TEST(test_large_step_proposed_past_the_critical_length)
 {
-    (void)state;
     RigDef def = pushed_def(12);
     StepControlDef steps = long_steps();
     steps.tolerance = 2.7e-7;
@@ -169,9 +167,8 @@ static int64_t slow_rod(double velocity, double watch, double *height, int64_t *
 // Where slip oscillates, a slower rod meets more oscillations. Those that stay small are stepped
 // over: the cost stays, the friction is that of the run that follows each of them, and so is a run
 // in which the rod outruns its oscillations.
-static void test_slow_rod(void **state)
+TEST(test_slow_rod)
 {
-    (void)state;
     double height, followed;
     int64_t stepped_over, first = 0, before = 0;
     for (double velocity = 1e-5; velocity > 0.9e-8; velocity *= 0.1) {
@@ -198,9 +195,8 @@ static void test_slow_rod(void **state)
 
 // Oscillations stepped over or not, what runs away does: the growth tests alone see to that, should
 // the record cover whatever comes. Without any certificate mu goes on rising.
-static void test_runaway_of_a_slow_rod(void **state)
+TEST(test_runaway_of_a_slow_rod)
 {
-    (void)state;
     enum { AS_EVER, GULLIBLE, UNCERTIFIED, WAYS };
     double place[WAYS], height[WAYS];
     for (int way = 0; way < WAYS; way++) {
@@ -220,15 +216,4 @@ static void test_runaway_of_a_slow_rod(void **state)
     assert_near("U", place[GULLIBLE], place[AS_EVER], 0.02 * place[AS_EVER]);
     assert_near("mu", height[GULLIBLE], height[AS_EVER], 0.005 * height[AS_EVER]);
     assert_true(place[UNCERTIFIED] > 1.5 * place[AS_EVER]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_large_step_proposed_past_the_critical_length),
-        cmocka_unit_test(test_slow_rod),
-        cmocka_unit_test(test_runaway_of_a_slow_rod),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

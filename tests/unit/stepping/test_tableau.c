@@ -40,9 +40,8 @@ static double complex exact_way(double complex lambda, double drive, double dt)
 
 // Damped, oscillating, and driven by a force that grows in time: the estimate tends to the error,
 // and the error falls as dt^(order + 1).
-static void test_estimate_is_the_local_error(void **state)
+TEST(test_estimate_is_the_local_error)
 {
-    (void)state;
     const struct {
         double complex lambda;
         double drive;
@@ -68,9 +67,8 @@ static void test_estimate_is_the_local_error(void **state)
 
 // Closed forms: -1/2, 1/6 - gamma^2 (3 - 2 gamma), 1/24 - gamma/2 + 3 gamma^2/2 ... of exp(z) -
 // R(z), whose next coefficient for R = P/(1 - gamma z)^3 follows from P.
-static void test_error_constants(void **state)
+TEST(test_error_constants)
 {
-    (void)state;
     double g = 1 - sqrt(0.5), h = 0.43586652150845899942;
     // R = (1 + p1 z + p2 z^2)/(1 - h z)^3: its z^4 is 15 h^4 + 10 h^3 p1 + 6 h^2 p2
     double p1 = 1 - 3 * h, p2 = 0.5 - 3 * h + 3 * h * h;
@@ -86,9 +84,8 @@ static void test_error_constants(void **state)
 }
 
 // What moves on evenly has no error, and stages are summed to their places.
-static void test_even_motion(void **state)
+TEST(test_even_motion)
 {
-    (void)state;
     for (int32_t s = 0; s < KINDS_COUNT; s++) {
         Tableau tableau = tableau_of(KINDS[s]);
         double sum = tableau.error[0];
@@ -101,14 +98,4 @@ static void test_even_motion(void **state)
         assert_near("even motion", sum, 0, 1e-15);
         assert_near("ends at 1", tableau.c[tableau.stages - 1], 1, 1e-15);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_estimate_is_the_local_error),
-        cmocka_unit_test(test_error_constants),
-        cmocka_unit_test(test_even_motion),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,9 +16,8 @@ static double largest_root(const double *a, double first, double second)
     return (-linear + root) / (2 * square);
 }
 
-static void test_two_unknowns(void **state)
+TEST(test_two_unknowns)
 {
-    (void)state;
     Random random = {.state = 3};
     for (int32_t trial = 0; trial < 100; trial++) {
         MovingUnknown list[2] = {{.weakening = random_between(&random, 0.1, 2)},
@@ -37,9 +36,8 @@ static void test_two_unknowns(void **state)
 }
 
 // The eigenvalues of A^-1 W are a complex pair: no power of it grows like the one before.
-static void test_never_settled(void **state)
+TEST(test_never_settled)
 {
-    (void)state;
     MovingUnknown list[2] = {{.weakening = 1}, {.weakening = 0.25}};
     MovingSet set = {.list = list, .count = 2, .weakens = true};
     double a[4] = {1, -3, 3, 0}, work[2];
@@ -48,9 +46,8 @@ static void test_never_settled(void **state)
     assert_true(isinf(weakening_ratio(&set, a, pivots, 1e-6, work)));
 }
 
-static void test_top(void **state)
+TEST(test_top)
 {
-    (void)state;
     for (double top = -0.45; top < 0.5; top += 0.1) {
         double ratio[3], octaves;
         for (int32_t k = 0; k < 3; k++) ratio[k] = 0.7 - 0.2 * (k - 1 - top) * (k - 1 - top);
@@ -59,12 +56,4 @@ static void test_top(void **state)
     }
     double octaves, rising[3] = {1, 2, 4};
     assert_true(weakening_ratio_top(rising, &octaves) == 2 && octaves == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_two_unknowns),
-                                       cmocka_unit_test(test_never_settled),
-                                       cmocka_unit_test(test_top)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

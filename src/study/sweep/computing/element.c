@@ -18,7 +18,6 @@
 #include "io/text/json_reader.h"
 #include "io/text/json_writer.h"
 #include "study/sweep/computing/share.h"
-#include "study/sweep/reading/study_point.h"
 #include "study/sweep/reading/study_read.h"
 #include "study/sweep/reading/study_vary.h"
 

@@ -9,7 +9,6 @@
 #include "study/sweep/computing/pool.h"
 
 #include <dirent.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -19,7 +19,6 @@
 #include "study/sweep/computing/slurm_jobs.h"
 #include "study/sweep/computing/tally.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>

@@ -7,7 +7,6 @@
 #include "base/program.h"
 #include "io/files/part_file.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>

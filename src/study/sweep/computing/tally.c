@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "io/text/json_reader.h"
 #include "study/sweep/computing/record_check.h"
-#include "study/sweep/reading/study_point.h"
 
 #include <math.h>
 

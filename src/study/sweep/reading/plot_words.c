@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { KEY_LOG = PLOT_KEYS, KEY_NAME, KEY_WITH, KEYS };
+enum { KEY_LOG = PLOT_KEYS, KEY_NAME, KEY_WITH, KEY_COMPARE, KEYS };
 
 static const char *const NAMES[KEYS] = {"x",      "y",   "color", "contours", "series",
-                                        "panels", "log", "name",  "with"};
+                                        "panels", "log", "name",  "with",     "compare"};
 
 const char *plot_key_name(PlotKey key)
 {
@@ -76,6 +76,8 @@ static bool check_together(const YamlDocument *file, YamlNode map, const StudyPl
     if (!is_map && plot->text[PLOT_CONTOURS][0])
         yaml_error(file, plot->node[PLOT_CONTOURS], err,
                    "contours: only a map has them, which needs `color`");
+    if (is_map && plot->compare[0])
+        yaml_error(file, map, err, "compare: measurements are drawn over curves, not over a map");
     return error_is_clean(err);
 }
 
@@ -97,6 +99,7 @@ bool plot_words_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Er
     plot->log_y = log == 2 || log == 3;
     TRY(read_name(file, &keys[KEY_NAME], plot, err));
     TRY(read_with(file, &keys[KEY_WITH], plot, err));
+    TRY(read_text(file, &keys[KEY_COMPARE], plot->compare, PLOT_FOLDER_SIZE, err));
     TRY(check_together(file, map, plot, err));
 cleanup:
     return error_is_clean(err);

@@ -3,6 +3,7 @@
 //
 //     {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}          curves
 //     {x: load.pressure, y: mesh.set.length, color: mu_M, contours: l_c}    a map
+//     {x: load.pressure, y: mu_M, compare: measured.csv}    beside measurements
 //
 // Each quantity is a column of the sweep's table, or a formula over columns that begins with `=`.
 #ifndef AMONTONS_STUDY_SWEEP_READING_PLOT_WORDS_H
@@ -30,6 +31,7 @@ typedef struct StudyPlot {
     int32_t with_count;
     char with[PLOT_WITH_MAX][PLOT_FOLDER_SIZE];   // other sweeps to show beside: their folders, as
         // seen from the file's, or from the working folder where there is none
+    char compare[PLOT_FOLDER_SIZE];   // a table of measurements, seen likewise; empty: none
 } StudyPlot;
 
 const char *plot_key_name(PlotKey key);   // "x"; static storage

@@ -6,7 +6,7 @@
 //
 //     search: {mesh.set.n: {whole: [1, 12]}, mesh.set.pad_height: {log: [0.01, 0.2]}}
 //     where: [{value: = mesh.set.n * mesh.set.pad_height, most: 0.6}]
-//     best: {over: worst, designs: 40, seed: 1}
+//     best: {over: worst, designs: 40, seed: 1}   # or mean, deviation, front
 //
 // Or it fits measurements (study/search/fit):
 //
@@ -37,12 +37,20 @@ typedef struct SearchLimit {
     double least, most;   // infinite: no limit
 } SearchLimit;
 
+// What a design is worth over the points of `vary`.
+typedef enum SearchOver {
+    OVER_WORST,
+    OVER_MEAN,
+    OVER_DEVIATION,   // the standard deviation: least is best
+    OVER_FRONT,   // each point is an aim of its own (study/search/front)
+} SearchOver;
+
 typedef struct StudySearch {
     YamlNode node;   // of `search`; YAML_NO_NODE: the study does not search
     int32_t key_count, limit_count;
     SearchKey keys[STUDY_SEARCH_MAX];
     SearchLimit limits[STUDY_LIMITS_MAX];
-    bool mean;   // over the points of `vary`; else the worst of them counts
+    SearchOver over;
     int32_t designs;   // that are chosen by the search
     uint32_t seed;
     bool fits;   // measurements: it has `fit`, not `best`

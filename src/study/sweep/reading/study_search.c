@@ -108,7 +108,7 @@ cleanup:
 // `best`, or `fit`, which has `measured` and `sure` in place of `over`.
 static bool read_goal(Study *study, Error *err)
 {
-    static const char *const over[] = {"worst", "mean"};
+    static const char *const over[] = {"worst", "mean", "deviation", "front"};
     StudySearch *search = &study->search;
     WantedKey keys[] = {{.name = "designs"}, {.name = "seed"}, {.name = "over"}, {.name = "sure"}};
     YamlNode goal = yaml_look_up(study->file, search->fits ? "fit" : "best");
@@ -120,9 +120,9 @@ static bool read_goal(Study *study, Error *err)
                         search->fits ? 4 : 3, err));
         TRY(read_whole(study, &keys[0], STUDY_DESIGNS_MAX, &designs, err));
         TRY(read_whole(study, &keys[1], INT32_MAX, &seed, err));
-        if (!search->fits) TRY(wanted_choice(study->file, &keys[2], over, 2, &choice, err));
+        if (!search->fits) TRY(wanted_choice(study->file, &keys[2], over, 4, &choice, err));
     }
-    search->mean = choice == 1;
+    search->over = (SearchOver)choice;
     search->designs = (int32_t)designs;
     search->seed = (uint32_t)seed;
     if (!search->fits) goto cleanup;

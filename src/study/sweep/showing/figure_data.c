@@ -2,10 +2,13 @@
 #include "study/sweep/showing/figure_data.h"
 
 #include "base/memory.h"
+#include "base/order.h"
+#include "study/sweep/showing/figure_file.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double LOG_SUITS = 0.75;   // scatter of ratios (their logarithms) over that of steps
 
@@ -50,7 +53,7 @@ static bool find_doubts(Source *source, bool is_map, Error *err)
     PlotTable *table = &source->table;
     const Quantity *shown = source->quantity[is_map ? PLOT_COLOR : PLOT_Y];
     double unknown = 0;
-    TRY(words_index(&table->kinds, "error not known", &unknown, err));
+    TRY(words_index(&table->kinds, DOUBT_NO_ERROR, &unknown, err));
     TRY(source->doubts = NEW_ARRAY(uint32_t, table->count, err));
     for (int32_t k = 0; k < table->count; k++) {
         source->doubts[k] = (uint32_t)table->warned[k];
@@ -86,6 +89,16 @@ bool values_hold(const Values *values, int32_t which, int32_t point)
     return !values->key || values->key->values[point] == values->value[which];
 }
 
+// "~{L} / ~{L}_{0} = 0.25", in SI "~{L} = 0.25 m"; without a symbol the last word of the key.
+static void number_label(const QuantityLabel *key, const char *word, double value,
+                         char label[GROUP_LABEL_SIZE])
+{
+    const char *mark = strstr(key->words, "~{");
+    if (mark && !strstr(mark, "(of")) word = mark;
+    snprintf(label, GROUP_LABEL_SIZE, "%.60s = %.4g%s%s", word, value, key->unit ? " " : "",
+             key->unit ? key->unit : "");
+}
+
 void values_label(const Values *values, int32_t which, const char *name,
                   char label[GROUP_LABEL_SIZE])
 {
@@ -96,16 +109,10 @@ void values_label(const Values *values, int32_t which, const char *name,
         snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.40s", word,
                  values->key->words.words[(int32_t)values->value[which]]);
     else
-        snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.4g", word, values->value[which]);
+        number_label(&values->key->label, word, values->value[which], label);
 }
 
 // --- scale --------------------------------------------------------------------------------------
-
-static int compare_numbers(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return a < b ? -1 : a > b;
-}
 
 // Standard deviation over mean of the differences of [count] rising values, or of the logarithms of
 // their ratios.
@@ -129,7 +136,7 @@ bool values_suit_log(const double *values, int32_t count, bool *suits, Error *er
     if (!sorted) return false;
     for (int32_t k = 0; k < count; k++)
         if (isfinite(values[k])) sorted[kept++] = values[k];
-    qsort(sorted, (size_t)kept, sizeof *sorted, compare_numbers);
+    qsort(sorted, (size_t)kept, sizeof *sorted, order_doubles);
     int32_t found = kept > 0;
     for (int32_t k = 1; k < kept; k++)
         if (sorted[k] > sorted[found - 1]) sorted[found++] = sorted[k];

@@ -22,16 +22,21 @@ cleanup:
 
 bool figure_begin(Figure *figure, Error *err)
 {
-    char path[AMONTONS_PATH_SIZE];
+    char path[AMONTONS_PATH_SIZE], name[AMONTONS_PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
         FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
     TRY(folder_make(path, err));
-    TRY(figure_path(figure, "json", path, err));
-    TRY((figure->json = json_create(path, err)));
+    TRY(figure_path(figure, "json", name, err));
+    TRY((figure->json = json_create(name, err)));
     json_begin_object(figure->json, NULL);
     json_text(figure->json, "title", figure->title);
     json_begin_object(figure->json, "page");   // what it shows is said where it is printed
     json_text(figure->json, "title", "none");
+    if (figure->compare) {
+        char file[AMONTONS_PATH_SIZE];
+        folder_relative(path, figure->compare, file, sizeof file);
+        json_text(figure->json, "compare", file);
+    }
     json_end(figure->json);
 cleanup:
     return error_is_clean(err);
@@ -72,8 +77,7 @@ static bool store_numbers(Figure *figure, const char *key, const double *values,
         TRY(figure_path(figure, "h5", path, err));
         TRY(figure->arrays = array_file_create(path, err));
     }
-    TRY(array_file_add_series(figure->arrays, &series, err));
-    TRY(array_file_append(figure->arrays, name, values, count, err));
+    TRY(array_file_write(figure->arrays, &series, values, 0, count, err));
     snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
     json_text(figure->json, key, place);
 cleanup:
@@ -98,6 +102,7 @@ void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *la
     json_begin_object(figure->json, name);
     json_text(figure->json, "label", label->words);
     if (label->unit) json_text(figure->json, "unit", label->unit);
+    if (label->column) json_text(figure->json, "column", label->column);
     if (scale) json_text(figure->json, "scale", scale);
     json_end(figure->json);
 }
@@ -145,19 +150,32 @@ bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
 }
 
 // One entry: one symbol has one meaning, of which there may be several reasons.
-bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err)
+uint32_t figure_no_error(const WordList *names)
 {
-    int32_t all = __builtin_popcount(doubts), shown = 0;
+    for (int32_t k = 0; k < names->count; k++)
+        if (strcmp(names->words[k], DOUBT_NO_ERROR) == 0) return (uint32_t)1 << k;
+    return 0;
+}
+
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
+                         Error *err)
+{
+    uint32_t no_error = figure_no_error(names), warned = doubts & ~no_error;
+    int32_t all = __builtin_popcount(warned), shown = 0;
     char label[LABEL_SIZE] = "open: ";
     for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
         size_t used = strlen(label);
-        if (!(doubts >> k & 1)) continue;
+        if (!(warned >> k & 1)) continue;
         bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
         snprintf(label + used, sizeof label - used, "%s%.70s%s", shown > 1 ? ", or " : "",
                  names->words[k], has_more ? ", others" : "");
     }
     Curve entry = {.label = label, .line = "none", .marker = "circle"};
+    Curve bare = {.label = map ? DOUBT_NO_ERROR : "without a bar: " DOUBT_NO_ERROR,
+                  .line = "none",
+                  .marker = map ? "square" : NULL};
     if (shown > 0) TRY(figure_write_entry(figure, &entry, err));
+    if (doubts & no_error) TRY(figure_write_entry(figure, &bare, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -14,6 +14,7 @@
 typedef struct Figure {
     const char *folder, *name, *title;   // of the sweep; "ranking"; of the study
     const PictureStyle *style;   // NULL: the usual one
+    const char *compare;   // a table of measurements, from the working folder; NULL: none
     JsonWriter *json;
     ArrayFile *arrays;   // owned; NULL: all stands in the text
     int32_t written, stored;   // numbers in the text; arrays in the file
@@ -42,8 +43,12 @@ bool figure_write_numbers(Figure *figure, const char *key, const double *values,
 bool figure_write_curve(Figure *figure, const Curve *curve, Error *err);
 // A curve without a point: its words and its sample stand in the legend.
 bool figure_write_entry(Figure *figure, const Curve *curve, Error *err);
-// Entries that name doubts about open marks: at most two, as the format has room for beside 15
-// curves of two. Bit k of `doubts`: of the k-th of `names`.
-bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err);
+// What runs are warned of has open marks, and an entry that names at most two kinds; an error that
+// is not known is another thing: a mark without a bar, of a map a square. Bit k of `doubts`: of the
+// k-th of `names`.
+#define DOUBT_NO_ERROR "error not known"
+uint32_t figure_no_error(const WordList *names);   // its bit, 0: it is none of the names
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
+                         Error *err);
 
 #endif

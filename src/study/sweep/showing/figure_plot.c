@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Curves: one for each value of `series` and each sweep, told apart by colours and marks. Maps: one
 // for each sweep. `panels` draws each value of a key in a frame of its own. Bars are the errors of
-// the table; open marks are points whose runs warned, or whose error is not known: the legend says
-// which.
+// the table; open marks are points whose runs warned, marks without a bar (of a map: squares) those
+// whose error is not known.
 #include "study/sweep/showing/figure_plot.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -38,7 +39,7 @@ static bool folder_of(const char *beside, const char *given, char folder[AMONTON
     int length = slash && given[0] != '/' ? (int)(slash - beside) + 1 : 0;
     if (snprintf(folder, AMONTONS_PATH_SIZE, "%.*s%s", length, length ? beside : "", given) >=
         AMONTONS_PATH_SIZE)
-        FAIL(err, ERROR_INPUT, "with: the path %.60s is too long", given);
+        FAIL(err, ERROR_INPUT, "plot: the path %.60s is too long", given);
 cleanup:
     return error_is_clean(err);
 }
@@ -138,12 +139,6 @@ typedef struct PlotPoint {
     uint32_t doubts;
 } PlotPoint;
 
-static int compare_x(const void *left, const void *right)
-{
-    double a = ((const PlotPoint *)left)->x, b = ((const PlotPoint *)right)->x;
-    return a < b ? -1 : a > b;
-}
-
 // Those of one curve in one panel, along x. points: [count of the table]. Returns how many.
 static int32_t gather_points(const Source *source, int32_t curve, int32_t panel, PlotPoint *points)
 {
@@ -158,7 +153,7 @@ static int32_t gather_points(const Source *source, int32_t curve, int32_t panel,
                                       .error = y->errors ? y->errors[k] : (double)NAN,
                                       .doubts = source->doubts[k]};
     }
-    qsort(points, (size_t)count, sizeof *points, compare_x);
+    qsort(points, (size_t)count, sizeof *points, order_doubles);
     return count;
 }
 
@@ -167,13 +162,14 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
                          Error *err)
 {
     double *x = self->work, *y = x + count, *error = y + count, *open = error + count;
-    uint32_t found = 0;
+    uint32_t found = 0, warned = 0, no_error = figure_no_error(&self->doubts);
     for (int32_t k = 0; k < count; k++) {
         x[k] = points[k].x;
         y[k] = points[k].y;
         error[k] = points[k].error;
-        open[k] = points[k].doubts ? y[k] : NAN;
+        open[k] = points[k].doubts & ~no_error ? y[k] : NAN;
         found |= points[k].doubts;
+        warned |= points[k].doubts & ~no_error;
     }
     curve.count = count;
     curve.x = x;
@@ -181,7 +177,7 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
     curve.error = error;
     TRY(figure_write_curve(&self->figure, &curve, err));
     self->found |= found;
-    if (found) {
+    if (warned) {
         curve.label = "";
         curve.line = "none";
         curve.filled = false;
@@ -287,6 +283,7 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
     const Quantity *const *quantity = source->quantity;
     const Quantity *lines = quantity[PLOT_CONTOURS];
     int32_t all = source->table.count, count = 0;
+    uint32_t no_error = figure_no_error(&self->doubts);
     double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
     double *open = contour + all;
     for (int32_t k = 0; k < all; k++) {
@@ -297,8 +294,9 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
         value[count] = quantity[PLOT_COLOR]->values[k];
         contour[count] = lines ? lines->values[k] : 0;
         bool has_value = isfinite(value[count]);
-        open[count++] = has_value && source->doubts[k];
-        if (has_value) self->found |= source->doubts[k];
+        uint32_t doubts = has_value ? source->doubts[k] : 0;
+        open[count++] = doubts & ~no_error ? 1 : doubts ? 2 : 0;
+        if (has_value) self->found |= doubts & ~no_error ? doubts & ~no_error : doubts;
         self->some_missing |= !has_value;
     }
     TRY(check_places(self, x, y, count, err));
@@ -352,7 +350,9 @@ static bool write_axes(PlotFigure *self, Error *err)
         const Quantity *quantity = source->quantity[key];
         if (self->is_map && !plot->log_given)
             TRY(values_suit_log(quantity->values, source->table.count, &is_log[key], err));
-        figure_write_axis(&self->figure, plot_key_name(key), &quantity->label,
+        QuantityLabel label = quantity->label;
+        label.column = plot->text[key] + strspn(plot->text[key], "= ");
+        figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }
     if (source->quantity[PLOT_COLOR])
@@ -399,7 +399,7 @@ static bool write_figure(PlotFigure *self, Error *err)
         TRY(write_curve_entries(self, err));
     else
         TRY(write_curves(self, self->panels.words[0], true, err));
-    TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, err));
+    TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, self->is_map, err));
     json_end(self->figure.json);
 cleanup:
     return error_is_clean(err);
@@ -408,10 +408,15 @@ cleanup:
 bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plot,
                     const PictureStyle *style, Error *err)
 {
+    char compare[AMONTONS_PATH_SIZE];
     PlotFigure self = {.figure = {.folder = folder, .name = plot->name, .style = style},
                        .plot = plot,
                        .is_map = plot->text[PLOT_COLOR][0]};
     TRY(open_sources(&self, folder, beside, err));
+    if (plot->compare[0]) {
+        TRY(folder_of(beside, plot->compare, compare, err));
+        self.figure.compare = compare;
+    }
     bool of_study = beside && plot->with_count == 0;   // else its title says something else
     self.figure.title = of_study ? self.sources[0].table.title : "";
     write_figure(&self, err);

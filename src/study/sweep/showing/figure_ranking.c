@@ -66,7 +66,8 @@ static bool write_marks(RankingFigure *self, bool open, Error *err)
     double x[ROWS_MAX], y[ROWS_MAX], error[ROWS_MAX];
     for (int32_t k = 0; k < self->shown; k++) {
         const RankRow *row = &self->ranking->rows[k];
-        x[k] = !open || self->bits[row->point] > 0 ? row->value : NAN;
+        bool warned = (uint32_t)self->bits[row->point] & ~figure_no_error(&self->doubts);
+        x[k] = !open || warned ? row->value : NAN;
         y[k] = self->shown - k;
         error[k] = row->error;
     }
@@ -102,7 +103,7 @@ static bool find_doubts(RankingFigure *self, const SweepTable *table, Error *err
     double unknown = 0;
     TRY(self->bits = NEW_ARRAY(double, table->warned.all, err));
     TRY(warned_bits(&table->warned, &self->doubts, self->bits, err));
-    TRY(words_index(&self->doubts, "error not known", &unknown, err));
+    TRY(words_index(&self->doubts, DOUBT_NO_ERROR, &unknown, err));
     for (int32_t k = 0; k < self->shown; k++) {
         const RankRow *row = &self->ranking->rows[k];
         uint32_t bits = (uint32_t)self->bits[row->point];
@@ -127,7 +128,7 @@ static bool write_figure(RankingFigure *self, Error *err)
     TRY(write_baseline(self, err));
     TRY(write_marks(self, false, err));
     if (self->found) TRY(write_marks(self, true, err));
-    TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, err));
+    TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, false, err));
     json_end(json);
 cleanup:
     return error_is_clean(err);

@@ -7,7 +7,6 @@
 #include "base/text.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -179,8 +178,8 @@ static bool value_of(const void *context, const char *name, double *value)
     return column != NULL;
 }
 
-// "pressure · length": columns by their short names.
-static void formula_label(const char *text, char *words, size_t size)
+// "~{P}_{ext} · ~{L}": columns by their symbols.
+static void formula_label(const char *text, bool is_si, char *words, size_t size)
 {
     size_t used = 0;
     while (*text == ' ') text++;
@@ -193,9 +192,9 @@ static void formula_label(const char *text, char *words, size_t size)
             length++;
         if (length > 0) {
             snprintf(name, sizeof name, "%.*s", (int)length, text);
-            const char *shown = strchr(name, '.') ? label_last_word(name)
-                                                  : label_of_record(name).words;
-            used += (size_t)snprintf(words + used, size - used, "%.40s", shown);
+            QuantityLabel record = label_of_record(name);
+            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
+            used += (size_t)snprintf(words + used, size - used, "%.40s", record.words);
             text += length;
         } else {
             const char one[2] = {*text, 0};
@@ -204,6 +203,7 @@ static void formula_label(const char *text, char *words, size_t size)
             text++;
         }
     }
+    snprintf(words + used, size - used, " (%s)", is_si ? "SI" : "normalised");
 }
 
 static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *err)
@@ -222,7 +222,7 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
         }
         made->values[k] = formula_at(&formula, 0, &ignored);
     }
-    formula_label(text, made->label.words, sizeof made->label.words);
+    formula_label(text, table->is_si, made->label.words, sizeof made->label.words);
 cleanup:
     return error_is_clean(err);
 }

@@ -57,6 +57,16 @@ static void key_words(const char *name, char words[QUANTITY_LABEL_SIZE], bool *i
     }
 }
 
+void label_symbol(const char *key, char *symbol, size_t size)
+{
+    char words[QUANTITY_LABEL_SIZE];
+    bool is_length = false;
+    key_words(key, words, &is_length);
+    const char *mark = strstr(words, "~{");
+    bool known = mark && !strchr(mark, '(');   // of a mesh's parameter only the name is known
+    snprintf(symbol, size, "%.60s", known ? mark : label_last_word(key));
+}
+
 QuantityLabel label_of_key(const char *name, bool is_si)
 {
     static const struct {

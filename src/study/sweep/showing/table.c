@@ -267,8 +267,7 @@ static bool write_column(ArrayFile *file, ArraySeries series, const double *valu
     series.type = ARRAY_FLOAT64;
     series.width = 1;
     series.unit = "of the scene";
-    return array_file_add_series(file, &series, err) &&
-           array_file_append(file, series.name, values, count, err);
+    return array_file_write(file, &series, values, 0, count, err);
 }
 
 // "push|bonded": the word of index k is the k-th.

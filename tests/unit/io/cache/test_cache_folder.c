@@ -36,9 +36,8 @@ static CacheFolder folder_now(void)
     return folder;
 }
 
-static void test_longest_unused_goes_first(void **state)
+TEST_BETWEEN(test_longest_unused_goes_first, cache_begin, cache_end)
 {
-    (void)state;
     int64_t live = memory_counters().live, bytes = 0;
     char keep[2 * PLACE_SIZE];
     make_file(name_of('b', "basis"), 300, 20);
@@ -90,9 +89,8 @@ static void read_cache(char letter)
 }
 
 // Three files of some 1000 bytes where there is room for two: the one that was read stays.
-static void test_writing_keeps_the_limit(void **state)
+TEST_BETWEEN(test_writing_keeps_the_limit, cache_begin, cache_end)
 {
-    (void)state;
     double values[100] = {0};
     const struct timespec old[2] = {{.tv_sec = 100}, {.tv_sec = 100}};
     const struct timespec newer[2] = {{.tv_sec = 200}, {.tv_sec = 200}};
@@ -114,9 +112,8 @@ static void test_writing_keeps_the_limit(void **state)
     cache_folder_destroy(&folder);
 }
 
-static void test_limit(void **state)
+TEST_BETWEEN(test_limit, cache_begin, cache_end)
 {
-    (void)state;
     const struct {
         const char *word;
         int64_t bytes;
@@ -143,24 +140,12 @@ static void test_limit(void **state)
     assert_int_equal(bytes, 2000000000);
 }
 
-static void test_no_folder(void **state)
+TEST_BETWEEN(test_no_folder, cache_begin, cache_end)
 {
-    (void)state;
     setenv("AMONTONS_CACHE", place_path(cache, "not-there"), 1);
     CacheFolder folder = folder_now();
     assert_int_equal(folder.count, 0);
     setenv("AMONTONS_CACHE", "", 1);
     folder = folder_now();
     assert_string_equal(folder.path, "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_longest_unused_goes_first, cache_begin, cache_end),
-        cmocka_unit_test_setup_teardown(test_writing_keeps_the_limit, cache_begin, cache_end),
-        cmocka_unit_test_setup_teardown(test_limit, cache_begin, cache_end),
-        cmocka_unit_test_setup_teardown(test_no_folder, cache_begin, cache_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

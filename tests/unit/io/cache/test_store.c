@@ -102,9 +102,8 @@ static void path_of(const char *key, char path[2 * PLACE_SIZE])
     snprintf(path, 2 * PLACE_SIZE, "%s/%s.basis", cache, key);
 }
 
-static void test_round_trip(void **state)
+TEST_BETWEEN(test_round_trip, cache_begin, cache_end)
 {
-    (void)state;
     Thing thing;
     double *lent;
     char note[CACHE_NOTE_SIZE];
@@ -145,9 +144,8 @@ static void spill(const char *path, const char *bytes, size_t size)
 }
 
 // Every length below the whole, and some above it.
-static void test_every_cut(void **state)
+TEST_BETWEEN(test_every_cut, cache_begin, cache_end)
 {
-    (void)state;
     char path[2 * PLACE_SIZE];
     size_t size;
     path_of(KEY, path);
@@ -167,9 +165,8 @@ static void test_every_cut(void **state)
 }
 
 // One bit in each byte, and each byte set to values that numbers of entries are sensitive to.
-static void test_every_byte(void **state)
+TEST_BETWEEN(test_every_byte, cache_begin, cache_end)
 {
-    (void)state;
     Thing thing;
     double *lent;
     char path[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE];
@@ -206,9 +203,8 @@ static void test_every_byte(void **state)
 }
 
 // A whole file of something else: more, less, or what `list` refuses.
-static void test_other_contents(void **state)
+TEST_BETWEEN(test_other_contents, cache_begin, cache_end)
 {
-    (void)state;
     char path[2 * PLACE_SIZE], other[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE] = "";
     Thing thing = {SHORT_ARRAY, numbers, odd};
     double *lent;
@@ -233,9 +229,8 @@ static void test_other_contents(void **state)
     }
 }
 
-static void test_foreign_files(void **state)
+TEST_BETWEEN(test_foreign_files, cache_begin, cache_end)
 {
-    (void)state;
     Thing thing;
     double *lent;
     char path[2 * PLACE_SIZE], other[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE];
@@ -273,9 +268,8 @@ static void test_foreign_files(void **state)
 }
 
 // Four processes write the same file over and over; a reader beside them sees a whole file or none.
-static void test_many_writers(void **state)
+TEST_BETWEEN(test_many_writers, cache_begin, cache_end)
 {
-    (void)state;
     enum { WRITERS = 4, ROUNDS = 25 };
     Thing thing;
     double *lent;
@@ -317,9 +311,8 @@ static void test_many_writers(void **state)
 }
 
 // Nowhere to write to: a note that says so, and nothing left behind. No cache, no key: no note.
-static void test_no_room(void **state)
+TEST_BETWEEN(test_no_room, cache_begin, cache_end)
 {
-    (void)state;
     Thing thing = {SHORT_ARRAY, numbers, odd};
     CacheItem item = item_of(KEY, &thing);
     char path[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE] = "";
@@ -345,9 +338,8 @@ static void test_no_room(void **state)
     assert_string_equal(note, "");
 }
 
-static void test_removed_and_locked(void **state)
+TEST_BETWEEN(test_removed_and_locked, cache_begin, cache_end)
 {
-    (void)state;
     FileLock lock;
     char path[2 * PLACE_SIZE];
     path_of(KEY, path);
@@ -361,9 +353,8 @@ static void test_removed_and_locked(void **state)
     file_lock_release(&lock);
 }
 
-static void test_memory_faults(void **state)
+TEST_BETWEEN(test_memory_faults, cache_begin, cache_end)
 {
-    (void)state;
     char note[CACHE_NOTE_SIZE];
     write_thing(SHORT_ARRAY);
     int64_t live = memory_counters().live;
@@ -389,16 +380,4 @@ static void test_memory_faults(void **state)
     assert_false(cache_store(&item, note));
     memory_fail_after(-1);
     assert_int_equal(memory_counters().live, live);
-}
-
-#define CASE(test) cmocka_unit_test_setup_teardown(test, cache_begin, cache_end)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        CASE(test_round_trip),     CASE(test_every_cut),          CASE(test_every_byte),
-        CASE(test_other_contents), CASE(test_foreign_files),      CASE(test_many_writers),
-        CASE(test_no_room),        CASE(test_removed_and_locked), CASE(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

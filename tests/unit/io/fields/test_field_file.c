@@ -6,12 +6,9 @@
 #include "io/fields/field_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
-#include <math.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +16,6 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { POINTS = 25, CELLS = 5, LINES = 4 };
 
@@ -48,9 +43,8 @@ static void fill_values(void)
     for (int32_t e = 0; e < CELLS; e++) cell_values[e] = -1.0 / (e + 3);
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     fill_values();
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
@@ -58,9 +52,8 @@ static int make_folder(void **state)
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[300];
     if (getenv("AMONTONS_TEST_OUTPUT")) return 0;
     snprintf(command, sizeof command, "rm -r %s", folder);
@@ -127,9 +120,8 @@ static void assert_file_has(const char *words)
     if (!strstr(text, words)) fail_msg("%s lacks %s", path, words);
 }
 
-static void grids_are_appended_compressed_and_wide(void **state)
+TEST(grids_are_appended_compressed_and_wide)
 {
-    (void)state;
     Error err = {0};
     FieldGrid bulk = bulk_grid(), lines = line_grid();
     name_file("bulk.vtu");
@@ -147,9 +139,8 @@ static void grids_are_appended_compressed_and_wide(void **state)
     assert_false(exists(part));
 }
 
-static void the_collection_lists_files_against_time(void **state)
+TEST(the_collection_lists_files_against_time)
 {
-    (void)state;
     Error err = {0};
     const FieldSeriesEntry entries[] = {{0, "bulk", "fields/bulk_0000.vtu"},
                                         {0, "interface", "fields/interface_0000.vtp"},
@@ -172,9 +163,8 @@ static void assert_error(Error *err, ErrorCode code, const char *words, const ch
     error_clear(err);
 }
 
-static void a_missing_folder_is_named(void **state)
+TEST(a_missing_folder_is_named)
 {
-    (void)state;
     Error err = {0};
     FieldGrid bulk = bulk_grid(), lines = line_grid();
     assert_false(field_file_write_vtu("/nonexistent/a.vtu", &bulk, &err));
@@ -187,9 +177,8 @@ static void a_missing_folder_is_named(void **state)
     assert_error(&err, ERROR_FILE, "/proc/a.pvd", "");
 }
 
-static void a_grid_that_is_none_is_refused(void **state)
+TEST(a_grid_that_is_none_is_refused)
 {
-    (void)state;
     Error err = {0};
     name_file("wrong.vtu");
     const int64_t falling[] = {0, 4, 2, 21, 24, 30}, shifted[] = {1, 4, 12, 21, 24, 30};
@@ -223,9 +212,8 @@ static void a_grid_that_is_none_is_refused(void **state)
 }
 
 // A limit on the size of files stands in for a full disk.
-static void a_full_disk_leaves_the_earlier_file(void **state)
+TEST(a_full_disk_leaves_the_earlier_file)
 {
-    (void)state;
     Error err = {0};
     FieldGrid bulk = bulk_grid();
     name_file("full.vtu");
@@ -252,9 +240,8 @@ static void a_full_disk_leaves_the_earlier_file(void **state)
     assert_int_equal(before.st_size, after.st_size);
 }
 
-static void a_missing_module_is_named(void **state)
+TEST(a_missing_module_is_named)
 {
-    (void)state;
     Error err = {0};
     FieldGrid bulk = bulk_grid();
     name_file("module.vtu");
@@ -268,9 +255,8 @@ static void a_missing_module_is_named(void **state)
     assert_false(exists(path) || exists(part));
 }
 
-static void every_path_frees_when_memory_is_short(void **state)
+TEST(every_path_frees_when_memory_is_short)
 {
-    (void)state;
     Error err = {0};
     const FieldSeriesEntry entry = {0, "bulk", "fields/bulk_0000.vtu"};
     int64_t live = memory_counters().live;
@@ -283,16 +269,4 @@ static void every_path_frees_when_memory_is_short(void **state)
     assert_false(exists(path) || exists(part));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grids_are_appended_compressed_and_wide),
-        cmocka_unit_test(the_collection_lists_files_against_time),
-        cmocka_unit_test(a_missing_folder_is_named),
-        cmocka_unit_test(a_grid_that_is_none_is_refused),
-        cmocka_unit_test(a_full_disk_leaves_the_earlier_file),
-        cmocka_unit_test(a_missing_module_is_named),
-        cmocka_unit_test(every_path_frees_when_memory_is_short),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

@@ -58,9 +58,8 @@ static bool read_parts(const Parts *parts, FieldFrame *frame, Error *err)
     return field_frame_read(path, frame, err);
 }
 
-static void test_frame(void **state)
+TEST(test_frame)
 {
-    (void)state;
     Error err;
     FieldFrame frame;
     if (!read_parts(&GOOD, &frame, &err)) fail_msg("%s", err.message);
@@ -84,9 +83,8 @@ static void assert_damaged(Parts parts, const char *says)
         fail_msg("'%s' does not say '%s'", err.message, says);
 }
 
-static void test_damaged(void **state)
+TEST(test_damaged)
 {
-    (void)state;
     Parts parts = GOOD;
     parts.types = "5 3";   // a line
     assert_damaged(parts, "it has cells that are no elements of a block");
@@ -112,9 +110,8 @@ static void test_damaged(void **state)
     assert_damaged(parts, "it lacks an array that a run writes");
 }
 
-static void test_list(void **state)
+TEST(test_list)
 {
-    (void)state;
     Error err = {0};
     FieldTime *times;
     int32_t count;
@@ -142,27 +139,17 @@ static void test_list(void **state)
     assert_null(times);
 }
 
-static int make(void **state)
+FIXTURE(make)
 {
-    (void)state;
     place_make(place);
     snprintf(path, sizeof path, "%s/one.vtu", place);
     return 0;
 }
 
-static int drop(void **state)
+FIXTURE(drop)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frame),
-        cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_list),
-    };
-    return cmocka_run_group_tests(tests, make, drop);
-}
+GROUP_BETWEEN(make, drop);

@@ -4,20 +4,16 @@
 #include "io/files/file_lock.h"
 
 #include "base/clock.h"
+#include "cases.h"
 
 #include <fcntl.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char folder[] = "/tmp/amontons_lock_XXXXXX", path[64], number[64];
 
@@ -43,9 +39,8 @@ static pid_t start_holder(void)
     return holder;
 }
 
-static void held_until_released(void **state)
+TEST(held_until_released)
 {
-    (void)state;
     FileLock lock, other;
     assert_true(file_lock_take(&lock, path, 0));
     assert_int_equal(access(path, F_OK), 0);
@@ -61,9 +56,8 @@ static void held_until_released(void **state)
 }
 
 // Before the process ends by a signal; not by one that it forked.
-static void let_go_by_who_holds_it(void **state)
+TEST(let_go_by_who_holds_it)
 {
-    (void)state;
     FileLock lock;
     assert_true(file_lock_take(&lock, path, 0));
     pid_t child = fork();
@@ -80,9 +74,8 @@ static void let_go_by_who_holds_it(void **state)
     file_lock_release(&lock);
 }
 
-static void given_up_after_the_limit(void **state)
+TEST(given_up_after_the_limit)
 {
-    (void)state;
     FileLock lock;
     pid_t holder = start_holder();
     double before = clock_seconds();
@@ -94,9 +87,8 @@ static void given_up_after_the_limit(void **state)
 }
 
 // The file that a killed holder left is there, and free.
-static void free_after_a_kill(void **state)
+TEST(free_after_a_kill)
 {
-    (void)state;
     FileLock lock;
     pid_t holder = start_holder(), killer = fork();
     if (killer == 0) {
@@ -128,9 +120,8 @@ static void add_one(void)
 }
 
 // The file comes and goes between them, so that some lock a file that has no name any more.
-static void one_at_a_time(void **state)
+TEST(one_at_a_time)
 {
-    (void)state;
     enum { PROCESSES = 6, TIMES = 20 };
     pid_t process[PROCESSES];
     int value = 0, ending = 0;
@@ -155,9 +146,8 @@ static void one_at_a_time(void **state)
 }
 
 // What was opened before its name was removed and given to another file guards nothing.
-static void a_name_may_lead_elsewhere(void **state)
+TEST(a_name_may_lead_elsewhere)
 {
-    (void)state;
     int old = open(number, O_RDWR | O_CREAT, 0600);
     assert_true(file_is_named(number, old));
     unlink(number);
@@ -169,9 +159,8 @@ static void a_name_may_lead_elsewhere(void **state)
     close(new);
 }
 
-static void nowhere_to_lock(void **state)
+TEST(nowhere_to_lock)
 {
-    (void)state;
     FileLock lock;
     double before = clock_seconds();
     assert_false(file_lock_take(&lock, "/tmp/amontons_no_such_folder/lock", 30));
@@ -180,30 +169,18 @@ static void nowhere_to_lock(void **state)
     file_lock_release(&lock);
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/x.lock", folder);
     snprintf(number, sizeof number, "%s/number", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     unlink(number);
     return rmdir(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(held_until_released),
-                                       cmocka_unit_test(let_go_by_who_holds_it),
-                                       cmocka_unit_test(given_up_after_the_limit),
-                                       cmocka_unit_test(free_after_a_kill),
-                                       cmocka_unit_test(one_at_a_time),
-                                       cmocka_unit_test(a_name_may_lead_elsewhere),
-                                       cmocka_unit_test(nowhere_to_lock)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

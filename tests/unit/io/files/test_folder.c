@@ -25,9 +25,8 @@ static void assert_fails(const char *path, ErrorCode code, const char *words)
 }
 
 // All that leads there, twice, with slashes where nobody needs them; what cannot be is told.
-static void test_folders(void **state)
+TEST(test_folders)
 {
-    (void)state;
     char root[] = "/tmp/amontons-folder-XXXXXX", path[256], below[300], lengthy[PATH_MAX + 10];
     assert_non_null(mkdtemp(root));
     snprintf(path, sizeof path, "%s//a/b/", root);
@@ -55,9 +54,8 @@ static void assert_seen(const char *folder, const char *file, const char *wanted
 }
 
 // A path as a reader in the folder would type it; links and detours are gone.
-static void test_files_seen_from_a_folder(void **state)
+TEST(test_files_seen_from_a_folder)
 {
-    (void)state;
     char root[] = "/tmp/amontons-folder-XXXXXX", path[256];
     assert_non_null(mkdtemp(root));
     assert_int_equal(chdir(root), 0);
@@ -80,11 +78,4 @@ static void test_files_seen_from_a_folder(void **state)
     assert_int_equal(chdir("/"), 0);
     snprintf(path, sizeof path, "rm -rf %s", root);
     assert_int_equal(system(path), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_folders),
-                                       cmocka_unit_test(test_files_seen_from_a_folder)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

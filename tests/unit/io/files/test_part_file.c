@@ -3,10 +3,9 @@
 // the earlier file.
 #include "io/files/part_file.h"
 
+#include "cases.h"
+
 #include <fcntl.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,14 +13,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 static char folder[64];
 static char path[128], part[136];
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_part_XXXXXX");
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/result", folder);
@@ -29,15 +25,13 @@ static int make_folder(void **state)
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     return rmdir(folder);   // fails when a test left anything
 }
 
-static int forget_files(void **state)
+FIXTURE(forget_files)
 {
-    (void)state;
     unlink(path);
     unlink(part);
     return 0;
@@ -67,9 +61,8 @@ static void create(PartFile *file, const char *text)
     assert_true(part_file_write(file, text, (int64_t)strlen(text), &err));
 }
 
-static void commit_gives_the_name_and_leave_does_not(void **state)
+TEST_BETWEEN(commit_gives_the_name_and_leave_does_not, NULL, forget_files)
 {
-    (void)state;
     Error err = {0};
     PartFile file;
     create(&file, "first");
@@ -94,9 +87,8 @@ static void commit_gives_the_name_and_leave_does_not(void **state)
 }
 
 // Who was killed takes a moment to end.
-static void a_writer_that_ends_is_waited_for(void **state)
+TEST(a_writer_that_ends_is_waited_for)
 {
-    (void)state;
     int ends[2];
     char byte = 0;
     assert_int_equal(pipe(ends), 0);
@@ -121,9 +113,8 @@ static void a_writer_that_ends_is_waited_for(void **state)
 
 // Through none of these may anything be written: a link, a pipe that nobody reads, a second name,
 // somebody's file.
-static void what_stands_in_the_place_of_the_part(void **state)
+TEST_BETWEEN(what_stands_in_the_place_of_the_part, NULL, forget_files)
 {
-    (void)state;
     char mine[140];
     Error err = {0};
     PartFile file;
@@ -147,9 +138,8 @@ static void what_stands_in_the_place_of_the_part(void **state)
     }
 }
 
-static void two_writers_do_not_meet(void **state)
+TEST_BETWEEN(two_writers_do_not_meet, NULL, forget_files)
 {
-    (void)state;
     Error err = {0};
     PartFile file, other;
     create(&file, "mine");
@@ -166,9 +156,8 @@ static void two_writers_do_not_meet(void **state)
     assert_content(path, "theirs");
 }
 
-static void a_reader_keeps_the_file_it_opened(void **state)
+TEST_BETWEEN(a_reader_keeps_the_file_it_opened, NULL, forget_files)
 {
-    (void)state;
     Error err = {0};
     PartFile file;
     char text[64] = {0};
@@ -183,9 +172,8 @@ static void a_reader_keeps_the_file_it_opened(void **state)
     assert_content(path, "new one");
 }
 
-static void a_failed_commit_keeps_what_was_written(void **state)
+TEST_BETWEEN(a_failed_commit_keeps_what_was_written, NULL, forget_files)
 {
-    (void)state;
     Error err = {0};
     PartFile file;
     create(&file, "hours of work");
@@ -199,9 +187,8 @@ static void a_failed_commit_keeps_what_was_written(void **state)
     assert_int_equal(rmdir(path), 0);
 }
 
-static void names_are_checked(void **state)
+TEST(names_are_checked)
 {
-    (void)state;
     Error err = {0};
     PartFile file;
     static char name[PATH_MAX + 20], longer[PATH_MAX + 8];
@@ -222,9 +209,8 @@ static void names_are_checked(void **state)
 }
 
 // /dev/full takes nothing: every write fails as on a full disk.
-static void a_full_disk_is_said(void **state)
+TEST_BETWEEN(a_full_disk_is_said, NULL, forget_files)
 {
-    (void)state;
     Error err = {0};
     PartFile file;
     create(&file, "");
@@ -239,17 +225,4 @@ static void a_full_disk_is_said(void **state)
     assert_content(part, "none");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(commit_gives_the_name_and_leave_does_not, forget_files),
-        cmocka_unit_test(a_writer_that_ends_is_waited_for),
-        cmocka_unit_test_teardown(what_stands_in_the_place_of_the_part, forget_files),
-        cmocka_unit_test_teardown(two_writers_do_not_meet, forget_files),
-        cmocka_unit_test_teardown(a_reader_keeps_the_file_it_opened, forget_files),
-        cmocka_unit_test_teardown(a_failed_commit_keeps_what_was_written, forget_files),
-        cmocka_unit_test(names_are_checked),
-        cmocka_unit_test_teardown(a_full_disk_is_said, forget_files),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

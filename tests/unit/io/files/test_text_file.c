@@ -3,18 +3,14 @@
 #include "io/files/text_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char folder[] = "/tmp/amontons_text_XXXXXX", path[64];
 
@@ -34,9 +30,8 @@ static void check_bytes(const char *bytes, int32_t size, int32_t wanted)
     assert_int_equal(bytes[size], 0);
 }
 
-static void test_sizes(void **state)
+TEST(test_sizes)
 {
-    (void)state;
     static const int32_t sizes[] = {0, 1, 4095, 4096, 4097, 8192, 100000};
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
         Error err = {0};
@@ -49,9 +44,8 @@ static void test_sizes(void **state)
     }
 }
 
-static void test_byte_order_mark(void **state)
+TEST(test_byte_order_mark)
 {
-    (void)state;
     Error err = {0};
     char *bytes = NULL;
     int32_t size = 0;
@@ -66,9 +60,8 @@ static void test_byte_order_mark(void **state)
 
 // A pipe of the shell, <(command), says 0 bytes and has more: refused when they have come, like a
 // file that is too long.
-static void test_pipe(void **state)
+TEST(test_pipe)
 {
-    (void)state;
     for (int32_t most = 4999; most <= 5000; most++) {
         Error err = {0};
         char *bytes = NULL;
@@ -98,9 +91,8 @@ static void test_pipe(void **state)
 }
 
 // Nobody may ever write into it.
-static void test_named_pipe(void **state)
+TEST(test_named_pipe)
 {
-    (void)state;
     Error err = {0};
     char *bytes = NULL;
     int32_t size = 0;
@@ -123,18 +115,16 @@ static void expect_refused(const char *name, int32_t most, const char *words)
     if (!strstr(err.message, words)) fail_msg("`%s` lacks `%s`", err.message, words);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     write_bytes(10);
     expect_refused(path, 9, "more than the 9 bytes");
     expect_refused(folder, 9, "is a folder");
     expect_refused("/tmp/amontons-no-such-file", 9, "No such file");
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     int64_t live = memory_counters().live, k = 0;
     write_bytes(20000);
     for (bool done = false; !done; k++) {
@@ -151,26 +141,17 @@ static void test_memory(void **state)
     assert_int_equal(k, 5);   // 4096 bytes, doubled three times, and the one that went well
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/text", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     unlink(path);
     return rmdir(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),   cmocka_unit_test(test_byte_order_mark),
-        cmocka_unit_test(test_pipe),    cmocka_unit_test(test_named_pipe),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

@@ -4,14 +4,12 @@
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <hdf5.h>
 
 #include <math.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,22 +18,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 enum { WIDTH = 81, PATH_SIZE = 200 };
 
 static char folder[64];
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_array_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[128];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command);
@@ -114,9 +108,8 @@ static void assert_holds_rows(ArrayFile *file, int64_t expected)
     memory_free(values);
 }
 
-static void rows_come_back(void **state)
+TEST(rows_come_back)
 {
-    (void)state;
     const char *path = path_of("rows.h5");
     // Around a chunk's end, across many chunks, and with flushes in between.
     static const int64_t counts[] = {0, 1, 201, 202, 203, 2500};
@@ -141,9 +134,8 @@ static void rows_come_back(void **state)
     assert_false(exists(part));
 }
 
-static void a_block_of_rows_is_the_same_as_single_ones(void **state)
+TEST(a_block_of_rows_is_the_same_as_single_ones)
 {
-    (void)state;
     Error err = {0};
     enum { ROWS = 2000 };
     const char *path = path_of("block.h5");
@@ -165,10 +157,38 @@ static void a_block_of_rows_is_the_same_as_single_ones(void **state)
     memory_free(times);
 }
 
-// What a reader with nothing but HDF5 sees: types, shapes, chunks, filters, attributes.
-static void the_stored_form_is_as_stated(void **state)
+// Whole arrays, and members of structs that stand side by side.
+TEST(a_series_is_written_at_once)
 {
-    (void)state;
+    Error err = {0};
+    double packed[3][4] = {{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 10, 11, 12}}, *found = NULL;
+    const ArraySeries whole = {"whole", ARRAY_FLOAT64, 4, "1", "all"};
+    const ArraySeries part = {"part", ARRAY_FLOAT64, 2, "1", "the middle of each"};
+    ArrayFile *file = array_file_create(path_of("once.h5"), &err);
+    assert_clean(&err);
+    assert_true(array_file_write(file, &whole, packed[0], 0, 3, &err));
+    assert_true(array_file_write(file, &part, &packed[0][1], 4, 3, &err));
+    assert_true(array_file_close(file, &err));
+    file = array_file_open(path_of("once.h5"), &err);
+    assert_clean(&err);
+    for (int32_t columns = 4; columns > 0; columns -= 2) {
+        int64_t rows = 0;
+        int32_t width = 0;
+        array_file_read(file, columns == 4 ? "whole" : "part", &found, &rows, &width, &err);
+        assert_clean(&err);
+        assert_int_equal(rows, 3);
+        assert_int_equal(width, columns);
+        for (int32_t k = 0; k < 3 * columns; k++)
+            assert_true(found[k] == packed[k / columns][k % columns + (columns == 2)]);
+        memory_free(found);
+    }
+    array_file_close(file, &err);
+    unlink(path_of("once.h5"));
+}
+
+// What a reader with nothing but HDF5 sees: types, shapes, chunks, filters, attributes.
+TEST(the_stored_form_is_as_stated)
+{
     Error err = {0};
     const char *path = path_of("form.h5");
     ArrayFile *file = create_with_series(path);
@@ -223,9 +243,8 @@ static void the_stored_form_is_as_stated(void **state)
     assert_true(array_file_close(file, &err));
 }
 
-static void integers_round_and_saturate(void **state)
+TEST(integers_round_and_saturate)
 {
-    (void)state;
     Error err = {0};
     ArrayFile *file = array_file_create(path_of("integers.h5"), &err);
     ArraySeries small = {"small", ARRAY_UINT8, 1, "1", ""};
@@ -249,9 +268,8 @@ static void integers_round_and_saturate(void **state)
     assert_true(array_file_close(file, &err));
 }
 
-static void appending_allocates_no_arrays(void **state)
+TEST(appending_allocates_no_arrays)
 {
-    (void)state;
     Error err = {0};
     ArrayFile *file = create_with_series(path_of("allocations.h5"));
     int64_t before = memory_counters().allocations;
@@ -278,9 +296,8 @@ static void write_until_killed(const char *path, int64_t flushed, int64_t last)
     assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
 }
 
-static void a_killed_run_keeps_what_was_flushed(void **state)
+TEST(a_killed_run_keeps_what_was_flushed)
 {
-    (void)state;
     static const int64_t flushed[] = {0, 5, 202, 1000};
     for (size_t c = 0; c < 4; c++)
         for (int64_t more = 0; more < 100000; more = 10 * more + 900) {
@@ -330,9 +347,8 @@ static void fill_disk_in_child(const char *path, rlim_t limit, int64_t flush_eve
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-static void a_full_disk_is_an_error_and_no_crash(void **state)
+TEST(a_full_disk_is_an_error_and_no_crash)
 {
-    (void)state;
     static const rlim_t limits[] = {0, 100, 1000, 2000, 20000, 300000, 1000000, 1234567};
     const char *path = path_of("full.h5");
     for (size_t c = 0; c < sizeof limits / sizeof limits[0]; c++) {
@@ -361,9 +377,8 @@ static void assert_error(Error *err, ErrorCode code, const char *part, const cha
     error_clear(err);
 }
 
-static void bad_use_is_named(void **state)
+TEST(bad_use_is_named)
 {
-    (void)state;
     Error err = {0};
     assert_null(array_file_create("/nonexistent/a.h5", &err));
     assert_error(&err, ERROR_FILE, "/nonexistent/a.h5", "No such file or directory");
@@ -404,9 +419,8 @@ static void bad_use_is_named(void **state)
 }
 
 // Files that HDF5 reads and we did not write.
-static void what_others_wrote_is_checked(void **state)
+TEST(what_others_wrote_is_checked)
 {
-    (void)state;
     Error err = {0};
     const char *path = path_of("foreign.h5");
     hid_t id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -449,9 +463,8 @@ static void what_others_wrote_is_checked(void **state)
 }
 
 // A copy of a good file, cut at every 997th byte: an error or the right rows, and no crash.
-static void a_cut_file_is_an_error(void **state)
+TEST(a_cut_file_is_an_error)
 {
-    (void)state;
     Error err = {0};
     static char bytes[100000];
     ArrayFile *file = create_with_series(path_of("whole.h5"));
@@ -471,9 +484,8 @@ static void a_cut_file_is_an_error(void **state)
     }
 }
 
-static void every_path_frees_when_memory_is_short(void **state)
+TEST(every_path_frees_when_memory_is_short)
 {
-    (void)state;
     int64_t live = memory_counters().live;
     int32_t failures = 0;
     for (int64_t k = 0; k < 40; k++) {
@@ -507,9 +519,8 @@ static void every_path_frees_when_memory_is_short(void **state)
 }
 
 // The module is looked for with every file; where it is missing no file is begun.
-static void a_missing_module_is_named(void **state)
+TEST(a_missing_module_is_named)
 {
-    (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
     char modules[PATH_SIZE], part[PATH_SIZE];
@@ -525,21 +536,4 @@ static void a_missing_module_is_named(void **state)
     setenv("AMONTONS_MODULES", modules, 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_come_back),
-        cmocka_unit_test(a_block_of_rows_is_the_same_as_single_ones),
-        cmocka_unit_test(the_stored_form_is_as_stated),
-        cmocka_unit_test(integers_round_and_saturate),
-        cmocka_unit_test(appending_allocates_no_arrays),
-        cmocka_unit_test(a_killed_run_keeps_what_was_flushed),
-        cmocka_unit_test(a_full_disk_is_an_error_and_no_crash),
-        cmocka_unit_test(bad_use_is_named),
-        cmocka_unit_test(what_others_wrote_is_checked),
-        cmocka_unit_test(a_cut_file_is_an_error),
-        cmocka_unit_test(every_path_frees_when_memory_is_short),
-        cmocka_unit_test(a_missing_module_is_named),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

@@ -99,9 +99,8 @@ static void go_on(const char *path, int64_t kept, int64_t to)
 }
 
 // With a table and a number of its end, which go.
-static void test_finished(void **state)
+TEST(test_finished)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     place_make(place);
@@ -127,9 +126,8 @@ static void test_finished(void **state)
 }
 
 // Left by a process that died after more than was flushed.
-static void test_killed(void **state)
+TEST(test_killed)
 {
-    (void)state;
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     int status = 0;
     place_make(place);
@@ -203,9 +201,8 @@ static int64_t flushed_rows(const char *path)
 
 // At every write there is: what the last flush left can be read and gone on with; also where it was
 // being gone on with.
-static void test_killed_at_every_write(void **state)
+TEST(test_killed_at_every_write)
 {
-    (void)state;
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     bool anew = true;
     int64_t before = -1, mid_flush = 0;
@@ -235,9 +232,8 @@ static void test_killed_at_every_write(void **state)
 }
 
 // Missing, no HDF5 file, fewer rows, no such series, being written.
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     place_make(place);
@@ -269,9 +265,8 @@ static void test_refused(void **state)
 
 // HDF5 1.10 keeps half a file whose descriptor does not close, and crashes on it at the program's
 // end: that of this test.
-static void test_a_read_file_that_does_not_close(void **state)
+TEST(test_a_read_file_that_does_not_close)
 {
-    (void)state;
     Error err = {0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     place_make(place);
@@ -286,13 +281,4 @@ static void test_a_read_file_that_does_not_close(void **state)
     array_file_close(file, &err);
     closing_fails = false;
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_killed), cmocka_unit_test(test_killed_at_every_write),
-        cmocka_unit_test(test_finished), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_a_read_file_that_does_not_close)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

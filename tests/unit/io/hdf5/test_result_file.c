@@ -4,18 +4,14 @@
 #include "io/hdf5/result_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { NODES = 5, PADS = 3, STEPS = 300 };
 
@@ -24,18 +20,16 @@ static const double node_x[NODES] = {0, 0.25, 0.5, 0.75, 1};
 static const double node_weight[NODES] = {0.125, 0.25, 0.25, 0.25, 0.125};
 static const double node_pad[NODES] = {0, 0, 1, 1, 2};
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
     snprintf(folder, sizeof folder, "/tmp/amontons_result_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[300];
     if (getenv("AMONTONS_TEST_OUTPUT")) return 0;
     snprintf(command, sizeof command, "rm -r %s", folder);
@@ -48,7 +42,8 @@ static ResultHead head_of_a_run(void)
                        .units = "normalised",
                        .version = "0.1.0",
                        .contact_count = NODES,
-                       .rod_on_spring = true};
+                       .rod_on_spring = true,
+                       .remembers = true};
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) head.numbers[k] = NAN;
     head.numbers[NUMBER_LENGTH] = 1;
     head.numbers[NUMBER_CRITICAL_VELOCITY] = 3.4e-4;
@@ -69,9 +64,8 @@ static void assert_clean(const Error *err)
     if (!error_is_clean(err)) fail_msg("%s", err->message);
 }
 
-static void a_result_comes_back(void **state)
+TEST(a_result_comes_back)
 {
-    (void)state;
     Error err = {0};
     ResultHead head = head_of_a_run();
     ArrayFile *file = result_file_create(folder, &head, &err);
@@ -131,9 +125,8 @@ static void a_result_comes_back(void **state)
     assert_true(array_file_close(file, &err));
 }
 
-static void what_is_missing_is_named(void **state)
+TEST(what_is_missing_is_named)
 {
-    (void)state;
     Error err = {0};
     ResultHead head = head_of_a_run();
     assert_null(result_file_open("/nonexistent", &err));
@@ -149,9 +142,8 @@ static void what_is_missing_is_named(void **state)
     assert_non_null(strstr(err.message, "contact nodes"));
 }
 
-static void every_path_frees_when_memory_is_short(void **state)
+TEST(every_path_frees_when_memory_is_short)
 {
-    (void)state;
     ResultHead head = head_of_a_run();
     char place[280], path[300];
     snprintf(place, sizeof place, "%s/short", folder);
@@ -189,12 +181,4 @@ static void every_path_frees_when_memory_is_short(void **state)
     assert_int_equal(rmdir(place), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_result_comes_back),
-        cmocka_unit_test(what_is_missing_is_named),
-        cmocka_unit_test(every_path_frees_when_memory_is_short),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

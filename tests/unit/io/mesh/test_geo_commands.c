@@ -15,10 +15,9 @@ static void expect_refused(const char *place, const char *wanted)
 }
 
 // Opening a pipe that nobody writes to would wait.
-static void test_pipe(void **state)
+TEST(test_pipe)
 {
     char place[PLACE_SIZE];
-    (void)state;
     place_make(place);
     assert_int_equal(mkfifo(place_path(place, "pipe"), 0600), 0);
     place_write(place, "a.geo", "Include \"pipe\";\n");
@@ -30,10 +29,9 @@ static void test_pipe(void **state)
 }
 
 // Seven files, each of which includes the next one ten times: 10^7 readings.
-static void test_tenfold(void **state)
+TEST(test_tenfold)
 {
     char place[PLACE_SIZE], text[400];
-    (void)state;
     place_make(place);
     for (char name[] = "a.geo"; *name < 'h'; ++*name) {
         size_t length = 0;
@@ -48,10 +46,9 @@ static void test_tenfold(void **state)
 }
 
 // Itself: as deep as files may include each other.
-static void test_itself(void **state)
+TEST(test_itself)
 {
     char place[PLACE_SIZE];
-    (void)state;
     place_make(place);
     place_write(place, "a.geo", "Include \"a.geo\";\n");
     expect_refused(place, "deep");
@@ -59,7 +56,7 @@ static void test_itself(void **state)
 }
 
 // Words that only look like commands are let through, commands in any of the files are not.
-static void test_words(void **state)
+TEST(test_words)
 {
     static const struct {
         const char *text, *wanted;   // NULL: it is let through
@@ -73,7 +70,6 @@ static void test_words(void **state)
         {"Include name;\n", "a.geo:1: includes a file whose name is not written out"},
     };
     char place[PLACE_SIZE];
-    (void)state;
     place_make(place);
     place_write(place, "calm.geo", "nx = 1;\n");
     place_write(place, "wild.geo", "\nSystemCall \"touch here\";\n");
@@ -90,11 +86,4 @@ static void test_words(void **state)
     fclose(file);
     expect_refused(place, "is no text");
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pipe), cmocka_unit_test(test_tenfold),
-                                       cmocka_unit_test(test_itself), cmocka_unit_test(test_words)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

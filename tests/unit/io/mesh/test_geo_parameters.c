@@ -4,18 +4,13 @@
 #include "io/mesh/geo_parameters.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 enum { PATH_SIZE = 400 };
 
@@ -31,16 +26,14 @@ static const char *write_file(const char *name, const char *text, char path[PATH
     return path;
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_geo_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[200];
     snprintf(command, sizeof command, "rm -r '%s'", folder);
     return system(command);
@@ -61,9 +54,8 @@ static void expect(const char *text, int32_t count, const char *const *names, co
     geo_parameters_destroy(&known);
 }
 
-static void test_lists(void **state)
+TEST(test_lists)
 {
-    (void)state;
     static const char *const names[] = {"nx", "shape", "order", "file", "bare", "last"};
     static const bool texts[] = {false, true, false, true, false, false};
     expect("DefineConstant[ nx = 3 * Sqrt(4), shape = \"a, b] = c\" ];\n"
@@ -74,9 +66,8 @@ static void test_lists(void **state)
            6, names, texts);
 }
 
-static void test_comments(void **state)
+TEST(test_comments)
 {
-    (void)state;
     static const char *const names[] = {"a", "b"};
     static const bool texts[] = {false, true};
     expect("// DefineConstant[ no = 1 ];\n/* DefineConstant[ no = 1 ]; */\n"
@@ -86,9 +77,8 @@ static void test_comments(void **state)
 }
 
 // Ends of file in the midst of things: no harm, gmsh will complain.
-static void test_unfinished(void **state)
+TEST(test_unfinished)
 {
-    (void)state;
     static const char *const texts[] = {"DefineConstant",
                                         "DefineConstant[",
                                         "DefineConstant[ a",
@@ -108,9 +98,8 @@ static void test_unfinished(void **state)
     }
 }
 
-static void test_includes(void **state)
+TEST(test_includes)
 {
-    (void)state;
     char path[PATH_SIZE];
     Error err = {0};
     GeoParameters known;
@@ -135,9 +124,8 @@ static void test_includes(void **state)
     assert_non_null(strstr(err.message, "include each other"));
 }
 
-static void test_check(void **state)
+TEST(test_check)
 {
-    (void)state;
     static const struct {
         MeshParameter given[2];
         int32_t count;
@@ -170,9 +158,8 @@ static void test_check(void **state)
 }
 
 // Each name found in a shipped mesh really changes it: gmsh listens to it.
-static void test_shipped(void **state)
+TEST(test_shipped)
 {
-    (void)state;
     static const char *const meshes[] = {"block.geo", "pads.geo", "grooves.geo"};
     for (int32_t m = 0; m < 3; m++) {
         char path[PATH_SIZE];
@@ -196,9 +183,8 @@ static void test_shipped(void **state)
     }
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char path[PATH_SIZE];
     int64_t live = memory_counters().live;
     bool done = false;
@@ -215,13 +201,4 @@ static void test_memory_faults(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lists),         cmocka_unit_test(test_comments),
-        cmocka_unit_test(test_unfinished),    cmocka_unit_test(test_includes),
-        cmocka_unit_test(test_check),         cmocka_unit_test(test_shipped),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

@@ -68,9 +68,8 @@ static bool load(MeshFile *mesh)
     return found;
 }
 
-static void test_back_to_the_bit(void **state)
+TEST(test_back_to_the_bit)
 {
-    (void)state;
     MeshGroup groups[3];
     MeshFile known = known_mesh(groups), mesh;
     assert_false(load(&mesh));   // nothing there yet
@@ -116,9 +115,8 @@ static bool believed_with(MeshFile *known, int32_t *place, int32_t value)
     return taken;
 }
 
-static void test_what_cannot_be_is_not_believed(void **state)
+TEST(test_what_cannot_be_is_not_believed)
 {
-    (void)state;
     MeshGroup groups[3];
     MeshFile known = known_mesh(groups), mesh;
     assert_true(believed_with(&known, &element_nodes[0], 2));   // a change that a mesh may have
@@ -164,9 +162,8 @@ static void assert_within(const int32_t *indices, int64_t count, int32_t limit)
 }
 
 // Each byte changed under a checksum that holds: no mesh, or one whose indices are its own.
-static void test_every_byte(void **state)
+TEST(test_every_byte)
 {
-    (void)state;
     static const unsigned char values[] = {0x00, 0x7f, 0xff};
     MeshGroup groups[3];
     MeshFile known = known_mesh(groups), mesh;
@@ -211,9 +208,8 @@ static void key_of(const char *name, const char *text, double value, char key[HA
         fail_msg("%s", err.message);
 }
 
-static void test_key(void **state)
+TEST(test_key)
 {
-    (void)state;
     char first[HASH_TEXT_SIZE], other[HASH_TEXT_SIZE], path[PATH_SIZE];
     key_of("a.geo", "Point(1) = {0, 0, 0};\n", 4, first);
     assert_int_equal(strlen(first), HASH_TEXT_SIZE - 1);
@@ -230,9 +226,8 @@ static void test_key(void **state)
     assert_string_equal(other, "");
 }
 
-static void test_switched_off(void **state)
+TEST(test_switched_off)
 {
-    (void)state;
     MeshGroup groups[3];
     MeshFile known = known_mesh(groups), mesh;
     setenv("AMONTONS_CACHE", "", 1);
@@ -241,11 +236,4 @@ static void test_switched_off(void **state)
     setenv("AMONTONS_CACHE", cache, 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_back_to_the_bit),
-        cmocka_unit_test(test_what_cannot_be_is_not_believed), cmocka_unit_test(test_every_byte),
-        cmocka_unit_test(test_key), cmocka_unit_test(test_switched_off)};
-    return cmocka_run_group_tests(tests, cache_begin, cache_end);
-}
+GROUP_BETWEEN(cache_begin, cache_end);

@@ -85,9 +85,8 @@ static void assert_refused(const Raw *made, const char *says)
     if (!strstr(err.message, says)) fail_msg("'%s' does not say '%s'", err.message, says);
 }
 
-static void test_tags_with_holes(void **state)
+TEST(test_tags_with_holes)
 {
-    (void)state;
     Error err = {0};
     MeshFile mesh;
     Raw made;
@@ -106,9 +105,8 @@ static void test_tags_with_holes(void **state)
     mesh_file_destroy(&mesh);
 }
 
-static void test_what_is_missing(void **state)
+TEST(test_what_is_missing)
 {
-    (void)state;
     Raw made;
     make(&made);
     made.triangle_nodes[2] = 51;   // above all tags
@@ -133,9 +131,8 @@ static void test_what_is_missing(void **state)
     assert_refused(&made, "'body' is used twice: by group 9 of dimension 2 and by group 4");
 }
 
-static void test_positions(void **state)
+TEST(test_positions)
 {
-    (void)state;
     Raw made;
     for (int k = 0; k < 3; k++) {
         make(&made);
@@ -147,9 +144,8 @@ static void test_positions(void **state)
     assert_refused(&made, "node 20 is at z = 0.25");
 }
 
-static void test_elements(void **state)
+TEST(test_elements)
 {
-    (void)state;
     Raw made;
     make(&made);
     made.blocks[0].gmsh_type = 4;
@@ -167,9 +163,8 @@ static void test_elements(void **state)
 }
 
 // Format 2.2 writes an element once for each of its groups; two groups on one elementary number.
-static void test_copies(void **state)
+TEST(test_copies)
 {
-    (void)state;
     Error err = {0};
     MeshFile mesh;
     Raw made;
@@ -195,14 +190,4 @@ static void test_copies(void **state)
     if (!mesh_raw_convert(&made.raw, "a.msh", &mesh, &err)) fail_msg("%s", err.message);
     assert_true(mesh.groups[0].blurred && mesh.groups[1].blurred);
     mesh_file_destroy(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tags_with_holes), cmocka_unit_test(test_what_is_missing),
-        cmocka_unit_test(test_positions),       cmocka_unit_test(test_elements),
-        cmocka_unit_test(test_copies),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,18 +5,14 @@
 #include "io/mesh/mesh_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-#include <cmocka.h>
 
 // cmocka 1.1.5 compares floats only, in single precision.
 static void assert_near(double value, double wanted, double tolerance)
@@ -45,16 +41,14 @@ static const char *write_file(const char *name, const char *text, char path[PATH
     return path;
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_mesh_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[PATH_SIZE + 20];
     snprintf(command, sizeof command, "rm -r '%s'", folder);
     return system(command);
@@ -98,9 +92,8 @@ static const MeshParameter Q8[] = {
 static const MeshParameter Q9[] = {{"nx", 3, ""}, {"nz", 2, ""}, {"order", 2, ""}};
 
 // A block of 3 x 2 cells by each kind: counts by hand.
-static void test_element_kinds(void **state)
+TEST(test_element_kinds)
 {
-    (void)state;
     static const struct {
         const MeshParameter *parameters;
         int32_t parameter_count;
@@ -135,9 +128,8 @@ static void test_element_kinds(void **state)
 }
 
 // Mid-side nodes follow the corners, in the order of the sides; an edge's middle comes last.
-static void test_node_order(void **state)
+TEST(test_node_order)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile mesh;
     Error err = {0};
@@ -189,9 +181,8 @@ static void assert_same(const MeshFile *a, const MeshFile *b, double tolerance)
 }
 
 // gmsh's own program writes the block in four formats; each gives what the .geo gives.
-static void test_formats_agree(void **state)
+TEST(test_formats_agree)
 {
-    (void)state;
     static const char *const formats[] = {"-format msh41", "-format msh41 -bin", "-format msh22",
                                           "-format msh22 -bin"};
     static const char *const shapes[] = {"", "-setstring shape triangle -setnumber order 2"};
@@ -217,9 +208,8 @@ static void test_formats_agree(void **state)
 }
 
 // gmsh keeps options and groups until it is finalised: one read must not colour the next.
-static void test_second_read_is_clean(void **state)
+TEST(test_second_read_is_clean)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile first, between, second;
     source_path("meshes/block.geo", path);
@@ -233,9 +223,8 @@ static void test_second_read_is_clean(void **state)
 }
 
 // Centres of arcs, loose points and lines of the drawing, surfaces outside the groups: left out.
-static void test_drawing_aids(void **state)
+TEST(test_drawing_aids)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile mesh;
     Error err = {0};
@@ -269,9 +258,8 @@ static void test_drawing_aids(void **state)
     "$Elements\n4\n1 1 2 1 1 1 2\n2 1 2 1 1 2 3\n3 3 2 7 1 1 2 5 4\n4 3 2 7 1 2 3 6 5\n"           \
     "$EndElements\n"
 
-static void test_by_hand(void **state)
+TEST(test_by_hand)
 {
-    (void)state;
     static const double positions[] = {0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1};
     static const int32_t nodes[] = {0, 1, 4, 3, 1, 2, 5, 4}, edges[] = {0, 1, 1, 2};
     char path[PATH_SIZE];
@@ -291,9 +279,8 @@ static void test_by_hand(void **state)
     mesh_file_destroy(&mesh);
 }
 
-static void test_groups_by_number(void **state)
+TEST(test_groups_by_number)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile mesh;
     Error err = {0};
@@ -304,9 +291,8 @@ static void test_groups_by_number(void **state)
     mesh_file_destroy(&mesh);
 }
 
-static void test_group_lookup(void **state)
+TEST(test_group_lookup)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile mesh;
     Error missing = {0}, surface = {0}, far = {0};
@@ -329,9 +315,8 @@ static void test_group_lookup(void **state)
 
 // A node on no element stays in the arrays, for fem/mesh to complain about (format 4.1 says which
 // surface it is on; with 2.2, gmsh drops it by itself).
-static void test_lone_node(void **state)
+TEST(test_lone_node)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile mesh;
     write_file("lone.msh",
@@ -348,9 +333,8 @@ static void test_lone_node(void **state)
 }
 
 // Format 2.2 writes what is in two groups twice; the mesh has it once.
-static void test_two_groups_in_22(void **state)
+TEST(test_two_groups_in_22)
 {
-    (void)state;
     char path[PATH_SIZE];
     MeshFile mesh;
     write_file("twice.msh",
@@ -366,9 +350,8 @@ static void test_two_groups_in_22(void **state)
 }
 
 // Two groups on one elementary number: gmsh would give each the edges of both.
-static void test_shared_number_in_22(void **state)
+TEST(test_shared_number_in_22)
 {
-    (void)state;
     char path[PATH_SIZE];
     write_file("shared.msh",
                HEAD_22 NODES_22 "$Elements\n4\n1 1 2 1 1 1 2\n2 1 2 2 1 2 3\n3 3 2 7 1 1 2 5 4\n"
@@ -379,9 +362,8 @@ static void test_shared_number_in_22(void **state)
 
 // --- files that are wrong -----------------------------------------------------------------------
 
-static void test_not_a_mesh(void **state)
+TEST(test_not_a_mesh)
 {
-    (void)state;
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%.500s/absent.msh", folder);
     read_badly(path, NULL, "No such file", NULL, NULL);
@@ -405,9 +387,8 @@ static void test_not_a_mesh(void **state)
 }
 
 // Cut anywhere, inside a number or between sections, a file is refused.
-static void test_truncated(void **state)
+TEST(test_truncated)
 {
-    (void)state;
     static const char text[] = HEAD_22 NAMES_22 NODES_22 ELEMENTS_22;
     char path[PATH_SIZE], part[sizeof text];
     for (size_t length = sizeof text - 3; length > 20; length -= 7) {
@@ -423,9 +404,8 @@ static void test_truncated(void **state)
     read_badly(write_file("part.msh", part, path), NULL, "gmsh failed", NULL, NULL);
 }
 
-static void test_elements_refused(void **state)
+TEST(test_elements_refused)
 {
-    (void)state;
     char path[PATH_SIZE];
     write_file("lines.msh", HEAD_22 NODES_22 "$Elements\n1\n1 1 2 1 1 1 2\n$EndElements\n", path);
     read_badly(path, NULL, "has no surface elements", "1 other elements", NULL);
@@ -455,9 +435,8 @@ static void test_elements_refused(void **state)
     read_badly(path, NULL, "node 2 has a coordinate that is not a number", NULL, NULL);
 }
 
-static void test_repeated_names(void **state)
+TEST(test_repeated_names)
 {
-    (void)state;
     char path[PATH_SIZE];
     write_file("same.msh",
                HEAD_22
@@ -475,9 +454,8 @@ static void test_repeated_names(void **state)
     read_badly(path, NULL, "'side' is used twice", NULL, NULL);
 }
 
-static void test_parameters_refused(void **state)
+TEST(test_parameters_refused)
 {
-    (void)state;
     char path[PATH_SIZE];
     const MeshParameter unknown = {"hieght", 2, ""}, text = {"nx", 0, "many"},
                         number = {"shape", 4, ""}, bad = {"nx", 0, ""}, word = {"shape", 0, "hex"},
@@ -503,9 +481,8 @@ static void test_parameters_refused(void **state)
 }
 
 // Algorithm 8 ends the program; a quad mesher that throws in a thread would too.
-static void test_gmsh_that_would_crash(void **state)
+TEST(test_gmsh_that_would_crash)
 {
-    (void)state;
     static const char square[] =
         "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
@@ -540,9 +517,8 @@ static void exhaust(const char *path, const MeshParameter *parameters, int32_t c
     }
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     char path[PATH_SIZE];
     exhaust(source_path("meshes/block.geo", path), T6, 4);
     write_file("hand.msh", HEAD_22 NAMES_22 NODES_22 ELEMENTS_22, path);
@@ -557,27 +533,4 @@ static void test_memory_faults(void **state)
     mesh_file_destroy(&mesh);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_second_read_is_clean),   // first: gmsh is as it comes
-        cmocka_unit_test(test_element_kinds),
-        cmocka_unit_test(test_node_order),
-        cmocka_unit_test(test_formats_agree),
-        cmocka_unit_test(test_drawing_aids),
-        cmocka_unit_test(test_by_hand),
-        cmocka_unit_test(test_groups_by_number),
-        cmocka_unit_test(test_group_lookup),
-        cmocka_unit_test(test_lone_node),
-        cmocka_unit_test(test_two_groups_in_22),
-        cmocka_unit_test(test_shared_number_in_22),
-        cmocka_unit_test(test_not_a_mesh),
-        cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_elements_refused),
-        cmocka_unit_test(test_repeated_names),
-        cmocka_unit_test(test_parameters_refused),
-        cmocka_unit_test(test_gmsh_that_would_crash),
-        cmocka_unit_test(test_memory_faults),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+GROUP_BETWEEN(make_folder, remove_folder);

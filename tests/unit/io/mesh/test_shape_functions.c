@@ -3,15 +3,11 @@
 // finite differences, polynomials reproduced; quadrature against exact integrals.
 #include "io/mesh/shape_functions.h"
 
+#include "cases.h"
 #include "plane.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 
 // cmocka 1.1.5 compares floats only, in single precision.
 static void assert_near(double value, double wanted, double tolerance)
@@ -23,9 +19,8 @@ static void assert_near(double value, double wanted, double tolerance)
 static const double PROBES[][2] = {{0.2, 0.3}, {0.05, 0.9}, {-0.7, 0.4}, {0.6, -0.9}};
 enum { PROBE_COUNT = sizeof PROBES / sizeof *PROBES };
 
-static void test_nodes(void **state)
+TEST(test_nodes)
 {
-    (void)state;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++)
         for (int32_t b = 0; b < element_node_count((ElementKind)kind); b++) {
             const double *at = shape_node((ElementKind)kind, b);
@@ -36,9 +31,8 @@ static void test_nodes(void **state)
         }
 }
 
-static void test_sum_and_slopes(void **state)
+TEST(test_sum_and_slopes)
 {
-    (void)state;
     const double h = 1e-5;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++)
         for (int32_t p = 0; p < PROBE_COUNT; p++) {
@@ -69,9 +63,8 @@ static double monomial(int32_t m, double xi, double eta)
     return values[m];
 }
 
-static void test_polynomials(void **state)
+TEST(test_polynomials)
 {
-    (void)state;
     // xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2, xi^2 eta^2
     static const bool holds[PLANE_KINDS][8] = {[ELEMENT_T3] = {1, 1},
                                                [ELEMENT_T6] = {1, 1, 1, 1, 1},
@@ -110,9 +103,8 @@ static double exact_integral(bool triangle, int32_t i, int32_t j)
     return i % 2 || j % 2 ? 0 : 4. / (i + 1) / (j + 1);
 }
 
-static void test_quadrature(void **state)
+TEST(test_quadrature)
 {
-    (void)state;
     // Degree in total for triangles, in each direction for squares; one more must fail.
     static const int32_t degree[] = {
         [ELEMENT_T3] = 1, [ELEMENT_T6] = 2, [ELEMENT_Q4] = 3, [ELEMENT_Q8] = 5, [ELEMENT_Q9] = 5};
@@ -135,9 +127,8 @@ static void test_quadrature(void **state)
 
 // x = 1 + 2 xi + 3 eta, z = -1 + eta has J = [2 3; 0 1] everywhere, whatever the element, and
 // xi = (x - 1 - 3 (z + 1)) / 2, eta = z + 1.
-static void test_jacobian(void **state)
+TEST(test_jacobian)
 {
-    (void)state;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
         MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
@@ -156,14 +147,4 @@ static void test_jacobian(void **state)
             assert_near(gradient[a][1], slope[1] - 1.5 * slope[0], 1e-14);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nodes),       cmocka_unit_test(test_sum_and_slopes),
-        cmocka_unit_test(test_polynomials), cmocka_unit_test(test_quadrature),
-        cmocka_unit_test(test_jacobian),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,17 +2,12 @@
 // What csv_writer writes comes back; and tables of others, by RFC 4180.
 #include "io/text/csv_reader.h"
 
+#include "cases.h"
 #include "io/text/csv_writer.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static const char PATH[] = "csv_reader_test.csv";
 
@@ -27,13 +22,12 @@ static bool read_text(const char *text, CsvTable *table, Error *err)
     return done;
 }
 
-static void what_was_written_is_read(void **state)
+TEST(what_was_written_is_read)
 {
     static const char *const words[] = {"a", "b,c", "say \"x\"", "two\nlines", "", "\""};
     enum { COUNT = sizeof words / sizeof *words };
     Error err = {0};
     CsvTable table;
-    (void)state;
     CsvWriter *csv = csv_create(PATH, &err);
     for (int32_t row = 0; row < 2; ++row) {
         for (int32_t k = 0; k < COUNT; ++k) csv_text(csv, words[k]);
@@ -57,11 +51,10 @@ static void what_was_written_is_read(void **state)
     csv_destroy(&table);
 }
 
-static void other_line_ends_are_read(void **state)
+TEST(other_line_ends_are_read)
 {
     Error err = {0};
     CsvTable table;
-    (void)state;
     assert_true(read_text("x,y\r\n1,\"2\"\r\n3,4", &table, &err));
     assert_int_equal(table.rows, 2);
     assert_true(csv_value(&table, 0, 1) == 2);
@@ -74,10 +67,9 @@ static void other_line_ends_are_read(void **state)
     csv_destroy(&table);
 }
 
-static void wrong_tables_are_told(void **state)
+TEST(wrong_tables_are_told)
 {
     static const char *const wrong[] = {"", "a,b\n1\n", "a\n1,2\n", "a,b\n1,", "a,b\n\"1,2\n3,4\n"};
-    (void)state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         Error err = {0};
         CsvTable table;
@@ -86,12 +78,4 @@ static void wrong_tables_are_told(void **state)
         assert_null(table.cells);
         csv_destroy(&table);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_was_written_is_read),
-                                       cmocka_unit_test(other_line_ends_are_read),
-                                       cmocka_unit_test(wrong_tables_are_told)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

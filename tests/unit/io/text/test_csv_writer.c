@@ -3,17 +3,13 @@
 #include "io/text/csv_writer.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char path[] = "/tmp/amontons_csv_XXXXXX";
 
@@ -25,9 +21,8 @@ static void read_back(char *text, size_t size)
     fclose(file);
 }
 
-static void cells_are_quoted_where_they_must_be(void **state)
+TEST(cells_are_quoted_where_they_must_be)
 {
-    (void)state;
     Error err = {0};
     char text[400];
     CsvWriter *csv = csv_create(path, &err);
@@ -46,9 +41,8 @@ static void cells_are_quoted_where_they_must_be(void **state)
     assert_string_equal(text, "plain,\"a,b\",\"say \"\"no\"\"\"\n,,0.1,\"two\nlines\"\n");
 }
 
-static void numbers_keep_their_bits(void **state)
+TEST(numbers_keep_their_bits)
 {
-    (void)state;
     static const double values[] = {1.0 / 3, 1e-300, 123456789.0, -0.38, 5e-324, 4};
     Error err = {0};
     char text[400], *at = text;
@@ -61,10 +55,33 @@ static void numbers_keep_their_bits(void **state)
     assert_string_equal(at, "");
 }
 
-// Far more than is kept back before it is written.
-static void long_files_are_whole(void **state)
+// To half of the ninth digit, whatever their size, and in a form that spreadsheets read.
+TEST(rounded_numbers_have_nine_digits)
 {
-    (void)state;
+    static const double values[] = {
+        0,     1,      -0.38,        1.0 / 3,     0.00012345678912, 1e-5,
+        1e300, -1e-80, 123456789.49, 9999999999., 0.99999999999,    1e-300};
+    enum { COUNT = sizeof values / sizeof *values };
+    Error err = {0};
+    char text[400], *at = text;
+    CsvWriter *csv = csv_create(path, &err);
+    for (int32_t k = 0; k < COUNT; k++) csv_rounded(csv, values[k]);
+    csv_rounded(csv, NAN);
+    csv_end_row(csv);
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    assert_null(strstr(text, "inf"));
+    assert_int_equal(strncmp(text, "0.00000000,1.00000000,-0.380000000,0.333333333,", 47), 0);
+    for (int32_t k = 0; k < COUNT; k++, at++) {
+        double value = fabs(values[k]) < 1e-290 ? 0 : values[k];
+        assert_true(fabs(strtod(at, &at) - value) <= 5.01e-9 * fabs(value));
+        assert_int_equal(*at, ',');
+    }
+}
+
+// Far more than is kept back before it is written.
+TEST(long_files_are_whole)
+{
     Error err = {0};
     enum { ROWS = 30000 };
     static char text[20 * ROWS];
@@ -86,9 +103,8 @@ static void long_files_are_whole(void **state)
     assert_string_equal(at, "");
 }
 
-static void nothing_is_left_of_an_abandoned_one(void **state)
+TEST(nothing_is_left_of_an_abandoned_one)
 {
-    (void)state;
     Error err = {0};
     unlink(path);
     int64_t live = memory_counters().live;
@@ -102,16 +118,14 @@ static void nothing_is_left_of_an_abandoned_one(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-int main(void)
+FIXTURE(group_begin)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_are_quoted_where_they_must_be),
-                                       cmocka_unit_test(numbers_keep_their_bits),
-                                       cmocka_unit_test(long_files_are_whole),
-                                       cmocka_unit_test(nothing_is_left_of_an_abandoned_one)};
-    int file = mkstemp(path);
-    if (file < 0) return 1;
-    close(file);
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    return failed;
+    return close(mkstemp(path));
 }
+
+FIXTURE(group_end)
+{
+    return unlink(path);
+}
+
+GROUP_BETWEEN(group_begin, group_end);

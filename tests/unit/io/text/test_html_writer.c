@@ -3,17 +3,12 @@
 #include "io/text/html_writer.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "io/files/text_file.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static const char PATH[] = "html_writer_test.html";
 
@@ -48,9 +43,8 @@ static void write_texts(HtmlWriter *html)
     html_raw(html, "</b>");
 }
 
-static void text_never_becomes_markup(void **state)
+TEST(text_never_becomes_markup)
 {
-    (void)state;
     check(write_texts, "<b a='3'>&lt;/b&gt; &amp; &quot;x&quot; &#39;y&#39; \u00b5"
                        "\uFFFD\uFFFD\uFFFD(\uFFFD\t\n</b>");
 }
@@ -66,13 +60,12 @@ static void write_numbers(HtmlWriter *html)
     html_number(html, 6400, 12);
 }
 
-static void numbers_are_for_people(void **state)
+TEST(numbers_are_for_people)
 {
-    (void)state;
     check(write_numbers, "0.327 \u22121.5\u202f\u00d7\u202f10<sup>\u22127</sup> \u2013 6400");
 }
 
-static void base64_is_that_of_rfc_4648(void **state)
+TEST(base64_is_that_of_rfc_4648)
 {
     static const char *const vectors[][2] = {{"", ""},
                                              {"f", "Zg=="},
@@ -82,7 +75,6 @@ static void base64_is_that_of_rfc_4648(void **state)
                                              {"fooba", "Zm9vYmE="},
                                              {"foobar", "Zm9vYmFy"}};
     char text[16];
-    (void)state;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) {
         html_base64((const uint8_t *)vectors[k][0], (int64_t)strlen(vectors[k][0]), text);
         assert_string_equal(text, vectors[k][1]);
@@ -102,9 +94,8 @@ static void write_data(HtmlWriter *html)
     memory_free(bytes);
 }
 
-static void long_data_is_whole(void **state)
+TEST(long_data_is_whole)
 {
-    (void)state;
     char *text = written(write_data);
     const char *body = text + strlen("data:image/png;base64,");
     assert_int_equal(strlen(body), 4 * ((LONG + 2) / 3));
@@ -121,24 +112,13 @@ static void write_too_much(HtmlWriter *html)
     html_markup(html, "%s", words);
 }
 
-static void a_failure_leaves_no_file(void **state)
+TEST(a_failure_leaves_no_file)
 {
     Error err = {0};
-    (void)state;
     HtmlWriter *html = html_create(PATH, false, &err);
     assert_non_null(html);
     write_too_much(html);
     assert_false(html_finish(html, &err));
     assert_int_not_equal(access(PATH, F_OK), 0);
     html_abandon(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_never_becomes_markup),  cmocka_unit_test(numbers_are_for_people),
-        cmocka_unit_test(base64_is_that_of_rfc_4648), cmocka_unit_test(long_data_is_whole),
-        cmocka_unit_test(a_failure_leaves_no_file),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

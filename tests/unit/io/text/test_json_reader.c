@@ -2,13 +2,10 @@
 // Values looked up in a text; every text that is cut off or garbled is survived.
 #include "io/text/json_reader.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <math.h>
+#include <string.h>
 
 static const char TEXT[] =
     "{\n  \"status\": \"done\", \"odd \\\"key\\\"\": {\"}\": 1},\n"
@@ -16,9 +13,8 @@ static const char TEXT[] =
     "    \"peaks\": [{\"mu\": 0.5, \"U\": 1e-3}, {\"mu\": -2.5e-1}], \"list\": [1, 2.5, 3]},\n"
     "  \"message\": \"say \\\"no\\\", [not] {this}\\n\\u0041\\u20ac end\", \"last\": 7\n}\n";
 
-static void test_numbers(void **state)
+TEST(test_numbers)
 {
-    (void)state;
     static const struct {
         const char *path;
         double value;
@@ -35,9 +31,8 @@ static void test_numbers(void **state)
     assert_true(isnan(value));
 }
 
-static void test_absent(void **state)
+TEST(test_absent)
 {
-    (void)state;
     static const char *const paths[] = {"mu_M",
                                         "results.mu",
                                         "results.peaks.2.mu",
@@ -59,9 +54,8 @@ static void test_absent(void **state)
     assert_false(json_find_number("", "last", &value));
 }
 
-static void test_texts(void **state)
+TEST(test_texts)
 {
-    (void)state;
     char text[80], few[4];
     assert_true(json_find_text(TEXT, "status", text, sizeof text));
     assert_string_equal(text, "done");
@@ -72,9 +66,8 @@ static void test_texts(void **state)
 }
 
 // The quote that ends the text is no digit of the escape.
-static void test_short_escape(void **state)
+TEST(test_short_escape)
 {
-    (void)state;
     char text[80];
     const char *short_of_digits = "{\"a\": \"x\\u4\", \"b\": \"no part of a\"}";
     assert_true(json_find_text(short_of_digits, "a", text, sizeof text));
@@ -85,9 +78,8 @@ static void test_short_escape(void **state)
 
 // An index stands for every item: a list may be shorter at another time.
 // What is nested deeper than any of our files, or ends within a text, is not gone through.
-static void test_depth(void **state)
+TEST(test_depth)
 {
-    (void)state;
     char text[200] = "", value[10];
     double number = 0;
     for (int k = 0; k < 70; k++) strcat(text, "[");
@@ -101,9 +93,8 @@ static void test_depth(void **state)
     assert_false(json_is_whole("{\"a\": 1} 2"));
 }
 
-static void test_may_hold(void **state)
+TEST(test_may_hold)
 {
-    (void)state;
     static const char *const holds[] = {"last",
                                         "status",
                                         "results.none",
@@ -131,9 +122,8 @@ static void test_may_hold(void **state)
         if (json_may_hold(text, lacks[k])) fail_msg("%s", lacks[k]);
 }
 
-static void test_keys(void **state)
+TEST(test_keys)
 {
-    (void)state;
     char key[20];
     static const char *const keys[] = {"mu_M", "none", "periodic", "off", "peaks", "list"};
     for (int32_t k = 0; k < 6; k++) {
@@ -151,9 +141,8 @@ static void test_keys(void **state)
 
 // Cut anywhere, or with any byte replaced: an answer or none, and no byte beyond the end is read
 // (the sanitizers say so: the text is copied to where it just fits).
-static void test_damage(void **state)
+TEST(test_damage)
 {
-    (void)state;
     enum { SIZE = sizeof TEXT };
     for (size_t k = 0; k < SIZE; k++) {
         char cut[SIZE], text[40];
@@ -172,9 +161,8 @@ static void test_damage(void **state)
     }
 }
 
-static void test_shorter(void **state)
+TEST(test_shorter)
 {
-    (void)state;
     char text[sizeof TEXT], whole[sizeof TEXT];
     double value = 0;
     memcpy(text, TEXT, sizeof TEXT);
@@ -200,15 +188,4 @@ static void test_shorter(void **state)
         json_drop(text, "results.list");
         json_compact(text);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_absent),
-        cmocka_unit_test(test_texts),   cmocka_unit_test(test_short_escape),
-        cmocka_unit_test(test_depth),   cmocka_unit_test(test_may_hold),
-        cmocka_unit_test(test_keys),    cmocka_unit_test(test_damage),
-        cmocka_unit_test(test_shorter)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,12 +4,10 @@
 #include "io/text/json_writer.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,14 +16,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 static char folder[64];
 static char path[128], part[136];
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_json_XXXXXX");
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/document", folder);
@@ -33,9 +28,8 @@ static int make_folder(void **state)
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     unlink(path);
     return rmdir(folder);   // fails when anything else was left
 }
@@ -72,9 +66,8 @@ static void finish(JsonWriter *json)
     if (!json_finish(json, &err)) fail_msg("%s", err.message);
 }
 
-static void a_document_is_laid_out_as_stated(void **state)
+TEST(a_document_is_laid_out_as_stated)
 {
-    (void)state;
     JsonWriter *json = create();
     json_begin_object(json, NULL);
     json_text(json, "status", "done");
@@ -126,9 +119,8 @@ static void a_document_is_laid_out_as_stated(void **state)
                     "}\n");
 }
 
-static void numbers_are_short_and_exact(void **state)
+TEST(numbers_are_short_and_exact)
 {
-    (void)state;
     static const struct {
         double value;
         const char *text;
@@ -175,9 +167,8 @@ static void numbers_are_short_and_exact(void **state)
     fclose(file);
 }
 
-static void text_is_escaped(void **state)
+TEST(text_is_escaped)
 {
-    (void)state;
     static const struct {
         const char *value, *text;
     } cases[] = {
@@ -213,9 +204,8 @@ static void assert_refused(JsonWriter *json, ErrorCode code, const char *words)
     assert_false(exists(part));
 }
 
-static void a_wrong_document_never_gets_its_name(void **state)
+TEST(a_wrong_document_never_gets_its_name)
 {
-    (void)state;
     unlink(path);
     assert_refused(create(), ERROR_LIBRARY, "not whole");
 
@@ -253,9 +243,8 @@ static void a_wrong_document_never_gets_its_name(void **state)
     assert_false(exists(part) || exists(path));
 }
 
-static void an_earlier_document_stays_until_the_new_one_is_whole(void **state)
+TEST(an_earlier_document_stays_until_the_new_one_is_whole)
 {
-    (void)state;
     JsonWriter *json = create();
     json_integer(json, NULL, 1);
     finish(json);
@@ -270,9 +259,8 @@ static void an_earlier_document_stays_until_the_new_one_is_whole(void **state)
     assert_document("2\n");
 }
 
-static void missing_folders_are_named(void **state)
+TEST(missing_folders_are_named)
 {
-    (void)state;
     Error err = {0};
     assert_null(json_create("/nonexistent/run.json", &err));
     assert_int_equal(err.code, ERROR_FILE);
@@ -308,17 +296,15 @@ static void assert_child_is_refused(rlim_t limit, const char *words)
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-static void a_full_disk_leaves_nothing(void **state)
+TEST(a_full_disk_leaves_nothing)
 {
-    (void)state;
     unlink(path);
     assert_child_is_refused(0, "File too large");
     assert_child_is_refused(50000, "File too large");
 }
 
-static void every_path_frees_when_memory_is_short(void **state)
+TEST(every_path_frees_when_memory_is_short)
 {
-    (void)state;
     int64_t live = memory_counters().live;
     for (int64_t k = 0; k < 6; k++) {
         Error err = {0};
@@ -339,9 +325,8 @@ static void every_path_frees_when_memory_is_short(void **state)
     }
 }
 
-static void a_document_stays_in_memory(void **state)
+TEST(a_document_stays_in_memory)
 {
-    (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
     JsonWriter *json = json_create(NULL, &err);
@@ -358,18 +343,27 @@ static void a_document_stays_in_memory(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-int main(void)
+GROUP_BETWEEN(make_folder, remove_folder);
+
+// One line, words without quotes where YAML needs none.
+TEST(test_flow)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_document_is_laid_out_as_stated),
-        cmocka_unit_test(numbers_are_short_and_exact),
-        cmocka_unit_test(text_is_escaped),
-        cmocka_unit_test(a_document_stays_in_memory),
-        cmocka_unit_test(a_wrong_document_never_gets_its_name),
-        cmocka_unit_test(an_earlier_document_stays_until_the_new_one_is_whole),
-        cmocka_unit_test(missing_folders_are_named),
-        cmocka_unit_test(a_full_disk_leaves_nothing),
-        cmocka_unit_test(every_path_frees_when_memory_is_short),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    Error err = {0};
+    JsonWriter *json = json_create_flow(&err);
+    json_begin_object(json, NULL);
+    json_text(json, "group", "top");
+    json_text(json, "along", "1 + x");
+    json_text(json, "empty", "");
+    json_begin_list(json, "list");
+    json_number(json, NULL, 1e6);
+    json_number(json, NULL, 0.1);
+    json_begin_object(json, NULL);
+    json_boolean(json, "yes", true);
+    json_end(json);
+    json_end(json);
+    json_end(json);
+    char *text = json_take(json, &err);
+    assert_string_equal(text, "{group: top, along: \"1 + x\", empty: \"\", list: [1e+06, 0.1, "
+                              "{yes: true}]}");
+    memory_free(text);
 }

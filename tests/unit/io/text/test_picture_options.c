@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/text/picture_options.h"
 
+#include "cases.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-static void each_is_checked(void **state)
+TEST(each_is_checked)
 {
     static const struct {
         const char *name, *value, *says;   // says NULL: allowed
@@ -29,7 +26,6 @@ static void each_is_checked(void **state)
                  {"limits", "1,2,3", "two rising numbers"},
                  {"limits", "1", "two rising numbers"},
                  {"colour", "red", "no option \"colour\"; known are: style, width"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         PictureStyle style = {0};
@@ -39,9 +35,8 @@ static void each_is_checked(void **state)
     }
 }
 
-static void limits_are_numbers_or_parts(void **state)
+TEST(limits_are_numbers_or_parts)
 {
-    (void)state;
     bool is_part = true;
     PictureStyle style = {.limits = "-0.5,98%"};
     assert_float_equal(picture_limit(&style, 0, &is_part), -0.5, 0);
@@ -52,9 +47,8 @@ static void limits_are_numbers_or_parts(void **state)
     assert_true(isnan(picture_limit(&style, 0, &is_part)));
 }
 
-static void what_is_given_goes_before(void **state)
+TEST(what_is_given_goes_before)
 {
-    (void)state;
     PictureStyle style = {.width = 100, .legend = "none"};
     const PictureStyle base = {.width = 50, .height = 30, .legend = "below", .title = "words"};
     picture_style_complete(&style, &base);
@@ -63,14 +57,4 @@ static void what_is_given_goes_before(void **state)
     assert_string_equal(style.legend, "none");
     assert_string_equal(style.title, "words");
     assert_null(style.limits);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_is_checked),
-        cmocka_unit_test(limits_are_numbers_or_parts),
-        cmocka_unit_test(what_is_given_goes_before),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Trees, places and errors of YAML texts; lines and columns were counted by hand.
 #include "base/memory.h"
+#include "cases.h"
 #include "io/text/yaml_document.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 static const char good[] = "title: A \"small\" one   # with a comment\n"
                            "block: {young: 1e3, names: [top, 'rod 2', \"\"]}\n"
@@ -30,9 +27,8 @@ static YamlDocument *parse(const char *text)
     return document;
 }
 
-static void test_tree(void **state)
+TEST(test_tree)
 {
-    (void)state;
     YamlDocument *document = parse(good);
     static const struct {
         const char *path;
@@ -63,9 +59,8 @@ static void test_tree(void **state)
     yaml_destroy(document);
 }
 
-static void test_lists_keep_their_order(void **state)
+TEST(test_lists_keep_their_order)
 {
-    (void)state;
     YamlDocument *document = parse(good);
     YamlNode list = yaml_look_up(document, "block.names");
     assert_int_equal(yaml_count(document, list), 3);
@@ -88,9 +83,8 @@ static void test_lists_keep_their_order(void **state)
     yaml_destroy(document);
 }
 
-static void test_bad_texts(void **state)
+TEST(test_bad_texts)
 {
-    (void)state;
     static const struct {
         const char *text, *place, *words;
     } cases[] = {
@@ -125,9 +119,8 @@ static void test_bad_texts(void **state)
     }
 }
 
-static void test_errors_show_the_line(void **state)
+TEST(test_errors_show_the_line)
 {
-    (void)state;
     YamlDocument *document = parse(good);
     Error err = {0};
     yaml_error(document, yaml_look_up(document, "block.young"), &err, "too %s", "large");
@@ -154,9 +147,8 @@ static void test_errors_show_the_line(void **state)
     yaml_destroy(document);
 }
 
-static void test_long_lines_are_cut_around_the_caret(void **state)
+TEST(test_long_lines_are_cut_around_the_caret)
 {
-    (void)state;
     char text[3000] = "a: [", last[40] = "";
     for (int i = 0; i < 400; i++) snprintf(text + strlen(text), 20, "%d, ", 1000 + i);
     strcat(text, "here]");
@@ -173,9 +165,8 @@ static void test_long_lines_are_cut_around_the_caret(void **state)
     yaml_destroy(document);
 }
 
-static void test_skipped_text_is_shown(void **state)
+TEST(test_skipped_text_is_shown)
 {
-    (void)state;
     Error err = {0};
     YamlDocument *document = NULL;
     assert_true(yaml_parse("--set a.b=7", "a.b=7", 4, &document, &err));
@@ -188,9 +179,8 @@ static void test_skipped_text_is_shown(void **state)
     assert_non_null(strstr(err.message, "a=[1"));
 }
 
-static void test_empty_texts_are_nothing(void **state)
+TEST(test_empty_texts_are_nothing)
 {
-    (void)state;
     static const char *const texts[] = {"", "  \n\n", "# only a comment\n", "---\n", "~", "\r\n"};
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
         YamlDocument *document = parse(texts[k]);
@@ -199,9 +189,8 @@ static void test_empty_texts_are_nothing(void **state)
     }
 }
 
-static void test_windows_lines(void **state)
+TEST(test_windows_lines)
 {
-    (void)state;
     YamlDocument *document = parse("a: 1\r\nb: two\r\n");
     Error err = {0};
     yaml_error(document, yaml_look_up(document, "b"), &err, "x");
@@ -229,9 +218,8 @@ static void assert_read_fails(const char *path, ErrorCode code, const char *word
         fail_msg("%s: %s", amontons_error_name(err.code), err.message);
 }
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     char folder[] = "/tmp/yaml-test-XXXXXX", path[100];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
@@ -255,9 +243,8 @@ static void test_files(void **state)
     rmdir(folder);
 }
 
-static void test_too_many_nodes(void **state)
+TEST(test_too_many_nodes)
 {
-    (void)state;
     size_t size = 100000;
     char *text = malloc(size + 1);
     for (size_t i = 0; i < size; i += 2) memcpy(text + i, i ? "1," : " [", 2);
@@ -269,9 +256,8 @@ static void test_too_many_nodes(void **state)
     free(text);
 }
 
-static void test_memory_faults(void **state)
+TEST(test_memory_faults)
 {
-    (void)state;
     int64_t live = memory_counters().live;
     bool done = false;
     for (int64_t k = 0; !done; k++) {
@@ -297,9 +283,8 @@ static int32_t count_nodes(const YamlDocument *document, YamlNode node)
     return count;
 }
 
-static void test_mutated_texts(void **state)
+TEST(test_mutated_texts)
 {
-    (void)state;
     static const char letters[] = "{}[],:#&*!|>'\"%@`-? \n\t\r0a~\\\xc3\xa9\x80";
     uint32_t random = 12345;
     int64_t live = memory_counters().live;
@@ -318,23 +303,4 @@ static void test_mutated_texts(void **state)
         yaml_destroy(document);
     }
     assert_int_equal(memory_counters().live, live);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_lists_keep_their_order),
-        cmocka_unit_test(test_bad_texts),
-        cmocka_unit_test(test_errors_show_the_line),
-        cmocka_unit_test(test_long_lines_are_cut_around_the_caret),
-        cmocka_unit_test(test_skipped_text_is_shown),
-        cmocka_unit_test(test_empty_texts_are_nothing),
-        cmocka_unit_test(test_windows_lines),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_too_many_nodes),
-        cmocka_unit_test(test_memory_faults),
-        cmocka_unit_test(test_mutated_texts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,35 +3,29 @@
 #include "render/canvas/canvas.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "render/canvas/drawing.h"
 #include "render/canvas/text.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 400 };
 
 static const Color BLACK = {0, 0, 0, 1};
 static Canvas *canvas;
 
-static int canvas_begin(void **state)
+FIXTURE(canvas_begin)
 {
     const CanvasDef def = {.width = SIZE, .height = SIZE, .dpi = 200};
     Error err = {0};
-    (void)state;
     canvas = canvas_create(&def, &err);
     return canvas ? 0 : -1;
 }
 
-static int canvas_end(void **state)
+FIXTURE(canvas_end)
 {
-    (void)state;
     canvas_destroy(canvas);
     canvas = NULL;
     return 0;
@@ -55,15 +49,13 @@ static double area_read(void)
     return area;
 }
 
-static void a_new_page_is_white(void **state)
+TEST_BETWEEN(a_new_page_is_white, canvas_begin, canvas_end)
 {
-    (void)state;
     assert_float_equal(area_read(), 0, 0);
 }
 
-static void areas_are_right(void **state)
+TEST_BETWEEN(areas_are_right, canvas_begin, canvas_end)
 {
-    (void)state;
     draw_fill(canvas, BLACK, &(Box){10, 20, 60, 50});
     assert_float_equal(area_read(), 1500, 1e-9);
     draw_disc(canvas, BLACK, (Point){200, 200}, 40);
@@ -73,9 +65,8 @@ static void areas_are_right(void **state)
     assert_float_equal(area_read(), 1500 + 5027.0F + 400, 55);   // the disc has sides
 }
 
-static void rows_count_from_the_top(void **state)
+TEST_BETWEEN(rows_count_from_the_top, canvas_begin, canvas_end)
 {
-    (void)state;
     draw_fill(canvas, BLACK, &(Box){10, 20, 11, 21});
     uint8_t *pixels = pixels_read();
     assert_int_equal(pixels[3 * (20 * SIZE + 10)], 0);
@@ -83,27 +74,24 @@ static void rows_count_from_the_top(void **state)
     memory_free(pixels);
 }
 
-static void dashes_leave_gaps(void **state)
+TEST_BETWEEN(dashes_leave_gaps, canvas_begin, canvas_end)
 {
-    (void)state;
     Stroke stroke = {.color = BLACK, .width = 2, .dash = 12, .space = 8};
     const Point line[3] = {{50, 100}, {150, 100}, {150, 200}};   // 200 long: ten periods
     draw_line(canvas, &stroke, line, 3);
     assert_float_equal(area_read(), 200 * 2 * 0.6, 6);
 }
 
-static void broken_points_break_lines(void **state)
+TEST_BETWEEN(broken_points_break_lines, canvas_begin, canvas_end)
 {
-    (void)state;
     Stroke stroke = {.color = BLACK, .width = 2};
     const Point line[5] = {{50, 100}, {100, 100}, {NAN, 100}, {200, 100}, {250, INFINITY}};
     draw_line(canvas, &stroke, line, 5);
     assert_float_equal(area_read(), 106, 3);
 }
 
-static void clips_hold(void **state)
+TEST_BETWEEN(clips_hold, canvas_begin, canvas_end)
 {
-    (void)state;
     canvas_clip(canvas, &(Box){0, 0, SIZE, 100});
     draw_fill(canvas, BLACK, &(Box){0, 90, 50, 200});
     canvas_clip(canvas, NULL);
@@ -112,9 +100,8 @@ static void clips_hold(void **state)
 }
 
 // A line that is stroked in pieces, with a dash that is not.
-static void long_lines_are_whole(void **state)
+TEST_BETWEEN(long_lines_are_whole, canvas_begin, canvas_end)
 {
-    (void)state;
     enum { COUNT = 1500 };
     Point line[COUNT];
     Stroke stroke = {.color = BLACK, .width = 2};
@@ -128,9 +115,8 @@ static void long_lines_are_whole(void **state)
     assert_true(fabs(area_read() - 1.5 * solid - 3.14) < 12);
 }
 
-static void heat_shows_levels_and_holes(void **state)
+TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
 {
-    (void)state;
     uint8_t map[3 * MAP_SIZE];
     const float values[6] = {0, 1, 5, HEAT_BELOW, HEAT_MISSING, 0.5f};   // two rows of three
     const int32_t expected[6] = {0, 255, 255, 77, 255, 128};   // 255 in a hole: white
@@ -147,9 +133,26 @@ static void heat_shows_levels_and_holes(void **state)
     memory_free(pixels);
 }
 
-static void a_heat_map_too_large_is_reported(void **state)
+// Every level is the table's, the nearest one; NaN is a hole.
+TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
 {
-    (void)state;
+    enum { COUNT = 100 };
+    uint8_t map[3 * MAP_SIZE];
+    float values[COUNT];
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
+    for (int32_t k = 0; k < COUNT; ++k) values[k] = (float)k / 99;
+    values[7] = NAN;
+    canvas_set_map(canvas, map, BLACK);
+    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, values, COUNT, 1);
+    uint8_t *pixels = pixels_read();
+    for (int32_t k = 0; k < COUNT; ++k)
+        assert_int_equal(pixels[3 * (30 * SIZE + 20 + k)],
+                         k == 7 ? 255 : (int32_t)lround(255.0 * k / 99));
+    memory_free(pixels);
+}
+
+TEST_BETWEEN(a_heat_map_too_large_is_reported, canvas_begin, canvas_end)
+{
     Error err = {0};
     uint8_t *pixels = NULL;
     const float value = 0;
@@ -168,9 +171,8 @@ static Text *text_begin(void)
     return text;
 }
 
-static void text_has_width_and_ink(void **state)
+TEST_BETWEEN(text_has_width_and_ink, canvas_begin, canvas_end)
 {
-    (void)state;
     Text *text = text_begin();
     TextStyle style = {.size = 40, .color = BLACK};
     assert_true(text_width(text, 40, "") == 0);
@@ -185,9 +187,8 @@ static void text_has_width_and_ink(void **state)
 }
 
 // A bar is as black upright as it is rising, and stands where it is put.
-static void text_turns_and_aligns(void **state)
+TEST_BETWEEN(text_turns_and_aligns, canvas_begin, canvas_end)
 {
-    (void)state;
     Text *text = text_begin();
     TextStyle style = {.size = 100, .color = BLACK, .across = 0.5, .up = 0.5};
     text_draw(text, &style, (Point){100, 100}, "0");
@@ -208,9 +209,8 @@ static void text_turns_and_aligns(void **state)
 }
 
 // A letter leaves no point behind from which the next shape would begin.
-static void shapes_after_text_are_right(void **state)
+TEST_BETWEEN(shapes_after_text_are_right, canvas_begin, canvas_end)
 {
-    (void)state;
     const Point corners[] = {{300, 300}, {320, 300}, {320, 320}, {300, 320}};
     Text *text = text_begin();
     TextStyle style = {.size = 40, .color = BLACK};
@@ -226,9 +226,8 @@ static void shapes_after_text_are_right(void **state)
 }
 
 // Broken UTF-8 and braces draw something and end.
-static void odd_words_do_no_harm(void **state)
+TEST_BETWEEN(odd_words_do_no_harm, canvas_begin, canvas_end)
 {
-    (void)state;
     static const char *const odd[] = {"\xff\xfe", "\xe2\x82",          "\xc3", "_{",
                                       "}",        "^{_{~{^{_{x}}}}}}", "_x",   "\xf0\x9f\x98\x80"};
     Text *text = text_begin();
@@ -239,9 +238,8 @@ static void odd_words_do_no_harm(void **state)
     text_destroy(text);
 }
 
-static void sizes_have_limits(void **state)
+TEST_BETWEEN(sizes_have_limits, canvas_begin, canvas_end)
 {
-    (void)state;
     Error err = {0};
     CanvasDef def = {.width = CANVAS_SIZE_MIN - 1, .height = 300, .dpi = 100};
     assert_null(canvas_create(&def, &err));
@@ -253,9 +251,8 @@ static void sizes_have_limits(void **state)
 }
 
 // White paper becomes dark, ink light, and a hue stays the same.
-static void dark_paper_turns_lightness(void **state)
+TEST(dark_paper_turns_lightness)
 {
-    (void)state;
     Color paper = color_on_dark((Color){1, 1, 1, 1}), ink = color_on_dark((Color){0, 0, 0, 0.5F});
     Color red = color_on_dark((Color){0.6F, 0.1F, 0.1F, 1});
     assert_true(paper.red < 0.12F && fabsf(paper.red - paper.blue) < 0.01F);
@@ -264,9 +261,8 @@ static void dark_paper_turns_lightness(void **state)
 }
 
 // Memory that runs out while Cairo hands on the bytes of a PDF is an error, and none is lost.
-static void vector_files_run_out_of_memory(void **state)
+TEST(vector_files_run_out_of_memory)
 {
-    (void)state;
     const CanvasFormat formats[] = {CANVAS_PNG, CANVAS_PDF, CANVAS_SVG};
     for (int32_t f = 0; f < 3; ++f) {
         const CanvasDef def = {.format = formats[f], .width = 300, .height = 300, .dpi = 100};
@@ -288,29 +284,4 @@ static void vector_files_run_out_of_memory(void **state)
         }
         assert_in_range(k, 3, 100);
     }
-}
-
-int main(void)
-{
-#define CASE(name) cmocka_unit_test_setup_teardown(name, canvas_begin, canvas_end)
-    const struct CMUnitTest tests[] = {
-        CASE(a_new_page_is_white),
-        CASE(areas_are_right),
-        CASE(rows_count_from_the_top),
-        CASE(dashes_leave_gaps),
-        CASE(broken_points_break_lines),
-        CASE(clips_hold),
-        CASE(long_lines_are_whole),
-        CASE(heat_shows_levels_and_holes),
-        CASE(a_heat_map_too_large_is_reported),
-        CASE(text_has_width_and_ink),
-        CASE(text_turns_and_aligns),
-        CASE(shapes_after_text_are_right),
-        CASE(odd_words_do_no_harm),
-        CASE(sizes_have_limits),
-        cmocka_unit_test(dark_paper_turns_lightness),
-        cmocka_unit_test(vector_files_run_out_of_memory),
-    };
-#undef CASE
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

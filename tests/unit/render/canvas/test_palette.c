@@ -2,12 +2,9 @@
 // Palettes of pictures whose colours are known.
 #include "render/canvas/palette.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <string.h>
 
 enum { SIZE = 64 };
 
@@ -24,11 +21,10 @@ static void paint(int32_t k, uint8_t red, uint8_t green, uint8_t blue)
     bytes[4 * k + 3] = 0xff;
 }
 
-static void few_colors_are_kept_exactly(void **state)
+TEST(few_colors_are_kept_exactly)
 {
     Palette palette;
     Error err = {0};
-    (void)state;
     for (int32_t k = 0; k < SIZE * SIZE; ++k) paint(k, k % 3 ? 200 : 10, 20, k % 2 ? 30 : 250);
     assert_true(palette_make(&pixels, &palette, &err));
     assert_int_equal(palette.count, 4);
@@ -50,11 +46,10 @@ static int32_t distance(const uint8_t *color, int32_t k)
 }
 
 // 4096 colours over the whole cube; white is most frequent and must stay.
-static void many_colors_become_the_nearest(void **state)
+TEST(many_colors_become_the_nearest)
 {
     Palette palette;
     Error err = {0};
-    (void)state;
     for (int32_t k = 0; k < SIZE * SIZE; ++k)
         paint(k, (uint8_t)(17 * (k / 256)), (uint8_t)(17 * (k / 16 % 16)),
               (uint8_t)(17 * (k % 16)));
@@ -67,11 +62,4 @@ static void many_colors_become_the_nearest(void **state)
             assert_true(distance(palette.color[palette.index[k]], k) <=
                         distance(palette.color[c], k));
     palette_destroy(&palette);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(few_colors_are_kept_exactly),
-                                       cmocka_unit_test(many_colors_become_the_nearest)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

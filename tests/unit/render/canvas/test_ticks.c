@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/canvas/ticks.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <math.h>
+#include <string.h>
 
 static void assert_labels(double low, double high, int32_t wanted, const char *expected)
 {
@@ -20,9 +17,8 @@ static void assert_labels(double low, double high, int32_t wanted, const char *e
     assert_string_equal(all, expected);
 }
 
-static void labels_are_handy_numbers(void **state)
+TEST(labels_are_handy_numbers)
 {
-    (void)state;
     assert_labels(0, 1, 5, "0.0 0.2 0.4 0.6 0.8 1.0 ");
     assert_labels(0, 0.31, 4, "0.0 0.1 0.2 0.3 ");
     assert_labels(-2.5, 2.5, 6, "\u22122 \u22121 0 1 2 ");
@@ -30,9 +26,8 @@ static void labels_are_handy_numbers(void **state)
     assert_labels(12, 47, 4, "20 30 40 ");
 }
 
-static void small_and_large_numbers_have_a_power(void **state)
+TEST(small_and_large_numbers_have_a_power)
 {
-    (void)state;
     assert_int_equal(ticks_choose(0, 0.006, 6).exponent, -3);
     assert_labels(0, 0.006, 6, "0 1 2 3 4 5 6 ");
     assert_int_equal(ticks_choose(4.41e-3, 4.73e-3, 4).exponent, -3);
@@ -56,9 +51,8 @@ static void assert_powers(double low, double high, int32_t wanted, const char *e
     assert_string_equal(all, expected);
 }
 
-static void logarithmic_ticks_are_powers_of_ten(void **state)
+TEST(logarithmic_ticks_are_powers_of_ten)
 {
-    (void)state;
     assert_powers(1e-3, 1e-1, 7, "10^{-3} 10^{-2} 10^{-1} ");
     assert_powers(8e-4, 1.3, 7, "10^{-3} 10^{-2} 10^{-1} 10^{0} ");
     assert_powers(1e-6, 1e6, 7, "10^{-6} 10^{-4} 10^{-2} 10^{0} 10^{2} 10^{4} 10^{6} ");
@@ -81,9 +75,8 @@ static void assert_thirds(double low, double high, const char *expected)
     assert_string_equal(all, expected);
 }
 
-static void short_logarithmic_axes_have_one_two_five(void **state)
+TEST(short_logarithmic_axes_have_one_two_five)
 {
-    (void)state;
     assert_thirds(0.15, 4.8, "0.2 0.5 1 2 ");
     assert_thirds(0.2, 5, "0.2 0.5 1 2 5 ");
     assert_thirds(12, 60, "20 50 ");
@@ -101,9 +94,8 @@ static void short_logarithmic_axes_have_one_two_five(void **state)
 }
 
 // Whatever the range: inside it, in equal steps of 1, 2 or 5, and neither too few nor too many.
-static void any_range_gets_ticks(void **state)
+TEST(any_range_gets_ticks)
 {
-    (void)state;
     double low = -3.7e-5, size = 1.234e-6;
     for (int32_t trial = 0; trial < 2000; ++trial) {
         double high = low + size;
@@ -122,24 +114,12 @@ static void any_range_gets_ticks(void **state)
     }
 }
 
-static void no_range_no_ticks(void **state)
+TEST(no_range_no_ticks)
 {
-    (void)state;
     assert_int_equal(ticks_choose(1, 1, 5).count, 0);
     assert_int_equal(ticks_choose(2, 1, 5).count, 0);
     assert_int_equal(ticks_choose(NAN, 1, 5).count, 0);
     assert_int_equal(ticks_choose(0, INFINITY, 5).count, 0);
     assert_int_equal(ticks_choose(0, 1, 0).count, 0);
     assert_int_equal(ticks_choose(1, 1 + 1e-14, 5).count, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(labels_are_handy_numbers),
-                                       cmocka_unit_test(small_and_large_numbers_have_a_power),
-                                       cmocka_unit_test(logarithmic_ticks_are_powers_of_ten),
-                                       cmocka_unit_test(short_logarithmic_axes_have_one_two_five),
-                                       cmocka_unit_test(any_range_gets_ticks),
-                                       cmocka_unit_test(no_range_no_ticks)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

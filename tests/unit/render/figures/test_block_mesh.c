@@ -51,7 +51,9 @@ static Block patch_make(ElementKind kind, Patch *patch)
             patch_place(kind, e, a, patch->place[node]);
             for (int d = 0; d < 2; d++) patch->position[3 * node + d] = patch->place[node][d];
         }
-    patch->frame = (FieldFrame){.node_count = 2 * count,
+    patch->frame = (FieldFrame){.dim = 2,
+                                .stresses = 3,
+                                .node_count = 2 * count,
                                 .position = patch->position,
                                 .displacement = patch->displacement,
                                 .velocity = patch->velocity,
@@ -132,16 +134,14 @@ static void draw_and_read(ElementKind kind)
     canvas_destroy(canvas);
 }
 
-static void every_element_shows_its_field(void **state)
+TEST(every_element_shows_its_field)
 {
-    (void)state;
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) draw_and_read((ElementKind)kind);
 }
 
 // Ink lies on the curve field = 0.3, all along it, and nowhere else.
-static void contours_follow_the_level(void **state)
+TEST(contours_follow_the_level)
 {
-    (void)state;
     Error err = {0};
     Patch patch;
     Block block = patch_make(ELEMENT_T6, &patch);
@@ -174,16 +174,17 @@ static void contours_follow_the_level(void **state)
 
 // Of the outline only what one element alone has: both have all, as they share no node here; with
 // common nodes the inner side is gone.
-static void the_outline_is_what_one_element_has(void **state)
+TEST(the_outline_is_what_one_element_has)
 {
-    (void)state;
     static const double places[6][2] = {{0.1, 0.1}, {0.5, 0.1}, {0.9, 0.1},
                                         {0.1, 0.9}, {0.5, 0.9}, {0.9, 0.9}};
     int32_t first[3] = {0, 4, 8}, nodes[8] = {0, 1, 4, 3, 1, 2, 5, 4};
     uint8_t kinds[2] = {ELEMENT_Q4, ELEMENT_Q4}, *pixels = NULL;
     double place[6][2], value[6] = {0};
     memcpy(place, places, sizeof place);
-    Block block = {.frame = {.node_count = 6,
+    Block block = {.frame = {.dim = 2,
+                             .stresses = 3,
+                             .node_count = 6,
                              .element_count = 2,
                              .kind = kinds,
                              .first_node = first,
@@ -210,9 +211,8 @@ static void the_outline_is_what_one_element_has(void **state)
 }
 
 // u = (a x + b z, c x + d z): one strain everywhere, on every kind of element.
-static void energies_of_one_strain(void **state)
+TEST(energies_of_one_strain)
 {
-    (void)state;
     const double a = 0.02, b = 0.03, c = -0.01, d = 0.05, stress[3] = {2, -3, 0.7};
     const double work = stress[0] * a + stress[1] * d + stress[2] * (b + c);
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {
@@ -240,9 +240,8 @@ static void energies_of_one_strain(void **state)
 }
 
 // The block as a whole stays where it is; what it is deformed by is drawn magnified.
-static void deformation_is_without_the_push(void **state)
+TEST(deformation_is_without_the_push)
 {
-    (void)state;
     Patch patch;
     Block block = patch_make(ELEMENT_Q4, &patch);
     for (int32_t i = 0; i < block.frame.node_count; i++) {
@@ -260,9 +259,8 @@ static void deformation_is_without_the_push(void **state)
     assert_near("mean x", middle, 0, 1e-10);
 }
 
-static void times_are_found(void **state)
+TEST(times_are_found)
 {
-    (void)state;
     FieldTime stored[4] = {{.t = 0}, {.t = 10}, {.t = 20}, {.t = 40}};
     int64_t rows[4] = {0, 1, 2, 3};
     double U[4] = {0, 0.1, 0.2, 0.4};
@@ -286,17 +284,4 @@ static void times_are_found(void **state)
     }
     assert_int_equal(block_time_before(&times, &view, 0.3), 2);
     assert_int_equal(block_time_before(&times, &view, -1), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_element_shows_its_field),
-        cmocka_unit_test(contours_follow_the_level),
-        cmocka_unit_test(the_outline_is_what_one_element_has),
-        cmocka_unit_test(energies_of_one_strain),
-        cmocka_unit_test(deformation_is_without_the_push),
-        cmocka_unit_test(times_are_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/figures/measured.h"
 
+#include "cases.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 static char path[] = "/tmp/amontons_measured_XXXXXX";
 static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01, 0.05};
-static ResultView view = {.si = true, .rows = 3, .U = U, .mu = mu};
+static double t[3] = {0, 2, 6};   // s: V is 0.5 mm/s
+static ResultView view = {.si = true, .rows = 3, .t = t, .U = U, .mu = mu};
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     view.number[NUMBER_LENGTH] = 0.1;
+    view.number[NUMBER_C_RAYLEIGH] = 900;
+    view.number[NUMBER_ROD_VELOCITY] = -5e-4;
     int file = mkstemp(path);
     return file < 0 ? -1 : close(file);
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     return unlink(path);
 }
 
@@ -36,34 +34,35 @@ static bool take(const char *text, MeasuredKind kind, Measured *measured, Error 
     assert_non_null(file);
     fputs(text, file);
     fclose(file);
-    return measured_read(path, kind, &view, kind == MEASURED_MU ? mu : front, measured, err);
+    const ComputedCurve curve = {3, U, kind == MEASURED_MU ? mu : front};
+    if (!measured_read(path, kind, &view, measured, err)) return false;
+    measured_compare(measured, &view, computed_on_curve, &curve);
+    return true;
 }
 
 // 0.03 more than 0.1 and 0.04 less than 0.3; the third point lies beyond the history.
-static void the_misfit_is_a_root_mean_square(void **state)
+TEST(the_misfit_is_a_root_mean_square)
 {
-    (void)state;
     Error err = {0};
     Measured measured;
     assert_true(take("U (mm),F_T/F_N,error,source\n0.5,0.13,0.01,me\n2,0.26,0.02,me\n9,1,0.1,me\n",
                      MEASURED_MU, &measured, &err));
     assert_int_equal(measured.count, 3);
-    assert_float_equal(measured.U[1], 2e-3, 1e-15);
+    assert_float_equal(measured.at[1], 2e-3, 1e-15);
     assert_non_null(strstr(measured.words, ": misfit 0.0354, 2.55 of its errors"));
     measured_destroy(&measured);
     // sqrt((0.03^2 + 0.04^2) / 2) and sqrt((3^2 + 2^2) / 2)
 }
 
-static void units_and_quotients(void **state)
+TEST(units_and_quotients)
 {
-    (void)state;
     Error err = {0};
     Measured measured;
     assert_true(take("F_N (kN), F_T (kN), U/L\n2,0.4,0.01\n", MEASURED_MU, &measured, &err));
     assert_float_equal(measured.value[0], 0.2, 1e-15);
-    assert_float_equal(measured.U[0], 1e-3, 1e-15);
+    assert_float_equal(measured.at[0], 1e-3, 1e-15);
     measured_destroy(&measured);
-    assert_true(take("U (um),x (cm),error\n1000,1.5,0.1\n", MEASURED_X, &measured, &err));
+    assert_true(take("U (um),x (cm),error\n1000,1.5,0.1\n", MEASURED_FRONT, &measured, &err));
     assert_float_equal(measured.value[0], 0.015, 1e-15);
     assert_non_null(strstr(measured.words, "misfit 0.05 ~{L}, 5 of its errors"));
     measured_destroy(&measured);
@@ -72,13 +71,60 @@ static void units_and_quotients(void **state)
     measured_destroy(&measured);
 }
 
-static void what_is_wrong_is_said(void **state)
+// What there is in the file says what was measured: U by time, lengths over the load ratio, speeds
+// over a wave's.
+TEST(columns_say_what_was_measured)
 {
-    static const char *const cases[][2] = {{"U,mu\n1,2\n", "lengths need a unit"},
-                                           {"U (ft),mu\n1,2\n", "no unit \"ft\""},
+    static const struct {
+        const char *text;
+        MeasuredKind kind;
+        double at, value, error;
+    } cases[] = {{"t (ms),mu\n1000,0.1\n", MEASURED_MU, 5e-4, 0.1, NAN},
+                 {"t (min),x/L,error\n0.05,0.5,0.1\n", MEASURED_FRONT, 1.5e-3, 0.05, 0.01},
+                 {"U (mm),x (mm),A/A_0\n1,20,0.9\n", MEASURED_AREA, 1e-3, 0.9, NAN},
+                 {"F_T/F_N,l (mm),error\n0.3,40,2\n", MEASURED_LENGTH, 0.3, 0.04, 2e-3},
+                 {"x (cm),v/c_R\n5,0.5\n", MEASURED_SPEED, 0.05, 450, NAN},
+                 {"x (cm),v/V\n5,4\n", MEASURED_SPEED, 0.05, 2e-3, NAN},
+                 {"x (cm),v (km/s)\n5,0.5\n", MEASURED_SPEED, 0.05, 500, NAN}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        Error err = {0};
+        Measured measured;
+        for (int32_t kind = 0; kind < MEASURED_KINDS; ++kind) {
+            if (!take(cases[k].text, (MeasuredKind)kind, &measured, &err))
+                fail_msg("%s", err.message);
+            assert_int_equal(measured.count, kind == (int32_t)cases[k].kind);
+            if (measured.count > 0) {
+                assert_float_equal(measured.at[0], cases[k].at, 1e-12);
+                assert_float_equal(measured.value[0], cases[k].value, 1e-12);
+                if (isfinite(cases[k].error))
+                    assert_float_equal(measured.error[0], cases[k].error, 1e-12);
+                else
+                    assert_true(isnan(measured.error[0]));
+            }
+            measured_destroy(&measured);
+        }
+    }
+}
+
+// By hand: between rows half-way, at both ends, beyond them; where a curve stands still its end.
+TEST(a_curve_is_linear_between_its_points)
+{
+    const double at[5] = {0, 1, 1, 1, 3}, value[5] = {0, 2, 5, 6, 10};
+    const ComputedCurve curve = {5, at, value};
+    assert_float_equal(curve_value(&curve, 0), 0, 1e-15);
+    assert_float_equal(curve_value(&curve, 0.5), 1, 1e-15);
+    assert_float_equal(curve_value(&curve, 1), 6, 1e-15);
+    assert_float_equal(curve_value(&curve, 2), 8, 1e-15);
+    assert_float_equal(curve_value(&curve, 3), 10, 1e-15);
+    assert_true(isnan(curve_value(&curve, 3.1)) && isnan(curve_value(&curve, -0.1)));
+}
+
+TEST(what_is_wrong_is_said)
+{
+    static const char *const cases[][2] = {{"U,mu\n1,2\n", "U needs a unit"},
+                                           {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
                                            {"U (mm),y\n1,2\n", "it needs the columns"},
                                            {"U (mm),mu\n1\n", "cells"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;
@@ -93,12 +139,4 @@ static void what_is_wrong_is_said(void **state)
     view.si = true;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_misfit_is_a_root_mean_square),
-        cmocka_unit_test(units_and_quotients),
-        cmocka_unit_test(what_is_wrong_is_said),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+GROUP_BETWEEN(begin, end);

@@ -56,9 +56,8 @@ static void read_size(const char *path, uint32_t size[2])
     }
 }
 
-static void test_drawn(void **state)
+TEST(test_drawn)
 {
-    (void)state;
     char path[] = "/tmp/amontons_mesh_XXXXXX.png";
     Error err = {0};
     MeshGroup groups[3];
@@ -81,9 +80,8 @@ static void test_drawn(void **state)
 }
 
 // A column of cells far taller than wide still fits on a page.
-static void test_tall(void **state)
+TEST(test_tall)
 {
-    (void)state;
     char path[] = "/tmp/amontons_mesh_XXXXXX.png";
     Error err = {0};
     MeshGroup groups[3];
@@ -99,9 +97,8 @@ static void test_tall(void **state)
     unlink(path);
 }
 
-static void test_memory_runs_out(void **state)
+TEST(test_memory_runs_out)
 {
-    (void)state;
     char folder[] = "/tmp/amontons_mesh_XXXXXX", path[64];
     MeshGroup groups[3];
     RenderMesh mesh = mesh_by_hand(groups);
@@ -123,24 +120,12 @@ static void test_memory_runs_out(void **state)
     rmdir(folder);
 }
 
-static void test_no_folder(void **state)
+TEST(test_no_folder)
 {
-    (void)state;
     Error err = {0};
     MeshGroup groups[3];
     RenderMesh mesh = mesh_by_hand(groups);
     assert_false(amontons_render_mesh(&mesh, "/no/such/folder/mesh.png", &err));
     assert_int_equal(err.code, ERROR_FILE);
     assert_non_null(strstr(err.message, "/no/such/folder/mesh.png"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_drawn),
-        cmocka_unit_test(test_tall),
-        cmocka_unit_test(test_memory_runs_out),
-        cmocka_unit_test(test_no_folder),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

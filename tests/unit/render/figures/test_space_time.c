@@ -2,14 +2,10 @@
 #include "render/figures/space_time.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 enum { COLUMNS = 10, ROWS = 4, STEPS = 8, NODES = 2 };
 
@@ -33,9 +29,8 @@ static float at(const PixelGrid *grid, int32_t column, int32_t row)
 static const double crowd_U[STEPS] = {0, 0.15, 0.31, 0.32, 0.33, 0.34, 0.35, 0.85};
 static const double crowd_rate[STEPS * NODES] = {0, 0, 1, 0, 2, 0, -50, 0, 3, 9, 4, 0, 5, 0, 6, 7};
 
-static void fastest_step_shows(void **state)
+TEST(fastest_step_shows)
 {
-    (void)state;
     PixelGrid grid;
     SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     grid_make(&data, &grid);
@@ -47,9 +42,8 @@ static void fastest_step_shows(void **state)
 
 // A column without a step shows the END of the step that covers it, not the start, and not the
 // fastest of the column behind: 2 is the first step of column 3.
-static void long_steps_hold_their_end(void **state)
+TEST(long_steps_hold_their_end)
 {
-    (void)state;
     PixelGrid grid;
     SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     grid_make(&data, &grid);
@@ -61,9 +55,8 @@ static void long_steps_hold_their_end(void **state)
 
 // A rapid event on both sides of the border at 0.4 is in the column of its middle; one of two
 // columns stays in both.
-static void a_short_event_is_in_one_column(void **state)
+TEST(a_short_event_is_in_one_column)
 {
-    (void)state;
     const double U[STEPS] = {0, 0.2, 0.38, 0.395, 0.402, 0.41, 0.45, 1};
     const double rate[STEPS * NODES] = {0, 0, 1, 1, 1, 1, 90, 90, 80, 80, 70, 70, 2, 2, 3, 3};
     const double event[1][2] = {{0.395, 0.41}}, whole[1][2] = {{0.31, 0.49}};
@@ -81,9 +74,8 @@ static void a_short_event_is_in_one_column(void **state)
 }
 
 // Three columns for it around that of its middle, whichever border it crosses.
-static void a_short_event_is_as_wide_as_asked(void **state)
+TEST(a_short_event_is_as_wide_as_asked)
 {
-    (void)state;
     Error err = {0};
     const double U[4] = {0, 0.52, 0.53, 1}, event[1][2] = {{0.52, 0.53}};
     const double rate[4 * NODES] = {0, 0, 90, 90, 80, 80, 2, 2};
@@ -97,9 +89,8 @@ static void a_short_event_is_as_wide_as_asked(void **state)
 }
 
 // Slip 0 to 1 evenly over U 0 to 0.5, then a leap of 3 at 0.55, V = 2: by hand.
-static void the_mean_is_slip_over_way(void **state)
+TEST(the_mean_is_slip_over_way)
 {
-    (void)state;
     Error err = {0};
     const double U[5] = {0, 0.5, 0.55, 0.5500001, 1}, rate[5 * NODES] = {0};
     const double slip[5 * NODES] = {0, 0, 1, 0, 1, 0, 4, 0, 4, 0};
@@ -114,9 +105,8 @@ static void the_mean_is_slip_over_way(void **state)
     pixel_grid_destroy(&grid);
 }
 
-static void a_window_sees_what_surrounds_it(void **state)
+TEST(a_window_sees_what_surrounds_it)
 {
-    (void)state;
     Error err = {0};
     PixelGrid grid = {0.4, 0.6, 0, 1, COLUMNS, ROWS, 1, NULL};
     SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
@@ -126,9 +116,8 @@ static void a_window_sees_what_surrounds_it(void **state)
     pixel_grid_destroy(&grid);
 }
 
-static void before_the_first_step_is_nothing(void **state)
+TEST(before_the_first_step_is_nothing)
 {
-    (void)state;
     const double U[3] = {NAN, 0.5, 0.55}, rate[3 * NODES] = {7, 7, 1, 1, 2, 2};
     PixelGrid grid;
     SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 0, NULL};
@@ -138,9 +127,8 @@ static void before_the_first_step_is_nothing(void **state)
     pixel_grid_destroy(&grid);
 }
 
-static void nodes_fill_their_pads_only(void **state)
+TEST(nodes_fill_their_pads_only)
 {
-    (void)state;
     // Two pads, 0 to 0.25 and 0.75 to 1, and a node inside each.
     const double x[6] = {0, 0.1, 0.25, 0.75, 0.9, 1}, pad[6] = {0, 0, 0, 1, 1, 1};
     const double U[2] = {0, 1}, rate[12] = {1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6};
@@ -160,9 +148,8 @@ static void nodes_fill_their_pads_only(void **state)
     pixel_grid_destroy(&grid);
 }
 
-static void open_is_infinite_and_nan_is_none(void **state)
+TEST(open_is_infinite_and_nan_is_none)
 {
-    (void)state;
     const double U[2] = {0, 0.95}, rate[4] = {1, NAN, 1, NAN}, status[4] = {1, 1, 0, 1};
     PixelGrid grid;
     SpaceTime data = {2, U, NODES, two_x, one_pad, rate, status, NULL, 1, 0, NULL};
@@ -174,9 +161,8 @@ static void open_is_infinite_and_nan_is_none(void **state)
 }
 
 // Against the definition, column by column, for random steps.
-static void agrees_with_the_definition(void **state)
+TEST(agrees_with_the_definition)
 {
-    (void)state;
     enum { MANY = 60 };
     double U[MANY], rate[MANY], x = 0.5, pad = 0;
     srand(7);
@@ -208,9 +194,8 @@ static void agrees_with_the_definition(void **state)
     }
 }
 
-static void memory_can_be_short(void **state)
+TEST(memory_can_be_short)
 {
-    (void)state;
     SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     int64_t live = memory_counters().live;
     for (int64_t k = 0; k < 4; ++k) {
@@ -223,22 +208,4 @@ static void memory_can_be_short(void **state)
         pixel_grid_destroy(&grid);
         assert_int_equal(memory_counters().live, live);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fastest_step_shows),
-        cmocka_unit_test(long_steps_hold_their_end),
-        cmocka_unit_test(a_short_event_is_in_one_column),
-        cmocka_unit_test(a_short_event_is_as_wide_as_asked),
-        cmocka_unit_test(the_mean_is_slip_over_way),
-        cmocka_unit_test(a_window_sees_what_surrounds_it),
-        cmocka_unit_test(before_the_first_step_is_nothing),
-        cmocka_unit_test(nodes_fill_their_pads_only),
-        cmocka_unit_test(open_is_infinite_and_nan_is_none),
-        cmocka_unit_test(agrees_with_the_definition),
-        cmocka_unit_test(memory_can_be_short),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

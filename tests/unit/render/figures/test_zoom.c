@@ -2,12 +2,9 @@
 // Which precursors are enlarged, for histories written down by hand.
 #include "render/figures/zoom.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <math.h>
 
 enum { STEPS = 401 };
 
@@ -24,10 +21,10 @@ static ResultView saw_tooth(void)
     return (ResultView){.rows = STEPS, .U = saw_U, .mu = saw_mu};
 }
 
-static const ViewEvent three_cycles[] = {{VIEW_BOUNDED, 0.8, 0.81},      {VIEW_LEADING, 1.0, 1.01},
-                                         {VIEW_QUASI_STATIC, 1.02, 1.9}, {VIEW_BOUNDED, 1.7, 1.71},
-                                         {VIEW_BOUNDED, 1.9, 1.91},      {VIEW_LEADING, 2.0, 2.01},
-                                         {VIEW_LEADING, 3.0, 3.01},      {VIEW_BOUNDED, 3.5, 3.51}};
+static const ViewEvent three_cycles[] = {
+    {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_QUASI_STATIC, 1.02, 1.9, 0},
+    {VIEW_BOUNDED, 1.7, 1.71, 0}, {VIEW_BOUNDED, 1.9, 1.91, 0}, {VIEW_LEADING, 2.0, 2.01, 0},
+    {VIEW_LEADING, 3.0, 3.01, 0}, {VIEW_BOUNDED, 3.5, 3.51, 0}};
 static const ViewPeak periodic[] = {{1.0, 0.3, false}, {2.0, 0.3, true}, {3.0, 0.3, true}};
 
 static ResultView with_events(int32_t events, int32_t peaks)
@@ -40,9 +37,8 @@ static ResultView with_events(int32_t events, int32_t peaks)
     return view;
 }
 
-static void periodic_with_precursors_comes_first(void **state)
+TEST(periodic_with_precursors_comes_first)
 {
-    (void)state;
     ResultView view = with_events(8, 3);
     Zoom zoom = zoom_choose(&view);
     assert_true(zoom.found);
@@ -51,28 +47,25 @@ static void periodic_with_precursors_comes_first(void **state)
     assert_true(zoom.U_high > 2.0 && zoom.U_high < 2.1);
 }
 
-static void periodic_comes_before_precursors(void **state)
+TEST(periodic_comes_before_precursors)
 {
-    (void)state;
     const ViewEvent events[] = {
-        {VIEW_BOUNDED, 0.8, 0.81}, {VIEW_LEADING, 1.0, 1.01}, {VIEW_LEADING, 3.0, 3.01}};
+        {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_LEADING, 3.0, 3.01, 0}};
     ResultView view = with_events(3, 3);
     view.events = (ViewEvent *)events;
     assert_true(fabs(zoom_choose(&view).U_slide - 3.0) < 1e-12);   // the peak at 1.0 does not count
 }
 
-static void without_peaks_precursors_decide(void **state)
+TEST(without_peaks_precursors_decide)
 {
-    (void)state;
     ResultView view = with_events(8, 0);
     assert_float_equal(zoom_choose(&view).U_slide, 2.0, 1e-12);
     view = with_events(2, 0);
     assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
 }
 
-static void without_precursors_the_last_of_the_cycle(void **state)
+TEST(without_precursors_the_last_of_the_cycle)
 {
-    (void)state;
     ResultView view = with_events(2, 0);
     view.events = (ViewEvent *)three_cycles + 5;   // the slidings at 2 and 3
     Zoom zoom = zoom_choose(&view);
@@ -80,12 +73,11 @@ static void without_precursors_the_last_of_the_cycle(void **state)
     assert_true(zoom.U_low > 2.8 && zoom.U_low < 2.9);
 }
 
-static void many_precursors_are_cut(void **state)
+TEST(many_precursors_are_cut)
 {
-    (void)state;
     ViewEvent events[41];
-    for (int32_t k = 0; k < 40; ++k) events[k] = (ViewEvent){VIEW_BOUNDED, 0.02 * k, 0.02 * k};
-    events[40] = (ViewEvent){VIEW_LEADING, 0.8, 0.81};
+    for (int32_t k = 0; k < 40; ++k) events[k] = (ViewEvent){VIEW_BOUNDED, 0.02 * k, 0.02 * k, 0};
+    events[40] = (ViewEvent){VIEW_LEADING, 0.8, 0.81, 0};
     ResultView view = saw_tooth();
     view.events = events;
     view.event_count = 41;
@@ -93,9 +85,8 @@ static void many_precursors_are_cut(void **state)
     assert_true(zoom.U_low > 0.62 && zoom.U_low < 0.64);   // the last eight start at 0.64
 }
 
-static void without_tables_mu_tells(void **state)
+TEST(without_tables_mu_tells)
 {
-    (void)state;
     ResultView view = saw_tooth();
     Zoom zoom = zoom_choose(&view);
     assert_true(zoom.found);
@@ -105,9 +96,8 @@ static void without_tables_mu_tells(void **state)
     assert_float_equal(zoom_choose(&view).U_slide, 3.0, 0.011);
 }
 
-static void no_sliding_no_zoom(void **state)
+TEST(no_sliding_no_zoom)
 {
-    (void)state;
     ResultView view = saw_tooth();
     for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = 1e-3 * k - (k % 10 == 0 ? 0.01 : 0);
     assert_false(zoom_choose(&view).found);   // small drops are no sliding
@@ -117,13 +107,12 @@ static void no_sliding_no_zoom(void **state)
     assert_false(zoom_choose(&view).found);
 }
 
-static void bad_tables_do_no_harm(void **state)
+TEST(bad_tables_do_no_harm)
 {
-    (void)state;
-    const ViewEvent events[] = {{-1, 0.5, 0.6},
-                                {VIEW_LEADING, NAN, NAN},
-                                {VIEW_BOUNDED, NAN, 0.9},
-                                {VIEW_LEADING, 1.0, NAN}};
+    const ViewEvent events[] = {{-1, 0.5, 0.6, 0},
+                                {VIEW_LEADING, NAN, NAN, 0},
+                                {VIEW_BOUNDED, NAN, 0.9, 0},
+                                {VIEW_LEADING, 1.0, NAN, 0}};
     const ViewPeak peaks[] = {{NAN, NAN, true}};
     ResultView view = saw_tooth();
     view.events = (ViewEvent *)events;
@@ -134,19 +123,4 @@ static void bad_tables_do_no_harm(void **state)
     assert_true(zoom.found);
     assert_float_equal(zoom.U_slide, 1.0, 1e-12);
     assert_true(zoom.U_high > zoom.U_low);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(periodic_with_precursors_comes_first),
-        cmocka_unit_test(periodic_comes_before_precursors),
-        cmocka_unit_test(without_peaks_precursors_decide),
-        cmocka_unit_test(without_precursors_the_last_of_the_cycle),
-        cmocka_unit_test(many_precursors_are_cut),
-        cmocka_unit_test(without_tables_mu_tells),
-        cmocka_unit_test(no_sliding_no_zoom),
-        cmocka_unit_test(bad_tables_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static void check_rises(const FilmClock *clock, double low, double high)
     for (int32_t k = 1; k < clock->frames; ++k) assert_true(clock->t[k] > clock->t[k - 1]);
 }
 
-static void test_slow_is_even(void **state)
+TEST(test_slow_is_even)
 {
-    (void)state;
     double t[ROWS], fastest[ROWS];
     Error err = {0};
     FilmClock clock;
@@ -52,9 +51,8 @@ static void test_slow_is_even(void **state)
 }
 
 // 1 x g^p = 1 + 2 x 49.5: half of 10 s, and 1/101 of the speed, whatever g.
-static void test_rapid_takes_half(void **state)
+TEST(test_rapid_takes_half)
 {
-    (void)state;
     double t[ROWS], fastest[ROWS];
     const double faster[] = {40, 200, 1e6};
     for (int32_t i = 0; i < 3; ++i) {
@@ -73,9 +71,8 @@ static void test_rapid_takes_half(void **state)
 }
 
 // At 4 V the speed-up is 2 and the power 2 at most: 1 x 2^2 + 99 of time is all there is.
-static void test_power_is_bounded(void **state)
+TEST(test_power_is_bounded)
 {
-    (void)state;
     double t[ROWS], fastest[ROWS];
     Error err = {0};
     FilmClock clock;
@@ -87,9 +84,8 @@ static void test_power_is_bounded(void **state)
 }
 
 // Slow motion begins before rapid slip and ends behind it, in steps that the eye follows.
-static void test_ease(void **state)
+TEST(test_ease)
 {
-    (void)state;
     double t[ROWS], fastest[ROWS];
     Error err = {0};
     FilmClock clock;
@@ -111,9 +107,8 @@ static void test_ease(void **state)
     film_clock_destroy(&clock);
 }
 
-static void test_part_of_a_run(void **state)
+TEST(test_part_of_a_run)
 {
-    (void)state;
     double t[ROWS], fastest[ROWS];
     Error err = {0};
     FilmClock clock;
@@ -127,14 +122,4 @@ static void test_part_of_a_run(void **state)
     def.low = def.high;
     assert_false(film_clock_create(&def, &clock, &err));
     assert_int_equal(err.code, ERROR_INPUT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_slow_is_even),     cmocka_unit_test(test_rapid_takes_half),
-        cmocka_unit_test(test_power_is_bounded), cmocka_unit_test(test_ease),
-        cmocka_unit_test(test_part_of_a_run),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

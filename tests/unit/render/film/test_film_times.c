@@ -8,7 +8,7 @@
 static double t[] = {0, 10, 12, 20, 40}, U[] = {0, 1, 1.2, 2, 4};
 static double mu[] = {0, 0.3, 0.1, 0.2, 0.4}, rate[] = {0, 1, 2, 3, 50, 60, 4, 4, 0, 0};
 static ViewEvent events[] = {
-    {VIEW_LEADING, 1, 1.2}, {VIEW_BOUNDED, 1.5, 1.6}, {VIEW_LEADING, 2, 2.2}};
+    {VIEW_LEADING, 1, 1.2, 0}, {VIEW_BOUNDED, 1.5, 1.6, 0}, {VIEW_LEADING, 2, 2.2, 0}};
 
 static ResultView history(int32_t event_count)
 {
@@ -22,9 +22,8 @@ static ResultView history(int32_t event_count)
                         .event_count = event_count};
 }
 
-static void test_between_steps(void **state)
+TEST(test_between_steps)
 {
-    (void)state;
     ResultView view = history(0);
     FilmMoment now = film_moment(&view, 10.5);
     assert_int_equal(now.row, 1);
@@ -52,9 +51,8 @@ static void check_span(int32_t event_count, FilmSpan span, double low, double hi
     assert_near("to", found[1], high, 1e-12);
 }
 
-static void test_spans(void **state)
+TEST(test_spans)
 {
-    (void)state;
     check_span(0, (FilmSpan){0}, 0, 40);
     check_span(0, (FilmSpan){.from = "U=1.1", .to = "t=30"}, 11, 30);
     check_span(0, (FilmSpan){.to = "U=9"}, 0, 40);
@@ -73,21 +71,10 @@ static void check_refused(int32_t event_count, FilmSpan span, const char *words)
     assert_non_null(strstr(err.message, words));
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     check_refused(0, (FilmSpan){.from = "1.1"}, "U=0.0117 or t=120");
     check_refused(0, (FilmSpan){.from = "t=50"}, "to U = 4, t = 40");
     check_refused(0, (FilmSpan){.from = "t=30", .to = "t=20"}, "nothing lies between");
     check_refused(0, (FilmSpan){.last_cycle = true}, "no bulk sliding");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_between_steps),
-        cmocka_unit_test(test_spans),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

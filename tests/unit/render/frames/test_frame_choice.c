@@ -2,12 +2,9 @@
 // Frames of a history written by hand: a rod that moves evenly, a force that falls twice.
 #include "render/frames/frame_choice.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
+#include "cases.h"
 
-#include <cmocka.h>
+#include <math.h>
 
 enum { ROWS = 1000, MOST = 20 };
 
@@ -28,20 +25,18 @@ static ResultView history(void)
     return (ResultView){.rows = ROWS, .U = U, .mu = mu, .rapid_count = 2, .rapid = rapid};
 }
 
-static void few_are_all_taken(void **state)
+TEST(few_are_all_taken)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     assert_int_equal(frames_choose(&view, rows, MOST, MOST, chosen), MOST);
     for (int32_t k = 0; k < MOST; ++k) assert_int_equal(chosen[k], k);
 }
 
-static void frames_rise_and_reach_both_ends(void **state)
+TEST(frames_rise_and_reach_both_ends)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     int32_t count = frames_choose(&view, rows, ROWS, MOST, chosen);
     assert_in_range(count, MOST - 4, MOST);
     assert_int_equal(chosen[0], 0);
@@ -57,11 +52,10 @@ static int32_t between(const int32_t *chosen, int32_t count, double from, double
 }
 
 // A fiftieth of the way of the rod, but half of that of the force.
-static void frames_stand_close_where_the_force_falls(void **state)
+TEST(frames_stand_close_where_the_force_falls)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     int32_t count = frames_choose(&view, rows, ROWS, MOST, chosen);
     assert_in_range(between(chosen, count, 0.295, 0.315) + between(chosen, count, 0.695, 0.715), 4,
                     12);
@@ -69,11 +63,10 @@ static void frames_stand_close_where_the_force_falls(void **state)
 }
 
 // Also where nothing else would lead there.
-static void each_rapid_event_has_a_frame(void **state)
+TEST(each_rapid_event_has_a_frame)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     for (int32_t k = 0; k < ROWS; ++k) mu[k] = 0.1;
     int32_t count = frames_choose(&view, rows, ROWS, 6, chosen);
     assert_in_range(count, 5, 6);
@@ -81,21 +74,10 @@ static void each_rapid_event_has_a_frame(void **state)
     assert_true(between(chosen, count, 0.7, 0.71) >= 1);
 }
 
-static void a_history_without_numbers_is_no_trap(void **state)
+TEST(a_history_without_numbers_is_no_trap)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     for (int32_t k = 0; k < ROWS; ++k) mu[k] = U[k] = NAN;
     assert_in_range(frames_choose(&view, rows, ROWS, MOST, chosen), 1, MOST);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(few_are_all_taken),
-                                       cmocka_unit_test(frames_rise_and_reach_both_ends),
-                                       cmocka_unit_test(frames_stand_close_where_the_force_falls),
-                                       cmocka_unit_test(each_rapid_event_has_a_frame),
-                                       cmocka_unit_test(a_history_without_numbers_is_no_trap)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,9 +51,8 @@ static double walked(const PlotSeries *series, const Box *box)
     return length;
 }
 
-static void the_free_corner_is_taken(void **state)
+TEST(the_free_corner_is_taken)
 {
-    (void)state;
     double x[5], y[5];
     for (int32_t free = 0; free < 4; free++) {
         PlotPanel panel = panel_without(free, x, y);
@@ -71,9 +70,8 @@ static void the_free_corner_is_taken(void **state)
 // A curve through all four corners; a legend that would leave the frame little of its width
 // outside goes where it hides least: here the upper left corner, crossed by nothing but the line
 // along the top.
-static void no_corner_is_free(void **state)
+TEST(no_corner_is_free)
 {
-    (void)state;
     double x[5] = {0.1, 0.9, 0.9, 0.1}, y[5] = {0.9, 0.9, 0.1, 0.1};
     PlotPanel panel = {.series_count = 1};
     panel.series[0] = (PlotSeries){.count = 4, .x = x, .y = y, .line = LINE_SOLID};
@@ -87,9 +85,8 @@ static void no_corner_is_free(void **state)
 
 // Marks and error bars count as lines do, a line that is not drawn and a gap do not; an inset is
 // left alone.
-static void all_that_is_drawn_counts(void **state)
+TEST(all_that_is_drawn_counts)
 {
-    (void)state;
     double x[2] = {0.9, 0.5}, y[2] = {0.9, 0.5}, low[2] = {0.02, 0.4}, high[2] = {0.95, 0.6};
     PlotPanel panel = {.series_count = 1};
     PlotSeries *series = &panel.series[0];
@@ -137,9 +134,8 @@ static int32_t frame_right(Plot *plot)
 }
 
 // A legend beside the frame takes its width from it, one in a corner nothing.
-static void an_outer_legend_narrows_the_frame(void **state)
+TEST(an_outer_legend_narrows_the_frame)
 {
-    (void)state;
     Error err = {0};
     double x[5] = {0.05, 0.95, 0.95, 0.05, 0.05}, y[5] = {0.95, 0.95, 0.05, 0.05, 0.95};
     Plot *plot = NEW_ARRAY(Plot, 1, &err);
@@ -159,13 +155,4 @@ static void an_outer_legend_narrows_the_frame(void **state)
     plot->main.series[0].count = 2;   // along the top alone
     assert_int_equal(frame_right(plot), whole);
     memory_free(plot);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_free_corner_is_taken),
-                                       cmocka_unit_test(no_corner_is_free),
-                                       cmocka_unit_test(all_that_is_drawn_counts),
-                                       cmocka_unit_test(an_outer_legend_narrows_the_frame)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

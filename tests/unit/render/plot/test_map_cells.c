@@ -6,11 +6,8 @@
 
 #include "near.h"
 
-#include "base/memory.h"
-
-static void grid_with_gaps(void **state)
+TEST(grid_with_gaps)
 {
-    (void)state;
     Error err = {0};
     double x[] = {100, 1, 10, 1, 10}, y[] = {0, 0, 0, 3, 3}, value[5] = {0};
     PlotMap map = {.count = 5, .x = x, .y = y, .value = value};
@@ -31,9 +28,8 @@ static void grid_with_gaps(void **state)
     map_grid_destroy(&grid);
 }
 
-static void no_grid(void **state)
+TEST(no_grid)
 {
-    (void)state;
     Error err = {0};
     double diagonal[] = {1, 2, 3, 4, 5}, same[] = {1, 1, 2, 2, 2}, value[5] = {0};
     PlotMap map = {.count = 5, .x = diagonal, .y = diagonal, .value = value};
@@ -53,9 +49,8 @@ static double area(const Point *place, const int32_t corner[3])
 
 // Points along the sides of a square and inside, by a generator of fractions: the area is 1; a
 // cluster far away is joined to nothing.
-static void triangles_tile_the_hull(void **state)
+TEST(triangles_tile_the_hull)
 {
-    (void)state;
     enum { SIDE = 20, INSIDE = 300, ALL = INSIDE + 4 * SIDE };
     Error err = {0};
     Point place[2 * ALL + 1] = {{0}};
@@ -88,9 +83,8 @@ static void triangles_tile_the_hull(void **state)
 }
 
 // On one line there is nothing between points.
-static void flat_points(void **state)
+TEST(flat_points)
 {
-    (void)state;
     Error err = {0};
     const Point place[] = {{0, 0}, {1, 2}, {2, 4}, {5, 10}};
     const MapGrid none = {0};
@@ -100,12 +94,4 @@ static void flat_points(void **state)
         assert_int_equal(triangles.count, 0);
         map_triangles_destroy(&triangles);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(grid_with_gaps), cmocka_unit_test(no_grid),
-                                       cmocka_unit_test(triangles_tile_the_hull),
-                                       cmocka_unit_test(flat_points)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

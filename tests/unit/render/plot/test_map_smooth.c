@@ -2,13 +2,9 @@
 #include "render/plot/map_smooth.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 enum { COLUMNS = 4, ROWS = 3, PARTS = 5, FINE = (COLUMNS - 1) * PARTS + 1 };
 static const int64_t corner = (ROWS - 1) * PARTS * FINE + FINE - 1;   // the last place
@@ -32,9 +28,8 @@ static void smooth_make(const double *values, SmoothGrid *smooth)
 }
 
 // A plane stays one, at the places where it says it is.
-static void a_plane_stays(void **state)
+TEST(a_plane_stays)
 {
-    (void)state;
     double values[COLUMNS * ROWS];
     SmoothGrid smooth;
     for (int32_t k = 0; k < COLUMNS * ROWS; ++k)
@@ -48,9 +43,8 @@ static void a_plane_stays(void **state)
 }
 
 // A step: through every value, and between points never beyond; a hole spreads to the next.
-static void it_does_not_overshoot(void **state)
+TEST(it_does_not_overshoot)
 {
-    (void)state;
     const double values[COLUMNS * ROWS] = {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, NAN};
     SmoothGrid smooth;
     smooth_make(values, &smooth);
@@ -65,13 +59,4 @@ static void it_does_not_overshoot(void **state)
     assert_true(isnan(smooth.value[corner - 1]) != 0);
     assert_true(isfinite(smooth.value[FINE - 2]) != 0);
     smooth_destroy(&smooth);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plane_stays),
-        cmocka_unit_test(it_does_not_overshoot),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,9 +47,8 @@ static void lab_seen(Color color, const double seen[3][3], double lab[3])
     lab[2] = 200 * (root[1] - root[2]);
 }
 
-static void colors_are_told_apart(void **state)
+TEST(colors_are_told_apart)
 {
-    (void)state;
     for (int32_t eye = 0; eye < 4; eye++)
         for (int32_t i = 0; i < PLOT_COLORS; i++)
             for (int32_t j = 0; j < i; j++) {
@@ -61,10 +60,4 @@ static void colors_are_told_apart(void **state)
                     sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
                 if (apart < LEAST) fail_msg("eye %d: %d and %d are %.1f apart", eye, i, j, apart);
             }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(colors_are_told_apart)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

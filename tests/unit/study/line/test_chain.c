@@ -6,9 +6,8 @@
 #include "model1d_sets.h"
 #include "plane.h"
 
-static void test_sums(void **state)
+TEST(test_sums)
 {
-    (void)state;
     enum { NODES = 31 };
     Error err = {0};
     Model1d model = set_a(0.003, 2);
@@ -79,9 +78,8 @@ static double rest_error(const Model1d *model, int32_t nodes)
     return worst;
 }
 
-static void test_rest(void **state)
+TEST(test_rest)
 {
-    (void)state;
     Model1d model = set_a(0.003, 1);
     double coarse = rest_error(&model, 41), fine = rest_error(&model, 81);
     assert_true(fine < 1e-3);
@@ -125,17 +123,15 @@ static double slip_error(int32_t nodes)
     return fabs(mu - theory);
 }
 
-static void test_slip_converges(void **state)
+TEST(test_slip_converges)
 {
-    (void)state;
     double coarse = slip_error(21), middle = slip_error(41), fine = slip_error(81);
     assert_true(fine < 5e-5);
     assert_true(coarse > 2.5 * middle && middle > 2.5 * fine);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     Model1d model = set_a(0.003, 1);
     Chain chain;
     int64_t live = memory_counters().live;
@@ -152,14 +148,10 @@ static void test_memory(void **state)
     assert_true(k > 10);
 }
 
-int main(void)
+FIXTURE(group_begin)
 {
     dense_use_one_thread();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums),
-        cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_slip_converges),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }
+
+GROUP_BETWEEN(group_begin, NULL);

@@ -31,9 +31,8 @@ static Model1dSummary run_line(const Scene *scene, const Model1dOptions *options
     return summary;
 }
 
-static void test_against_theory(void **state)
+TEST(test_against_theory)
 {
-    (void)state;
     const char *settings[] = {"load.pressure=0.03", "time.until={U: 0.03, periodic: true}"};
     Scene *scene = read_scene(settings, 2);
     Model1dOptions options = amontons_model1d_options();
@@ -54,9 +53,8 @@ static void test_against_theory(void **state)
 
 // The ledger closes with the tolerance, and the peaks stay where they are. Steps are not shortened
 // for the ledger's sake here: that would close it at any tolerance.
-static void test_tolerance(void **state)
+TEST(test_tolerance)
 {
-    (void)state;
     Model1dOptions options = amontons_model1d_options();
     options.nodes = 41;
     const char *loose[] = {"load.pressure=0.03", "time.until={U: 0.012}", "time.tolerance=1e-3",
@@ -72,9 +70,8 @@ static void test_tolerance(void **state)
 }
 
 // On a short, lightly loaded line slow slip reaches the end: mu comes near mu_S.
-static void test_no_instability(void **state)
+TEST(test_no_instability)
 {
-    (void)state;
     const char *settings[] = {"time.until={U: 0.002}", "rod.velocity=1e-6"};
     Scene *scene = read_scene(settings, 2);
     Model1dOptions options = amontons_model1d_options();
@@ -109,9 +106,8 @@ static void see_step(const StepView *view, void *context)
     if (++seen->steps == seen->stop_after) seen->stop = 1;
 }
 
-static void test_callbacks(void **state)
+TEST(test_callbacks)
 {
-    (void)state;
     Error err = {0};
     const char *settings[] = {"load.pressure=0.03", "time.until={U: 0.004}"};
     Scene *scene = read_scene(settings, 2);
@@ -140,9 +136,8 @@ static void test_callbacks(void **state)
 }
 
 // mus scale with P L, lengths with L, when the units do: rho, E, eta in SI give the same numbers.
-static void test_units(void **state)
+TEST(test_units)
 {
-    (void)state;
     Model1dOptions options = amontons_model1d_options();
     options.theory_only = true;
     const char *plain[] = {"load.pressure=0.03"};
@@ -167,9 +162,8 @@ static void test_units(void **state)
 }
 
 // Plane strain is plane stress of a material with nu/(1 - nu) and E/(1 - nu^2).
-static void test_plane_strain(void **state)
+TEST(test_plane_strain)
 {
-    (void)state;
     Model1dOptions options = amontons_model1d_options();
     options.theory_only = true;
     char young[40], poisson[40];
@@ -185,9 +179,8 @@ static void test_plane_strain(void **state)
     for (int k = 0; k < 2; k++) amontons_scene_destroy(scenes[k]);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const struct {
         const char *setting, *says;
     } cases[] = {
@@ -250,9 +243,8 @@ static void test_refusals(void **state)
     amontons_scene_destroy(scene);
 }
 
-static void test_wrong_options(void **state)
+TEST(test_wrong_options)
 {
-    (void)state;
     Scene *scene = read_scene(NULL, 0);
     Model1dOptions wrong[] = {{.alpha = 0, .nodes = 81},  {.alpha = -1, .nodes = 81},
                               {.alpha = 11, .nodes = 81}, {.alpha = NAN, .nodes = 81},
@@ -266,9 +258,8 @@ static void test_wrong_options(void **state)
     amontons_scene_destroy(scene);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     char place[PLACE_SIZE];
     const char *settings[] = {"load.pressure=0.03", "time.until={U: 1e-4}"};
     Scene *scene = read_scene(settings, 2);
@@ -295,16 +286,4 @@ static void test_memory(void **state)
     assert_true(place_has(place, "model1d.json") && place_has(place, "history.h5"));
     amontons_scene_destroy(scene);
     place_remove(place);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_theory), cmocka_unit_test(test_tolerance),
-        cmocka_unit_test(test_no_instability), cmocka_unit_test(test_callbacks),
-        cmocka_unit_test(test_plane_strain),   cmocka_unit_test(test_units),
-        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_wrong_options),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

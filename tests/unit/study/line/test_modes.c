@@ -15,9 +15,8 @@ static Model1dRates rates_of(const Model1d *model, double l, int32_t count)
     return rates;
 }
 
-static void test_one_mode(void **state)
+TEST(test_one_mode)
 {
-    (void)state;
     Model1d model = set_a(0.01, 1);
     for (double l = 0.1; l < 1; l += 0.1) {
         Model1dRates rates = rates_of(&model, l, 1);
@@ -64,9 +63,8 @@ static GrowthRate by_differences(const Model1d *model, double l, int32_t n)
     return found;
 }
 
-static void test_against_differences(void **state)
+TEST(test_against_differences)
 {
-    (void)state;
     Model1d models[] = {set_a(0.01, 1), set_a(0.01, 4), set_b(1.15e-4, 0.04)};
     for (size_t m = 0; m < 3; m++) {
         Model1dLosses losses;
@@ -88,9 +86,8 @@ static void test_against_differences(void **state)
     }
 }
 
-static void test_enough_modes(void **state)
+TEST(test_enough_modes)
 {
-    (void)state;
     Model1d models[] = {set_a(0.01, 1), set_a(0.03, 4), set_b(1.15e-4, 0.04)};
     for (size_t m = 0; m < 3; m++) {
         Model1dLosses losses;
@@ -105,9 +102,8 @@ static void test_enough_modes(void **state)
     }
 }
 
-static void test_losses(void **state)
+TEST(test_losses)
 {
-    (void)state;
     Error err = {0};
     Model1dLosses losses;
     Model1d model = set_a(0.01, 1);
@@ -132,9 +128,8 @@ static void test_losses(void **state)
 }
 
 // The stepped line with the nodes behind a front slipping: stepping/growth knows the same rates.
-static void test_against_growth(void **state)
+TEST(test_against_growth)
 {
-    (void)state;
     enum { NODES = 121, FRONT = 80 };
     Error err = {0};
     Model1d model = set_a(0.01, 1);
@@ -159,9 +154,8 @@ static void test_against_growth(void **state)
     chain_destroy(&chain);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     Model1d model = set_a(0.01, 1);
     Model1dLosses losses;
     Error err = {0};
@@ -173,13 +167,10 @@ static void test_memory(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
-int main(void)
+FIXTURE(group_begin)
 {
     dense_use_one_thread();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_mode),       cmocka_unit_test(test_against_differences),
-        cmocka_unit_test(test_enough_modes),   cmocka_unit_test(test_losses),
-        cmocka_unit_test(test_against_growth), cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }
+
+GROUP_BETWEEN(group_begin, NULL);

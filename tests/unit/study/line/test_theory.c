@@ -31,9 +31,8 @@ static double slope(const Model1d *model, double l, double x, double step)
     return (after - before) / step;
 }
 
-static void test_adiabatic_equation(void **state)
+TEST(test_adiabatic_equation)
 {
-    (void)state;
     Model1d models[] = {set_a(0.003, 1), set_a(0.03, 4), set_b(5.75e-5, 0.04)};
     for (size_t m = 0; m < 3; m++) {
         const Model1d *model = &models[m];
@@ -58,9 +57,8 @@ static void test_adiabatic_equation(void **state)
 }
 
 // The paper's u_1, in which U and l stand side by side, with the U(l) of this file.
-static void test_paper_form(void **state)
+TEST(test_paper_form)
 {
-    (void)state;
     Model1d model = set_a(0.01, 2);
     double q = sqrt(model.elastic_x / model.elastic_shear * 0.2 * model.drive * model.height);
     double c = 2 * 0.28 * model.drive * model.pressure / (model.elastic_shear * model.length);
@@ -93,9 +91,8 @@ static double shear_force(const Model1d *model, double l, double from, double to
     return sum * step / 3;
 }
 
-static void test_force(void **state)
+TEST(test_force)
 {
-    (void)state;
     Model1d models[] = {set_a(0.003, 1), set_b(5.75e-5, 0.04)};
     for (size_t m = 0; m < 2; m++) {
         const Model1d *model = &models[m];
@@ -113,9 +110,8 @@ static void test_force(void **state)
 }
 
 // A line far longer than its range: cosh(L/q) alone would overflow.
-static void test_stiff_line(void **state)
+TEST(test_stiff_line)
 {
-    (void)state;
     Model1d model = set_a(0.003, 1);
     model.alpha = 1e-8;
     double q = model1d_range(&model);
@@ -142,9 +138,8 @@ static double complex paper_equation(const Model1d *model, int32_t n, double l,
                model->pressure * L * part * omega;
 }
 
-static void test_growth_rates(void **state)
+TEST(test_growth_rates)
 {
-    (void)state;
     Model1d models[] = {set_a(0.003, 1), set_a(0.03, 4), set_b(5.75e-5, 0.04)};
     int32_t complexes = 0, reals = 0;
     for (size_t m = 0; m < 3; m++) {
@@ -165,9 +160,8 @@ static void test_growth_rates(void **state)
     assert_true(complexes > 20 && reals > 20);
 }
 
-static void test_losses(void **state)
+TEST(test_losses)
 {
-    (void)state;
     Model1d models[] = {set_a(0.003, 1), set_a(0.03, 4), set_b(5.75e-5, 0.04)};
     for (size_t m = 0; m < 3; m++) {
         const Model1d *model = &models[m];
@@ -198,9 +192,8 @@ static void test_losses(void **state)
 }
 
 // l_c/L goes as (L P)^(-1/3) where it is small, and the law's own prefactor is the limit.
-static void test_small_law(void **state)
+TEST(test_small_law)
 {
-    (void)state;
     double last = 0;
     for (double pressure = 1; pressure < 1e7; pressure *= 10) {
         Model1d model = set_a(pressure, 1), larger = set_a(8 * pressure, 1);
@@ -216,25 +209,9 @@ static void test_small_law(void **state)
 
 // What is known of particular states: at Figure 1's the formula gives l_c > L; set B at P L =
 // 2.3e-6 gives mu_M = 1.0.
-static void test_known_states(void **state)
+TEST(test_known_states)
 {
-    (void)state;
     Model1d figure1 = set_a(0.003, 1), pmma = set_b(2.3e-6 / 0.04, 0.04);
     assert_true(model1d_l_c(&figure1) > 1);
     assert_near("set B", model1d_mu_line(&pmma, model1d_l_c(&pmma)), 1.0, 0.01);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_adiabatic_equation),
-        cmocka_unit_test(test_paper_form),
-        cmocka_unit_test(test_force),
-        cmocka_unit_test(test_stiff_line),
-        cmocka_unit_test(test_growth_rates),
-        cmocka_unit_test(test_losses),
-        cmocka_unit_test(test_small_law),
-        cmocka_unit_test(test_known_states),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

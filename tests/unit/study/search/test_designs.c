@@ -4,8 +4,7 @@
 
 #include "base/memory.h"
 #include "near.h"
-
-#include <string.h>
+#include "study/search/front.h"
 
 static Study study = {
     .axis_count = 1,
@@ -13,17 +12,17 @@ static Study study = {
     .search = {.key_count = 2,
                .keys = {{"mesh.set.n", SEARCH_WHOLE, 1, 12}, {"rod.height", SEARCH_LOG, 0.01, 1}}}};
 
-static int begin(void **state)
+FIXTURE(begin)
 {
     static Designs designs;
     Error err = {0};
-    study.search.mean = false;
+    study.search.over = OVER_WORST;
     assert_true(designs_create(&study, 0, NULL, &designs, &err));
     *state = &designs;
     return 0;
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
     designs_destroy(*state);
     return 0;
@@ -38,7 +37,7 @@ static void give(Designs *designs, int32_t design, double a, double b)
 }
 
 // 0.30 +- 0.01 and 0.31 +- 0.03: the lower may be as low as 0.28 and is at most 0.31.
-static void test_the_worst(void **state)
+TEST_BETWEEN(test_the_worst, begin, end)
 {
     Designs *designs = *state;
     double x[] = {4, 0.1};
@@ -58,17 +57,56 @@ static void test_the_worst(void **state)
     assert_true(isnan(designs->list[d].value));
 }
 
-static void test_the_mean(void **state)
+TEST_BETWEEN(test_the_mean, begin, end)
 {
     Designs *designs = *state;
     double x[] = {4, 0.1};
-    study.search.mean = true;
+    study.search.over = OVER_MEAN;
     give(designs, designs_add(designs, x, 0), 0.30, 0.32);
     assert_near("value", designs->list[0].value, 0.31, 1e-15);
     assert_near("bar", designs->list[0].bar, hypot(0.01, 0.03) / 2, 1e-15);
 }
 
-static void test_the_best(void **state)
+// 0.30 and 0.32: each is 0.01 from the mean, and moves the deviation by half of what it moves.
+TEST_BETWEEN(test_the_deviation, begin, end)
+{
+    Designs *designs = *state;
+    double x[] = {4, 0.1};
+    study.search.over = OVER_DEVIATION;
+    give(designs, designs_add(designs, x, 0), 0.30, 0.32);
+    assert_near("value", designs->list[0].value, 0.01, 1e-15);
+    assert_near("bar", designs->list[0].bar, hypot(0.01, 0.03) / 2, 1e-15);
+    give(designs, 0, 0.31, 0.31);   // no direction to move in: as if all had a part in it
+    assert_near("value", designs->list[0].value, 0, 1e-15);
+    assert_near("bar", designs->list[0].bar, hypot(0.01, 0.03) / 2, 1e-15);
+}
+
+// (0.30, 0.32), (0.31, 0.31), (0.29, 0.33); (0.30, 0.31), which the first two are not worse than.
+TEST_BETWEEN(test_the_front, begin, end)
+{
+    Designs *designs = *state;
+    double x[][2] = {{1, 0.1}, {2, 0.1}, {3, 0.1}, {4, 0.1}, {5, 0.1}};
+    bool is_on[5];
+    study.search.over = OVER_FRONT;
+    for (int32_t k = 0; k < 5; k++) designs_add(designs, x[k], k);
+    give(designs, 0, 0.30, 0.32);
+    give(designs, 1, 0.31, 0.31);
+    give(designs, 2, 0.29, 0.33);
+    give(designs, 3, 0.30, 0.31);
+    give(designs, 4, NAN, 0.5);
+    front_find(designs, is_on);
+    assert_true(is_on[0] && is_on[1] && is_on[2] && !is_on[3] && !is_on[4]);
+    assert_near("mean", designs->list[0].value, 0.31, 1e-15);
+    designs->aim = 1;
+    designs_judge(designs, 2);
+    assert_near("one aim", designs->list[2].value, 0.33, 1e-15);
+    designs->lowest = true;
+    front_find(designs, is_on);
+    assert_true(!is_on[0] && is_on[1] == false && is_on[2] && is_on[3]);
+    designs->lowest = false, designs->aim = -1;
+}
+
+TEST_BETWEEN(test_the_best, begin, end)
 {
     Designs *designs = *state;
     double x[][2] = {{1, 0.1}, {2, 0.1}, {3, 0.1}};
@@ -79,7 +117,7 @@ static void test_the_best(void **state)
     designs->lowest = true;
     for (int32_t k = 0; k < 2; k++) designs_judge(designs, k);
     assert_int_equal(designs_best(designs), 1);
-    study.search.mean = true;
+    study.search.over = OVER_MEAN;
     for (int32_t k = 0; k < 2; k++) designs_judge(designs, k);
     assert_int_equal(designs_best(designs), 0);
     assert_int_equal(designs_find(designs, x[2]), 2);
@@ -87,7 +125,7 @@ static void test_the_best(void **state)
     assert_int_equal(designs_find(designs, x[2]), -1);
 }
 
-static void test_written(void **state)
+TEST_BETWEEN(test_written, begin, end)
 {
     Designs *designs = *state;
     Error err = {0};
@@ -107,15 +145,4 @@ static void test_written(void **state)
     memory_free(text);
     design_words(&study, &designs->list[0], words);
     assert_string_equal(words, "mesh.set.n=4 rod.height=0.0123");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_the_worst, begin, end),
-        cmocka_unit_test_setup_teardown(test_the_mean, begin, end),
-        cmocka_unit_test_setup_teardown(test_the_best, begin, end),
-        cmocka_unit_test_setup_teardown(test_written, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

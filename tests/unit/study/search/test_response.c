@@ -36,9 +36,8 @@ static ResponseDef make_data(Data *data, int32_t designs)
                          data->own, data->misfit, data->measured, data->error,  20};
 }
 
-static void test_second_order(void **state)
+TEST(test_second_order)
 {
-    (void)state;
     Data data;
     Response response;
     Error err = {0};
@@ -60,9 +59,8 @@ static void test_second_order(void **state)
 }
 
 // Along x = 0.5 the least misfit is a line's; beyond the range of y it stays at its end.
-static void test_profile(void **state)
+TEST(test_profile)
 {
-    (void)state;
     Data data;
     Response response;
     Error err = {0};
@@ -88,9 +86,8 @@ static void test_profile(void **state)
 }
 
 // Runs that scatter by 0.05 are smoothed, which is told; with few designs the order falls.
-static void test_scatter_and_order(void **state)
+TEST(test_scatter_and_order)
 {
-    (void)state;
     Data data;
     Response response;
     Error err = {0};
@@ -116,14 +113,4 @@ static void test_scatter_and_order(void **state)
     assert_false(response_make(&def, &response, &err));
     assert_non_null(strstr(err.message, "only 3 designs"));
     response_destroy(&response);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_second_order),
-        cmocka_unit_test(test_profile),
-        cmocka_unit_test(test_scatter_and_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

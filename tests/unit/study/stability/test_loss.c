@@ -8,9 +8,8 @@ static const StabilitySummary *summarised(Rig *rig)
     return &rig->summary;
 }
 
-static void test_nothing_is_lost(void **state)
+TEST(test_nothing_is_lost)
 {
-    (void)state;
     Rig rig;
     start(&rig);
     const StabilitySummary *found = summarised(&rig);
@@ -24,9 +23,8 @@ static void test_nothing_is_lost(void **state)
 }
 
 // Without growth the block slides when its front comes to the end, at the largest mu on the way.
-static void test_front_at_the_end(void **state)
+TEST(test_front_at_the_end)
 {
-    (void)state;
     Rig rig;
     start(&rig);
     rig.path.at_end = true;
@@ -40,9 +38,8 @@ static void test_front_at_the_end(void **state)
 }
 
 // Re lambda -1, then 3: lost a quarter of the way to the next node, and U and mu with it.
-static void test_between_two_points(void **state)
+TEST(test_between_two_points)
 {
-    (void)state;
     Rig rig;
     start(&rig);
     rig.points[2].rate_re = 3;
@@ -58,9 +55,8 @@ static void test_between_two_points(void **state)
 }
 
 // Where two slipping parts meet the front jumps: the state before is the last that was stable.
-static void test_before_a_jump(void **state)
+TEST(test_before_a_jump)
 {
-    (void)state;
     Rig rig;
     start(&rig);
     rig.points[2].rate_re = 3;
@@ -71,9 +67,8 @@ static void test_before_a_jump(void **state)
 }
 
 // (Im lambda)^2 falls by 6 a step, from 8 over 2 to what would be -4: a third of the way.
-static void test_birth_of_the_real_pair(void **state)
+TEST(test_birth_of_the_real_pair)
 {
-    (void)state;
     Rig rig;
     start(&rig);
     for (int32_t k = 0; k < POINTS; k++) rig.points[k].rate_re = 1e-3;
@@ -89,14 +84,4 @@ static void test_birth_of_the_real_pair(void **state)
     rig.points[0].rate_im = 0;
     assert_near("l_c", summarised(&rig)->l_c, 0.1, 1e-12);
     assert_near("U", rig.summary.U_c, 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_is_lost),        cmocka_unit_test(test_front_at_the_end),
-        cmocka_unit_test(test_between_two_points),     cmocka_unit_test(test_before_a_jump),
-        cmocka_unit_test(test_birth_of_the_real_pair),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,9 +24,8 @@ static StabilitySummary follow(const char *file, const char *const *overrides, i
 
 // Shear viscosity eta1/2 = 0.05 and G = E/(2(1+nu)) over a height of 1; real growth begins where
 // (G + eta s) q coth q = s w, q^2 = rho s^2/(G + eta s), has a double root.
-static void test_column(void **state)
+TEST(test_column)
 {
-    (void)state;
     static const double eta = 0.05, G = 1 / (2 * 1.34), mu = 4e-4, v_c = 1e-6, w = 0.5;
     char traction[96];
     snprintf(traction, sizeof traction, "load.tractions=[{group: contact, x: 0, z: %.17g}]",
@@ -55,9 +54,8 @@ static void test_column(void **state)
 }
 
 // Coarse block in one piece: alone, it runs away at the length the path finds in the scan.
-static void test_one_pad(void **state)
+TEST(test_one_pad)
 {
-    (void)state;
     const char *overrides[] = {"mesh.set.nx=20", "mesh.set.nz=20", "load.pressure=0.006",
                                "output.figures=[]", "output.fields=none"};
     StabilitySummary found = follow("paper/fig1.yaml", overrides, 5, 0);
@@ -70,9 +68,8 @@ static void test_one_pad(void **state)
 
 // Three pads carry the load; the trailing one takes part most. At a light load each of them bears
 // slip over all its length.
-static void test_three_pads(void **state)
+TEST(test_three_pads)
 {
-    (void)state;
     const char *overrides[] = {"mesh.set.n=3", "mesh.set.size_contact=0.05",
                                "mesh.set.size_bulk=0.1", "output.figures=[]",
                                "load.pressure=0.006"};
@@ -96,12 +93,4 @@ static void test_three_pads(void **state)
     assert_near("mode", heavy.pads[0].mode, 1, 1e-12);
     assert_true(heavy.pads[2].mode < 0.1);
     assert_string_equal(heavy.pads[2].name, "contact_3");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_column),
-                                       cmocka_unit_test(test_one_pad),
-                                       cmocka_unit_test(test_three_pads)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,9 +51,8 @@ static StabilitySummary follow(const Scene *scene, StabilityOptions options, See
     return summary;
 }
 
-static void test_against_dynamics(void **state)
+TEST(test_against_dynamics)
 {
-    (void)state;
     Error err = {0};
     const char *settings[] = {"mesh.set.nx=20", "mesh.set.nz=20", "load.pressure=0.006",
                               "time.until={U: 0.01}"};
@@ -87,9 +86,8 @@ static void test_against_dynamics(void **state)
 }
 
 // Full mesh and reduced basis give the same; a bonded rod and a block that crosses before it grows.
-static void test_full_and_reduced(void **state)
+TEST(test_full_and_reduced)
 {
-    (void)state;
     const char *settings[] = {"mesh.set.nx=10", "mesh.set.nz=10", "reduction.use=never",
                               "rod.kind=bonded"};
     Seen seen;
@@ -130,9 +128,8 @@ static void assert_refused(const char *setting, const char *until, int32_t slidi
     amontons_scene_destroy(scene);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     assert_refused("rod.kind=none", "time.until={t: 5}", 0, "rod.kind");
     assert_refused("friction={law: coulomb, mu_static: 0}", "time.until={U: 1}", 0, "mu_static");
     assert_refused("time.scheme=explicit", "time.until={U: 1}", 0, "time.scheme=sdirk2");
@@ -140,9 +137,8 @@ static void test_refusals(void **state)
 }
 
 // Every allocation that fails, files included: a clean error, nothing leaked, no stability.json.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     const char *settings[] = {"mesh.set.nx=4", "mesh.set.nz=4"};
     char folder[] = "/tmp/amontons-stability-XXXXXX", report[64], arrays[64];
     assert_non_null(mkdtemp(folder));
@@ -174,12 +170,4 @@ static void test_memory(void **state)
     unlink(part);
     assert_int_equal(rmdir(folder), 0);
     amontons_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_dynamics), cmocka_unit_test(test_full_and_reduced),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static void expect(Rig *rig, int32_t count, const char *words)
     assert_int_equal(rig->summary.why_count, count);
 }
 
-static void test_what_decides(void **state)
+TEST(test_what_decides)
 {
-    (void)state;
     Rig rig;
     decide(&rig);
     expect(&rig, 1, "Slip runs away once all of right slips, at mu 0.3000.");
@@ -51,9 +50,8 @@ static void test_what_decides(void **state)
     expect(&rig, 2, "when its front has come to 0.300 L, at mu 0.3000");
 }
 
-static void test_whether_alone(void **state)
+TEST(test_whether_alone)
 {
-    (void)state;
     Rig rig;
     decide(&rig);
     rig.summary.pads[1].load = 0.75;
@@ -62,9 +60,8 @@ static void test_whether_alone(void **state)
     expect(&rig, 2, "(weakening is 0.75 of what it resists): slip of left takes part.");
 }
 
-static void test_what_else_is_said(void **state)
+TEST(test_what_else_is_said)
 {
-    (void)state;
     Rig rig;
     decide(&rig);
     rig.summary.pads[1].mu_fall = 0.003;   // of a mu of 0.3
@@ -82,9 +79,8 @@ static void test_what_else_is_said(void **state)
     expect(&rig, STABILITY_WHY_MAX, "would be steady");
 }
 
-static void test_nothing_runs_away(void **state)
+TEST(test_nothing_runs_away)
 {
-    (void)state;
     Rig rig;
     decide(&rig);
     rig.path.grows = false;
@@ -95,15 +91,4 @@ static void test_nothing_runs_away(void **state)
     rig.summary.why_count = 0;
     stability_explain(&rig.path, &rig.summary);
     assert_int_equal(rig.summary.why_count, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_decides),
-        cmocka_unit_test(test_whether_alone),
-        cmocka_unit_test(test_what_else_is_said),
-        cmocka_unit_test(test_nothing_runs_away),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,16 +4,12 @@
 #include "amontons.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 enum { PATH_SIZE = 200, FAULTS_MAX = 4000 };
 
@@ -43,9 +39,8 @@ static SweepOptions options_with(Told *told)
     return (SweepOptions){.folder = folder, .jobs = 1, .on_point = note, .context = told};
 }
 
-static void tells_of_each_point(void **state)
+TEST(tells_of_each_point)
 {
-    (void)state;
     Error err = {0};
     Told told = {0};
     SweepSummary summary;
@@ -62,9 +57,8 @@ static void tells_of_each_point(void **state)
 }
 
 // All points finished: nothing is forked, so the fault is met here and nowhere else.
-static void frees_all_when_memory_fails(void **state)
+TEST(frees_all_when_memory_fails)
 {
-    (void)state;
     Told told = {0};
     SweepSummary summary;
     SweepOptions options = options_with(&told);
@@ -84,9 +78,8 @@ static void frees_all_when_memory_fails(void **state)
     assert_int_equal(told.reused, 2);
 }
 
-static void stops_when_told(void **state)
+TEST(stops_when_told)
 {
-    (void)state;
     Error err = {0};
     Told told = {0};
     SweepSummary summary;
@@ -99,9 +92,8 @@ static void stops_when_told(void **state)
     assert_int_equal(summary.pending, 2);
 }
 
-static int place_make(void **state)
+FIXTURE(place_make)
 {
-    (void)state;
     const char *source = getenv("AMONTONS_SOURCE") ? getenv("AMONTONS_SOURCE") : "../..";
     if (!mkdtemp(place)) return -1;
     snprintf(study, sizeof study, "%s/study.yaml", place);
@@ -117,18 +109,11 @@ static int place_make(void **state)
     return fclose(file);
 }
 
-static int place_remove(void **state)
+FIXTURE(place_remove)
 {
-    (void)state;
     char command[PATH_SIZE + 20];
     snprintf(command, sizeof command, "rm -rf '%s'", place);
     return system(command);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tells_of_each_point),
-                                       cmocka_unit_test(frees_all_when_memory_fails),
-                                       cmocka_unit_test(stops_when_told)};
-    return cmocka_run_group_tests(tests, place_make, place_remove);
-}
+GROUP_BETWEEN(place_make, place_remove);

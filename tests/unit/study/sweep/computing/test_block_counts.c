@@ -3,7 +3,6 @@
 // on, in whatever order they come.
 #include "study/sweep/computing/block_counts.h"
 
-#include "base/memory.h"
 #include "near.h"
 
 enum { POINTS = 12 };
@@ -28,9 +27,8 @@ static void count(const char *const *words, int32_t points, int32_t *runs)
     block_counts_destroy(&counts);
 }
 
-static void test_what_makes_another_block(void **state)
+TEST(test_what_makes_another_block)
 {
-    (void)state;
     static const char *const words[] = {
         "mesh.set.nx=40",       "mesh.set.nx=60",
         "mesh.set.nx=40",       "material.poisson=0.3",
@@ -43,9 +41,8 @@ static void test_what_makes_another_block(void **state)
     assert_memory_equal(runs, wanted, sizeof wanted);
 }
 
-static void test_what_does_not(void **state)
+TEST(test_what_does_not)
 {
-    (void)state;
     static const char *const words[] = {
         "load.pressure=0.001", "rod.velocity=1e-6",  "friction.mu_static=0.5",
         "time.until.U=0.1",    "output.fields=none", "material.density=3",
@@ -53,11 +50,4 @@ static void test_what_does_not(void **state)
     int32_t runs[POINTS];
     count(words, 9, runs);
     for (int32_t k = 0; k < 9; k++) assert_int_equal(runs[k], 9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_what_makes_another_block),
-                                       cmocka_unit_test(test_what_does_not)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,9 +59,8 @@ static void change_byte(const char *path, int64_t at)
     fclose(file);
 }
 
-static void test_lines(void **state)
+TEST(test_lines)
 {
-    (void)state;
     char place[PLACE_SIZE], a[HASH_TEXT_SIZE], b[HASH_TEXT_SIZE];
     Reports reports;
     Found found;
@@ -112,19 +111,11 @@ static void test_lines(void **state)
     place_remove(place);
 }
 
-static void test_no_file(void **state)
+TEST(test_no_file)
 {
-    (void)state;
     Reports reports;
     Error err = {0};
     assert_false(reports_open(&reports, "/nowhere/reports", false, &err));
     assert_int_equal(err.code, ERROR_FILE);
     reports_close(&reports);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lines),
-                                       cmocka_unit_test(test_no_file)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

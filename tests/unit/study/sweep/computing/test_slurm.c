@@ -31,9 +31,8 @@ static void assert_failures(const char *first, const char *second)
     assert_true(strstr(line, first) < next);
 }
 
-static void test_ends(void **state)
+TEST(test_ends)
 {
-    (void)state;
     Error err;
     SweepSummary summary;
     fake_slurm_says(place, "scontrol", "MaxArraySize = 2\nExitCode=0:11 \n", "0");   // two arrays
@@ -65,9 +64,8 @@ static void test_ends(void **state)
                     "the Slurm job ended as NODE_FAIL: no end of line");
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     Error err;
     SweepSummary summary;
     assert_false(sweep("--comment='open", &summary, &err));
@@ -92,9 +90,8 @@ static void test_refused(void **state)
     setenv("PATH", old_path, 1);
 }
 
-static void test_silence(void **state)
+TEST(test_silence)
 {
-    (void)state;
     Error err = {0};
     SlurmJobs jobs;
     bool answered = true;
@@ -109,9 +106,8 @@ static void test_silence(void **state)
 }
 
 // A squeue that fails says nothing of the jobs: they are asked for again.
-static void test_cancel(void **state)
+TEST(test_cancel)
 {
-    (void)state;
     Error err = {0};
     SlurmJobs jobs;
     char script[4 * PLACE_SIZE], usual[4000], asked[400];
@@ -132,9 +128,8 @@ static void test_cancel(void **state)
 }
 
 // The lists that the last sweep left.
-static void test_element(void **state)
+TEST(test_element)
 {
-    (void)state;
     Error err = {0};
     char list[PLACE_SIZE + 40], text[4000], here[4000];
     assert_non_null(getcwd(here, sizeof here));
@@ -175,9 +170,8 @@ static void test_element(void **state)
 }
 
 // A share of a sweep without folders of points, as the sweep wrote it and changed since.
-static void test_share(void **state)
+TEST(test_share)
 {
-    (void)state;
     Error err = {0};
     char list[PLACE_SIZE + 40], here[4000], text[4000], first[2000];
     assert_non_null(getcwd(here, sizeof here));
@@ -214,9 +208,8 @@ static void test_share(void **state)
     assert_int_equal(chdir(here), 0);
 }
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     char text[2000];
     place_make(place);
     fake_slurm_make(place);
@@ -232,19 +225,10 @@ static int begin(void **state)
     return 0;
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ends),    cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_silence), cmocka_unit_test(test_cancel),
-        cmocka_unit_test(test_element), cmocka_unit_test(test_share),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+GROUP_BETWEEN(begin, end);

@@ -3,18 +3,14 @@
 #include "study/sweep/reading/study_read.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "scene/keys.h"
 #include "study/sweep/reading/study_point.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 static char path[] = "/tmp/amontons_study_XXXXXX.yaml";
 static char head[700];
@@ -66,9 +62,8 @@ static double value_at(const Study *study, int32_t point, const char *key)
     return number;
 }
 
-static void test_product(void **state)
+TEST(test_product)
 {
-    (void)state;
     Study *study = read_body("set: {mesh.set.height: = 0.5 * mesh.set.length, time.until.U: 0.01}\n"
                              "cases:\n  - {rod.kind: push}\n  - {rod.kind: bonded}\n"
                              "vary:\n  mesh.set.length: [0.25, 4]\n"
@@ -92,9 +87,8 @@ static void test_product(void **state)
 }
 
 // What a sweep sets where nobody says otherwise, and that a study can say otherwise.
-static void test_standard(void **state)
+TEST(test_standard)
 {
-    (void)state;
     Study *study = read_body("vary: {load.pressure: [1, 2]}\n");
     Scene *scene = scene_at(study, 1);
     assert_true(scene->time.until_periodic && scene->time.until_U == 0.012);
@@ -111,9 +105,8 @@ static void test_standard(void **state)
     drop(study);
 }
 
-static void test_ranges(void **state)
+TEST(test_ranges)
 {
-    (void)state;
     Study *study = read_body("vary: {load.pressure: {log: [2e-4, 0.7123456789], points: 9}}\n");
     for (int32_t k = 0; k < 9; k++) {
         double exact = 2e-4 * pow(0.7123456789 / 2e-4, k / 8.0);
@@ -133,9 +126,8 @@ static void test_ranges(void **state)
 }
 
 // base scene < set < --set < cases < vary < formulas; --set replaces a formula of `set`.
-static void test_order(void **state)
+TEST(test_order)
 {
-    (void)state;
     static const char body[] =
         "set: {material.eta2: 2, rod.width: = 3 * load.pressure, rod.height: 0.1}\n"
         "cases: [{rod.height: = load.pressure + rod.width, material.young: 4}]\n"
@@ -156,9 +148,8 @@ static void test_order(void **state)
 
 // Points are made from one reading of the base scene: nothing of one is left in the next, in any
 // order, and units that a case sets are those of all its numbers.
-static void test_points_are_apart(void **state)
+TEST(test_points_are_apart)
 {
-    (void)state;
     Study *study = read_body("set: {rod.height: = 0.4 * mesh.set.height}\n"
                              "cases:\n  - {load.pressure: 3 kPa, rod.stiffness: 7, units: si}\n"
                              "  - {mesh.set: {height: 2}, time.until: {t: 5}, mesh.file: a.geo}\n"
@@ -180,9 +171,8 @@ static void test_points_are_apart(void **state)
     drop(study);
 }
 
-static void test_records(void **state)
+TEST(test_records)
 {
-    (void)state;
     Study *study = read_body("vary: {load.pressure: [1]}\nrecord: [mu_M, results.mu_max]\n");
     assert_int_equal(study->record_count, 2);
     assert_string_equal(study->records[0].path, "results.mu_M");
@@ -196,9 +186,8 @@ static void test_records(void **state)
 }
 
 // A map, whose quantities become columns, and a plot of a formula.
-static void test_several_plots(void **state)
+TEST(test_several_plots)
 {
-    (void)state;
     Study *study = read_body(
         "vary: {load.pressure: [1, 2], mesh.set.length: [1, 2], rod.kind: [push, bonded]}\n"
         "record: [period]\n"
@@ -223,9 +212,8 @@ static void test_several_plots(void **state)
 }
 
 // Maps below a group are columns of their own.
-static void test_rank_and_plot(void **state)
+TEST(test_rank_and_plot)
 {
-    (void)state;
     Study *study = read_body("vary: {load.pressure: [1, 2], rod.kind: [push, bonded]}\n"
                              "record: [period]\n"
                              "rank: {by: l_c, order: lowest, top: 3, against: {rod.kind: push}}\n"
@@ -265,9 +253,8 @@ static void test_rank_and_plot(void **state)
     drop(study);
 }
 
-static void test_columns_of_maps(void **state)
+TEST(test_columns_of_maps)
 {
-    (void)state;
     Study *study = read_body("vary:\n  mesh.set: [{nx: 5, nz: 6}, {nx: 7, nz: 8}]\n");
     assert_int_equal(study->column_count, 2);
     assert_string_equal(study->columns[1], "mesh.set.nz");
@@ -296,9 +283,8 @@ static void test_columns_of_maps(void **state)
 }
 
 // Lines count from the study's first, which names the scene.
-static void test_faults(void **state)
+TEST(test_faults)
 {
-    (void)state;
     static const struct {
         const char *body, *message;
     } known[] = {
@@ -372,9 +358,8 @@ static void test_faults(void **state)
     }
 }
 
-static void test_faults_of_plots(void **state)
+TEST(test_faults_of_plots)
 {
-    (void)state;
     static const char *const known[][2] = {
         {"plot: {x: mu_M, y: = l_c * mu_N}\n", "y: unknown name `mu_N`; did you mean `mu_M`?"},
         {"plot: {x: mu_M, y: = l_c *}\n", "y: the formula ends where"},
@@ -392,9 +377,8 @@ static void test_faults_of_plots(void **state)
     }
 }
 
-static void test_faults_of_overrides(void **state)
+TEST(test_faults_of_overrides)
 {
-    (void)state;
     static const char *const overrides[][2] = {{"load.pressure=3", "varies load.pressure"},
                                                {"load={pressure: 3}", "varies load.pressure"},
                                                {"=3", "expected key=value"},
@@ -409,9 +393,8 @@ static void test_faults_of_overrides(void **state)
     }
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     int64_t failures = 0;
     write_study("set: {rod.width: = 2 * load.pressure}\nvary:\n"
                 "  load.pressure: {log: [1, 2], points: 2}\n");
@@ -436,30 +419,17 @@ static void test_memory(void **state)
     memory_free(study);
 }
 
-static int make_file(void **state)
+FIXTURE(make_file)
 {
-    (void)state;
     int descriptor = mkstemps(path, 5);
     snprintf(head, sizeof head, "scene: %s/validation/paper/fig1.yaml\n",
              getenv("AMONTONS_SOURCE") ? getenv("AMONTONS_SOURCE") : "../..");
     return descriptor < 0 ? -1 : 0;
 }
 
-static int remove_file(void **state)
+FIXTURE(remove_file)
 {
-    (void)state;
     return remove(path);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_product),         cmocka_unit_test(test_standard),
-        cmocka_unit_test(test_ranges),          cmocka_unit_test(test_order),
-        cmocka_unit_test(test_records),         cmocka_unit_test(test_rank_and_plot),
-        cmocka_unit_test(test_several_plots),   cmocka_unit_test(test_columns_of_maps),
-        cmocka_unit_test(test_faults),          cmocka_unit_test(test_faults_of_overrides),
-        cmocka_unit_test(test_faults_of_plots), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_points_are_apart)};
-    return cmocka_run_group_tests(tests, make_file, remove_file);
-}
+GROUP_BETWEEN(make_file, remove_file);

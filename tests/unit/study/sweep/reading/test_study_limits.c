@@ -45,9 +45,8 @@ static void add_many(int32_t count, const char *format, const char *end)
     snprintf(text + used, sizeof text - used, "%s", end);
 }
 
-static void test_words(void **state)
+TEST(test_words)
 {
-    (void)state;
     static const char *const known[][2] = {
         {"zzzzzzzzzz: 1\n", ":2:1: zzzzzzzzzz: unknown key of a study; allowed: title, scene"},
         {"keep: some\n", ":2:7: keep: found `some`; allowed: points or table"},
@@ -94,9 +93,8 @@ static void test_words(void **state)
     }
 }
 
-static void test_no_studies(void **state)
+TEST(test_no_studies)
 {
-    (void)state;
     Error err = {0};
     static char longer[700];
     snprintf(text, sizeof text, "- a list\n");
@@ -115,9 +113,8 @@ static void test_no_studies(void **state)
     memory_free(study);
 }
 
-static void test_too_many(void **state)
+TEST(test_too_many)
 {
-    (void)state;
     static const char *words[300];
     static const struct {
         const char *first;
@@ -152,27 +149,17 @@ static void test_too_many(void **state)
     assert_refused(words, 1, "expected key=value");
 }
 
-static int make(void **state)
+FIXTURE(make)
 {
-    (void)state;
     place_make(place);
     snprintf(path, sizeof path, "%s/study.yaml", place);
     return 0;
 }
 
-static int drop(void **state)
+FIXTURE(drop)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_words),
-        cmocka_unit_test(test_no_studies),
-        cmocka_unit_test(test_too_many),
-    };
-    return cmocka_run_group_tests(tests, make, drop);
-}
+GROUP_BETWEEN(make, drop);

@@ -103,9 +103,8 @@ static void assert_refused(const char *name, const char *plot, const char *words
     if (!strstr(err.message, words)) fail_msg("%s: '%s', not '%s'", plot, err.message, words);
 }
 
-static void test_curves(void **state)
+TEST(test_curves)
 {
-    (void)state;
     const char *said = description(
         "one", "{x: load.pressure, y: mu_M, series: mesh.set.length, log: both}", "plot");
     assert_says(said, "\"y\": [2, 3, 4]");
@@ -122,9 +121,8 @@ static void test_curves(void **state)
     assert_says(said, "untitled, kind = push");
 }
 
-static void test_maps(void **state)
+TEST(test_maps)
 {
-    (void)state;
     const char *said = description(
         "one", "{x: load.pressure, y: mesh.set.length, color: mu_hold, contours: mu_M}", "map");
     assert_says(said, "\"contour\": [2, 3, 4, 3, 4, 5]");
@@ -141,9 +139,8 @@ static void test_maps(void **state)
     assert_true(place_has(place, "large/figures/map.h5"));
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     assert_refused("none", "{x: a, y: b}", "there is no sweep.h5 in it");
     assert_refused("old", "{x: a, y: b}", "was written by an earlier version");
     assert_refused("one", "{x: load.presure, y: mu_M}", "did you mean `load.pressure`?");
@@ -158,10 +155,9 @@ static void test_refused(void **state)
     assert_refused("many", "{x: load.pressure, y: mu_M, series: mesh.set.length}", "too many");
 }
 
-static int make(void **state)
+FIXTURE(make)
 {
     static const char columns[] = "load.pressure|mesh.set.length|rod.kind|mu_M|mu_hold|short";
-    (void)state;
     place_make(place);
     write_table((Table){"one", "First", columns, 3, 2, false});
     write_table((Table){"untitled", NULL, NULL, 3, 2, false});
@@ -172,19 +168,10 @@ static int make(void **state)
     return 0;
 }
 
-static int drop(void **state)
+FIXTURE(drop)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_curves),
-        cmocka_unit_test(test_maps),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, make, drop);
-}
+GROUP_BETWEEN(make, drop);

@@ -3,15 +3,11 @@
 #include "study/sweep/showing/rank.h"
 
 #include "base/memory.h"
+#include "cases.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 enum { POINTS = 1500 };
 
@@ -62,9 +58,8 @@ static void check(const Ranked *made, const Ranking *ranking)
     }
 }
 
-static void test_ranks(void **state)
+TEST(test_ranks)
 {
-    (void)state;
     static const double errors[] = {0, 1e-3, 0.02, 5};
     for (size_t k = 0; k < sizeof errors / sizeof errors[0]; k++) {
         Error err = {0};
@@ -80,9 +75,8 @@ static void test_ranks(void **state)
 
 // Three points, one computed again: it moved by 2.5 of its bars before, so those of the others
 // count 2.5 times, and what they decided alone is open.
-static void test_refined(void **state)
+TEST(test_refined)
 {
-    (void)state;
     Error err = {0};
     Ranking ranking = {0};
     double values[] = {0.30, 0.29, 0.25}, errors[] = {0.002, 0.004, 0.004};
@@ -106,11 +100,4 @@ static void test_refined(void **state)
     assert_true(ranking_make(&sweep, &table, &ranking, &err));
     assert_int_equal(ranking.rows[0].to, 1);
     ranking_destroy(&ranking);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ranks),
-                                       cmocka_unit_test(test_refined)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,15 +4,11 @@
 #include "study/sweep/showing/warned.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "study/sweep/showing/words.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 static void add(Warned *warned, int32_t point, const char *format, double a, double b)
 {
@@ -32,9 +28,8 @@ static char *print(const Warned *warned)
     return text;
 }
 
-static void test_kinds(void **state)
+TEST(test_kinds)
 {
-    (void)state;
     static const char nodes[] = "pad_2 is not resolved: at %g of 41 nodes, %g times";
     Error err = {0};
     Warned warned;
@@ -62,9 +57,8 @@ static void test_kinds(void **state)
 }
 
 // A sentence without a colon, too many kinds, too many numbers, too many points to list.
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     Error err = {0};
     Warned warned;
     char name[WARNED_NAME_SIZE], words[2 * WARNED_NAME_SIZE] = "";
@@ -87,9 +81,8 @@ static void test_limits(void **state)
     warned_destroy(&warned);
 }
 
-static void test_words(void **state)
+TEST(test_words)
 {
-    (void)state;
     Error err = {0};
     WordList list = {0};
     char word[20];
@@ -106,11 +99,4 @@ static void test_words(void **state)
     text = words_join(&list, &err);
     assert_string_equal(text, "");
     memory_free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_limits),
-                                       cmocka_unit_test(test_words)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Tables of what a figure shows, beside its picture: figures/force.csv, and where measurements were
+// given figures/force-compared.csv. Called by render.c.
+#ifndef AMONTONS_RENDER_FIGURE_DATA_H
+#define AMONTONS_RENDER_FIGURE_DATA_H
+
+#include "render/figures/figures.h"
+
+// name: "force"; figures without curves have no table of their own.
+bool figure_data_write(const char *folder, const char *name, ResultView *view, const char *compare,
+                       Error *err);
+
+// Whether `name` shows what the file has measured.
+bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,
+                          Error *err);
+
+#endif

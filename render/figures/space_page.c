@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pixels have the value of what is nearest to the camera; lines are drawn over them as far as
+// nothing hides them. Colours are those of the bar: there is no light.
+#include "render/figures/space_page.h"
+
+#include "base/memory.h"
+#include "render/figures/depth_image.h"
+#include "render/figures/figures.h"
+#include "render/figures/rod_mark.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { ARROWS = 7, STATUSES = 4, TICKS_WANTED = 4 };
+
+static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
+static const double SEAM = 0.2, FLOOR_WIDTH = 0.4, STRIP_WIDTH = 1.2;   // points
+static const double LOAD_LENGTH = 8, LOAD_GAP = 1, LOAD_HEAD = 2;   // points
+static const double ROD_LENGTH = 11, ROD_HEAD = 3, ROD_WIDTH = 1;   // points
+static const double TICK = 2.5, NUMBER_GAP = 2, NAME_GAP = 13;   // points
+static const double SLACK = 0.004;   // of the diagonal: a line on the surface is not behind it
+static const double FACE_SLACK = 1e-6;   // of the diagonal
+
+static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
+static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
+
+static double diagonal(const Block *block)
+{
+    double sum = 0;
+    for (int32_t d = 0; d < 3; ++d) sum += pow(block->high[d] - block->low[d], 2);
+    return sqrt(sum);
+}
+
+static DepthPoint see(const SpacePage *space, const Block *block, const double place[3],
+                      double value)
+{
+    double seen[3];
+    camera_see(&block->camera, place, seen);
+    Point at = axes_place(&space->axes, seen[0], seen[1]);
+    at.x -= space->axes.box.left;
+    at.y -= space->axes.box.top;
+    return (DepthPoint){at, seen[2], value};
+}
+
+static Point see_on_page(const SpacePage *space, const Block *block, double x, double y, double z)
+{
+    const double place[3] = {x, y, z};
+    DepthPoint seen = see(space, block, place, 0);
+    return (Point){seen.at.x + space->axes.box.left, seen.at.y + space->axes.box.top};
+}
+
+static double floor_height(const Block *block)
+{
+    return block->low[2] - camera_drop(block->low, block->high);
+}
+
+void space_page_extent(const Block *block, double extent[4])
+{
+    double floor = floor_height(block);
+    for (int32_t d = 0; d < 2; ++d) {
+        extent[2 * d] = INFINITY;
+        extent[2 * d + 1] = -INFINITY;
+        for (int64_t i = 0; i < block->frame.node_count; ++i) {
+            extent[2 * d] = fmin(extent[2 * d], block->place[i][d]);
+            extent[2 * d + 1] = fmax(extent[2 * d + 1], block->place[i][d]);
+        }
+        for (int32_t k = 0; k < 4; ++k) {
+            const double corner[3] = {k % 2 ? block->high[0] : block->low[0],
+                                      k / 2 ? block->high[1] : block->low[1], floor};
+            double seen[3];
+            camera_see(&block->camera, corner, seen);
+            extent[2 * d] = fmin(extent[2 * d], seen[d]);
+            extent[2 * d + 1] = fmax(extent[2 * d + 1], seen[d]);
+        }
+    }
+}
+
+// --- the block -----------------------------------------------------------------------------------
+
+// 0 to 1 of the colours.
+static double level_of(const SpacePage *space, double value)
+{
+    const Colorbar *bar = space->bar;
+    return fmin(fmax((value * space->factor - bar->low) / (bar->high - bar->low), 0), 1);
+}
+
+static bool draw_colors(const Page *page, const SpacePage *space, const Block *block,
+                        const Surface *surface, DepthImage *image, Error *err)
+{
+    const Box *box = &space->axes.box;
+    TRY(depth_image_create((int32_t)(box->right - box->left), (int32_t)(box->bottom - box->top),
+                           SLACK * diagonal(block), image, err));
+    for (int64_t t = 0; t < surface->triangles.count; ++t) {
+        DepthPoint corner[3];
+        for (int32_t k = 0; k < 3; ++k) {
+            const SurfacePoint *point = &surface->triangles.points[3 * t + k];
+            corner[k] = see(space, block, point->at, point->value);
+        }
+        depth_image_add(image, corner);
+    }
+    for (int64_t k = 0; k < (int64_t)image->rows * image->columns; ++k)
+        image->values[k] = isnan(image->values[k])
+                               ? HEAT_MISSING
+                               : (float)level_of(space, (double)image->values[k]);
+    canvas_heat(page->canvas, box, image->values, image->columns, image->rows);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void draw_parts(const Page *page, const SpacePage *space, const Block *block,
+                       const SurfaceParts *lines, const DepthImage *image, const Stroke *stroke)
+{
+    Point corner = {space->axes.box.left, space->axes.box.top};
+    for (int64_t k = 0; k < lines->count; ++k) {
+        const SurfacePoint *two = lines->points + 2 * k;
+        const DepthPoint ends[2] = {see(space, block, two[0].at, 0),
+                                    see(space, block, two[1].at, 0)};
+        depth_image_line(image, page->canvas, corner, stroke, ends);
+    }
+}
+
+// Where a triangle has a value: a line between two of its sides.
+static void draw_contour(const Page *page, const SpacePage *space, const Block *block,
+                         const SurfacePoint corner[3], double value, const DepthImage *image)
+{
+    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * space->unit};
+    DepthPoint ends[3];
+    int32_t found = 0;
+    for (int32_t k = 0; k < 3; ++k) {
+        const SurfacePoint *a = &corner[k], *b = &corner[(k + 1) % 3];
+        double place[3];
+        if ((a->value < value) == (b->value < value)) continue;
+        double part = (value - a->value) / (b->value - a->value);
+        for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
+        ends[found++] = see(space, block, place, 0);
+    }
+    Point at = {space->axes.box.left, space->axes.box.top};
+    if (found == 2) depth_image_line(image, page->canvas, at, &stroke, ends);
+}
+
+// At the numbers of the bar.
+static void draw_contours(const Page *page, const SpacePage *space, const Block *block,
+                          const Surface *surface, const DepthImage *image)
+{
+    Ticks ticks = colorbar_ticks(space->bar);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        double number = tick_value(&ticks, k);
+        if (!(number > space->bar->low && number < space->bar->high)) continue;
+        for (int64_t t = 0; t < surface->triangles.count; ++t)
+            draw_contour(page, space, block, surface->triangles.points + 3 * t,
+                         number / space->factor, image);
+    }
+}
+
+// --- marks ---------------------------------------------------------------------------------------
+
+// How far above or below the strip a node of the trailing face is; INFINITY: it is beside it.
+static double off_strip(const Block *block, int64_t node, const double low[2], const double high[2])
+{
+    const double *was = block->frame.position + 3 * node;
+    double slack = FACE_SLACK * diagonal(block);
+    bool beside = was[0] > block->low[0] + slack || was[1] < low[0] - slack ||
+                  was[1] > high[0] + slack;
+    return beside ? INFINITY : fmax(0, fmax(low[1] - was[2], was[2] - high[1]));
+}
+
+// Mean way, as drawn, of the nodes of the trailing face in the rod's strip, or next to it where no
+// node is inside; false: there is none.
+static bool rod_moved(const Block *block, const double low[2], const double high[2],
+                      double moved[3])
+{
+    double nearest = INFINITY, count = 0;
+    for (int64_t i = 0; i < block->frame.node_count; ++i)
+        nearest = fmin(nearest, off_strip(block, i, low, high));
+    for (int32_t d = 0; d < 3; ++d) moved[d] = 0;
+    for (int64_t i = 0; i < block->frame.node_count && isfinite(nearest); ++i) {
+        if (off_strip(block, i, low, high) > nearest + FACE_SLACK * diagonal(block)) continue;
+        count += 1;
+        for (int32_t d = 0; d < 3; ++d)
+            moved[d] += block->moved[i][d] - block->frame.position[3 * i + d];
+    }
+    for (int32_t d = 0; d < 3 && count > 0; ++d) moved[d] /= count;
+    return count > 0;
+}
+
+// From which y on the cut leaves the strip at height z, which begins at `low`.
+static double rod_left(const SpaceCut *cut, double low, double z)
+{
+    double left = INFINITY;
+    if (cut->count == 0) return low;
+    for (int32_t k = 0; k < cut->count; ++k) {
+        if (cut->axis[k] == 1) left = fmax(low, cut->value[k]);
+        if (cut->axis[k] == 2 && z < cut->value[k]) return low;
+    }
+    return left;
+}
+
+// The strip that the rod pushes, and an arrow against its middle; not where it was cut away.
+static void draw_rod(const Page *page, const SpacePage *space, const Block *block)
+{
+    static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    const double *number = space->view->number;
+    double breadth = number[NUMBER_ROD_BREADTH], middle = (block->low[1] + block->high[1]) / 2;
+    double low[2] = {block->low[1], number[NUMBER_ROD_LOW]};
+    double high[2] = {block->high[1], number[NUMBER_ROD_HIGH]}, moved[3];
+    Stroke strip = {.color = ROD_COLOR, .width = STRIP_WIDTH * space->unit};
+    Stroke shaft = {.color = ROD_COLOR, .width = ROD_WIDTH * space->unit};
+    if (breadth > 0) low[0] = middle - breadth / 2, high[0] = middle + breadth / 2;
+    low[0] = rod_left(space->cut, low[0], (low[1] + high[1]) / 2);
+    middle = (low[0] + high[0]) / 2;
+    if (!(low[0] < high[0]) || !isfinite(low[1] + high[1]) || !rod_moved(block, low, high, moved))
+        return;
+    Point line[5];
+    for (int32_t k = 0; k < 5; ++k)
+        line[k] = see_on_page(space, block, block->low[0] + moved[0],
+                              (round[k][0] ? high[0] : low[0]) + moved[1],
+                              (round[k][1] ? high[1] : low[1]) + moved[2]);
+    draw_line(page->canvas, &strip, line, 5);
+    double z = (low[1] + high[1]) / 2 + moved[2], x = block->low[0] + moved[0];
+    Point tip = see_on_page(space, block, x, middle, z);
+    Point back = see_on_page(space, block, x - diagonal(block), middle, z);
+    double way = hypot(back.x - tip.x, back.y - tip.y);
+    double part = ROD_LENGTH * space->unit / way;
+    Point from = {tip.x + part * (back.x - tip.x), tip.y + part * (back.y - tip.y)};
+    arrow_draw(page, &shaft, from, tip, ROD_HEAD * space->unit);
+}
+
+// Arrows on the far edge of the top.
+static void draw_load(const Page *page, const SpacePage *space, const Block *block)
+{
+    const FieldFrame *frame = &block->frame;
+    Stroke stroke = {.color = LOAD_COLOR, .width = 0.6 * space->unit};
+    double top = -INFINITY;
+    if (!(space->view->number[NUMBER_PRESSURE] > 0)) return;
+    for (int64_t i = 0; i < frame->node_count; ++i) top = fmax(top, block->moved[i][2]);
+    for (int32_t k = 0; k < ARROWS; ++k) {
+        double x = block->low[0] + (block->high[0] - block->low[0]) * (k + 0.5) / ARROWS;
+        Point tip = see_on_page(space, block, x, block->high[1], top);
+        tip.y -= LOAD_GAP * space->unit;
+        arrow_draw(page, &stroke, (Point){tip.x, tip.y - LOAD_LENGTH * space->unit}, tip,
+                   LOAD_HEAD * space->unit);
+    }
+}
+
+// --- the floor -----------------------------------------------------------------------------------
+
+static void draw_patch(const Page *page, const SpacePage *space, const Block *block,
+                       const ContactPatch *patch, Color color)
+{
+    Stroke seam = {.color = color, .width = fmax(1, SEAM * space->unit)};
+    Point corner[PATCH_CORNERS + 1];
+    for (int32_t c = 0; c <= PATCH_CORNERS; ++c) {
+        const double *at = patch->corner[c % PATCH_CORNERS];
+        corner[c] = see_on_page(space, block, at[0], at[1], floor_height(block));
+    }
+    draw_polygon(page->canvas, color, corner, PATCH_CORNERS);
+    draw_line(page->canvas, &seam, corner, PATCH_CORNERS + 1);
+}
+
+void space_page_floor(const Page *page, const SpacePage *space, const Block *block, int64_t row)
+{
+    static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    const ContactPlane *plane = &space->view->plane;
+    double floor = floor_height(block);
+    Stroke border = {.color = INK, .width = FLOOR_WIDTH * space->unit};
+    Point line[5];
+    for (int32_t k = 0; k < plane->patch_count && space->view->contact_status; ++k) {
+        const ContactPatch *patch = &plane->patches[k];
+        double status = space->view->contact_status[row * plane->nodes + patch->node];
+        if (status >= 0 && status < STATUSES)
+            draw_patch(page, space, block, patch, space->status[(int32_t)status]);
+    }
+    for (int32_t k = 0; k < plane->side_count; ++k) {
+        for (int32_t c = 0; c < 3; ++c)
+            line[c] = see_on_page(space, block, plane->sides[k].point[c][0],
+                                  plane->sides[k].point[c][1], floor);
+        draw_line(page->canvas, &border, line, 3);
+    }
+    for (int32_t k = 0; k < 5; ++k)
+        line[k] = see_on_page(space, block, round[k][0] ? block->high[0] : block->low[0],
+                              round[k][1] ? block->high[1] : block->low[1], floor);
+    draw_line(page->canvas, &border, line, 5);
+}
+
+// --- axes ----------------------------------------------------------------------------------------
+
+// Along `axis` from `start`: ticks go to `aside`, a direction on the page.
+static void draw_axis(const Page *page, const SpacePage *space, const Block *block, int32_t axis,
+                      const double start[3], Point aside)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    Axis own = figure_length_axis(space->view, names[axis], block->low[axis], block->high[axis]);
+    Ticks ticks = axis_ticks(&own, TICKS_WANTED);
+    double point = page->point, at[3] = {start[0], start[1], start[2]}, widest = 0;
+    bool flat = fabs(aside.x) > fabs(aside.y);
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * point};
+    TextStyle style = {.size = NUMBER_SIZE * point, .color = INK};
+    style.across = flat ? aside.x > 0 ? 0 : 1 : 0.5;
+    style.up = flat ? 0.5 : 1;
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        char number[TICK_LABEL_SIZE];
+        double offset = axis == 2 ? start[2] - block->low[2] : 0;   // the block's own heights
+        at[axis] = tick_value(&ticks, k) / own.factor + offset;
+        Point foot = see_on_page(space, block, at[0], at[1], at[2]);
+        Point end = {foot.x + TICK * point * aside.x, foot.y + TICK * point * aside.y};
+        draw_segment(page->canvas, &stroke, foot, end);
+        tick_label(&ticks, k, number);
+        end.x += NUMBER_GAP * point * aside.x;
+        end.y += NUMBER_GAP * point * aside.y;
+        text_draw(page->text, &style, end, number);
+        widest = fmax(widest, text_width(page->text, style.size, number));
+    }
+    at[axis] = (block->low[axis] + block->high[axis]) / 2;
+    Point name = see_on_page(space, block, at[0], at[1], at[2]);
+    double away = NAME_GAP * point + (flat ? widest : 0);
+    style.size = LABEL_SIZE * point;
+    text_draw(page->text, &style, (Point){name.x + away * aside.x, name.y + away * aside.y},
+              own.label);
+}
+
+void space_page_axes(const Page *page, const SpacePage *space, const Block *block)
+{
+    double floor = floor_height(block);
+    const double front[3] = {block->low[0], block->low[1], floor};
+    const double side[3] = {block->low[0], block->high[1], block->low[2]};
+    draw_axis(page, space, block, 0, front, (Point){0, 1});
+    draw_axis(page, space, block, 1, front, (Point){-1, 0});
+    draw_axis(page, space, block, 2, side, (Point){-1, 0});
+}
+
+bool space_page_draw(const Page *page, const SpacePage *space, const Block *block, Error *err)
+{
+    Surface surface = {.with_edges = false};
+    DepthImage image = {0};
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * space->unit};
+    Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * space->unit};
+    TRY(surface_build(block, space->cut, space->edges, &surface, err));
+    space_page_floor(page, space, block, block->row);
+    TRY(draw_colors(page, space, block, &surface, &image, err));
+    draw_parts(page, space, block, &surface.edges, &image, &edge);
+    draw_contours(page, space, block, &surface, &image);
+    draw_parts(page, space, block, &surface.outline, &image, &outline);
+    draw_load(page, space, block);
+    draw_rod(page, space, block);
+cleanup:
+    surface_destroy(&surface);
+    depth_image_destroy(&image);
+    return error_is_clean(err);
+}

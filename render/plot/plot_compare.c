@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/plot/plot_compare.h"
+
+#include "base/memory.h"
+#include "io/text/csv_reader.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_SIZE = PLOT_LABEL_SIZE + 8 };
+
+static const double MARGIN = 0.05;   // of the axis, beyond a measurement outside of it
+
+static int32_t find_column(const CsvTable *table, const char *given, const char *plain)
+{
+    int32_t column = given[0] ? csv_column(table, given) : -1;
+    return column < 0 ? csv_column(table, plain) : column;
+}
+
+static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *series, Error *err)
+{
+    char name[NAME_SIZE];
+    int32_t x = find_column(table, plot->column[0], "x"),
+            y = find_column(table, plot->column[1], "y");
+    snprintf(name, sizeof name, "%s_error", plot->column[1]);
+    int32_t error = find_column(table, name, "error");
+    if (x < 0 || y < 0)
+        FAIL(err, ERROR_INPUT, "it needs the columns %s and %s",
+             plot->column[0][0] ? plot->column[0] : "x",
+             plot->column[1][0] ? plot->column[1] : "y");
+    TRY(series->x = NEW_ARRAY(double, table->rows, err));
+    TRY(series->y = NEW_ARRAY(double, table->rows, err));
+    TRY(series->low = NEW_ARRAY(double, table->rows, err));
+    TRY(series->high = NEW_ARRAY(double, table->rows, err));
+    for (int32_t row = 0; row < table->rows; ++row) {
+        double value = csv_value(table, row, y);
+        double bar = error < 0 ? (double)NAN : csv_value(table, row, error);
+        series->x[row] = csv_value(table, row, x);
+        series->y[row] = value;
+        series->low[row] = value - bar;
+        series->high[row] = value + bar;
+    }
+    series->count = table->rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+// The one with a line through several points; NULL: there are several, or none.
+static PlotSeries *find_curve(Plot *plot)
+{
+    PlotSeries *found = NULL;
+    for (int32_t k = 0; k < plot->main.series_count; ++k) {
+        PlotSeries *series = &plot->main.series[k];
+        if (series->line == LINE_NONE || series->count < 2) continue;
+        if (found) return NULL;
+        found = series;
+    }
+    return plot->panel_count > 0 ? NULL : found;
+}
+
+static double on_axis(const Axis *axis, double value)
+{
+    return axis->is_log ? log10(value) : value;
+}
+
+// NaN: the curve does not come to x.
+static double computed_at(const PlotSeries *curve, const Axis *axis, double x)
+{
+    for (int32_t k = 0; k + 1 < curve->count; ++k) {
+        double low = curve->x[k], high = curve->x[k + 1];
+        if (!(x >= fmin(low, high) && x <= fmax(low, high))) continue;
+        double span = on_axis(axis, high) - on_axis(axis, low);
+        double part = span != 0 ? (on_axis(axis, x) - on_axis(axis, low)) / span : 1;
+        return curve->y[k] + part * (curve->y[k + 1] - curve->y[k]);
+    }
+    return NAN;
+}
+
+static void label(Plot *plot, const char *path, PlotSeries *series)
+{
+    PlotSeries *curve = find_curve(plot);
+    const char *slash = strrchr(path, '/');
+    double sum = 0, parts = 0;
+    int32_t count = 0;
+    int length = snprintf(series->label, sizeof series->label, "%.40s", slash ? slash + 1 : path);
+    for (int32_t k = 0; curve && k < series->count; ++k) {
+        double away = series->y[k] - computed_at(curve, &plot->main.x, series->x[k]);
+        double error = (series->high[k] - series->low[k]) / 2;
+        if (!isfinite(away)) continue;
+        sum += away * away;
+        parts += away * away / (error * error);
+        ++count;
+    }
+    if (curve && !curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
+    if (count == 0) return;
+    length += snprintf(series->label + length, sizeof series->label - (size_t)length,
+                       ": misfit %.3g", sqrt(sum / count));
+    if (isfinite(parts))
+        snprintf(series->label + length, sizeof series->label - (size_t)length,
+                 ", %.3g of its errors", sqrt(parts / count));
+}
+
+// The ends were those of what was computed.
+static void widen(Axis *axis, const double *values, int32_t count)
+{
+    double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
+    double margin = MARGIN * (high - low), least = low, most = high;
+    for (int32_t k = 0; k < count; ++k) {
+        double value = on_axis(axis, values[k]);
+        if (!isfinite(value)) continue;
+        least = fmin(least, value - (value < low ? margin : 0));
+        most = fmax(most, value + (value > high ? margin : 0));
+    }
+    axis->low = axis->is_log ? pow(10, least) : least;
+    axis->high = axis->is_log ? pow(10, most) : most;
+}
+
+bool plot_compare(Plot *plot, const char *path, Error *err)
+{
+    CsvTable table = {0};
+    if (plot->main.y.names) return true;   // a ranking
+    TRY(csv_read(path, &table, err));
+    if (plot->main.has_map || (plot->panel_count > 0 && plot->panels[0].has_map))
+        FAIL(err, ERROR_INPUT, "measurements are drawn over curves, not over a map");
+    if (plot->main.series_count == PLOT_SERIES_MAX)
+        FAIL(err, ERROR_INPUT, "the plot has %d curves, and no room for measurements",
+             PLOT_SERIES_MAX);
+    PlotSeries *series = &plot->main.series[plot->main.series_count];
+    plot->main.series_count++;
+    *series = (PlotSeries){.marker = MARKER_CROSS, .filled = true, .line = LINE_NONE};
+    TRY(read_points(plot, &table, series, err));
+    label(plot, path, series);
+    widen(&plot->main.x, series->x, series->count);
+    widen(&plot->main.y, series->y, series->count);
+    widen(&plot->main.y, series->low, series->count);
+    widen(&plot->main.y, series->high, series->count);
+cleanup:
+    csv_destroy(&table);
+    error_context(err, "measurements %s", path);
+    return error_is_clean(err);
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a value may be: its range, in numbers and in words.
+#include "scene/keys.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct Range {
+    double low, high;   // high is allowed
+    bool low_allowed;
+    const char *words;
+} Range;
+
+static const Range ranges[] = {
+#define X(range, low, low_allowed, high, words) [range] = {low, high, low_allowed, words},
+    SCENE_RANGES(X)
+#undef X
+};
+
+// Never for what is not finite.
+bool scene_range_holds(SceneRange range, double value)
+{
+    const Range *within = &ranges[range];
+    if (!isfinite(value)) return false;
+    if (value < within->low || value > within->high) return false;
+    return value != within->low || within->low_allowed;
+}
+
+const char *scene_range_words(SceneRange range)
+{
+    return ranges[range].words;
+}
+
+static void join_choices(const char *const *choices, char *words, int32_t size)
+{
+    int32_t used = (int32_t)strlen(words);
+    for (int32_t k = 0; choices[k] && used < size; k++)
+        used += snprintf(words + used, (size_t)(size - used), "%s%s", k ? ", " : "", choices[k]);
+}
+
+// The list of choices is joined behind the words; what does not fit into `size` is cut.
+void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
+{
+    static const char *const by_type[] = {
+        [KEY_FLAG] = "true or false",
+        [KEY_TEXT] = "a text of at most 511 bytes",
+        [KEY_NAME] = "a name of 1 to 63 bytes",
+        [KEY_CHOICE] = "one of ",
+        [KEY_NUMBERS] = "a list of at most 64 numbers, each ",
+        [KEY_NAMES] = "a name or a list of at most 32 names",
+        [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
+        [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
+        [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
+        [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
+        [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
+        [KEY_FIELDS] = "none, film, or a map of every_U, every_t, every_step, at_events, film",
+    };
+    const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
+    bool names = key->type == KEY_NAMES && key->choices, none = scene_key_may_be_none(key);
+    snprintf(words, (size_t)size, "%s%s%s", none ? "none, or " : "", names ? "a list of: " : text,
+             key->type == KEY_NUMBERS ? ranges[key->range].words : "");
+    if (key->choices) join_choices(key->choices, words, size);
+}

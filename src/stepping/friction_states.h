@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// States of friction that remembers (contact/friction_memory), stepped by the scheme's own tableau
+// and eliminated node by node: stage i of a step dt has
+//
+//     theta_i = theta_i* + gamma dt g(|v_i|, theta_i),   theta_i* = theta_n + dt sum_j<i a_ij g_j
+//
+// as displacements do (stepping/sdirk), and what is left for the contact problem is a law of speed
+// at each node. An open node's state goes on with its own tangential velocity. Called by
+// stepping/sdirk and stepping/explicit_reference.
+#ifndef AMONTONS_STEPPING_FRICTION_STATES_H
+#define AMONTONS_STEPPING_FRICTION_STATES_H
+
+#include "stepping/state.h"
+#include "stepping/tableau.h"
+
+typedef struct FrictionStates {
+    FrictionLaw *laws;   // [contact_count] of the nodes; not owned; NULL: nothing is remembered
+    const Interface *interface;   // not owned
+    bool act;   // some state changes mu: not where friction heals by nothing
+    bool frozen;   // states stay as they are: the block settles, and no time passes for them
+    double slip_per_mu;   // that drives it: an error of mu counts as one of u so large, length
+    double *rate;   // [(TABLEAU_STAGES_MAX + 1) * contact_count] g at the start of the step and in
+        // its stages; owned
+} FrictionStates;
+
+bool friction_states_create(const Block *block, FrictionStates *states, Error *err);
+void friction_states_destroy(FrictionStates *states);
+
+// What the states are when the rod begins to move, into `state`; the laws are those of it.
+void friction_states_reset(FrictionStates *states, State *state);
+
+// In the order in which they are called in a step. Stage 0 begins with friction_states_begin.
+void friction_states_begin(FrictionStates *states, const State *from);
+void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
+                                 int32_t stage, const State *from);
+// velocity: v of the stage on the interface. theta: its states go there.
+void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
+                               double *theta);
+
+// The largest error of mu that the local error of a state makes, as a length; `to` ends the step.
+double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step,
+                             const State *to);
+
+// The stages under way: the judge asks for the last one.
+void friction_states_archive(FrictionStates *states, Archive *archive);
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/search/front.h"
+
+#include "base/memory.h"
+#include "study/search/search_figure.h"
+#include "study/sweep/reading/study_point.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Whether `a` is at least as good as `b` at each aim, and better at one.
+static bool dominates(const Designs *designs, int32_t a, int32_t b)
+{
+    const DesignPoint *one = designs_points(designs, a), *other = designs_points(designs, b);
+    double sign = designs->lowest ? -1 : 1;
+    bool better = false;
+    for (int32_t c = 0; c < designs->conditions; c++) {
+        double ahead = sign * (one[c].value - other[c].value);
+        if (!(ahead >= 0)) return false;
+        better = better || ahead > 0;
+    }
+    return better;
+}
+
+void front_find(const Designs *designs, bool *is_on)
+{
+    for (int32_t d = 0; d < designs->count; d++) {
+        is_on[d] = !isnan(designs->list[d].value);
+        for (int32_t other = 0; other < designs->count && is_on[d]; other++)
+            is_on[d] = isnan(designs->list[other].value) || !dominates(designs, other, d);
+    }
+}
+
+typedef struct Placed {
+    double first;   // value at the first aim
+    int32_t design;
+} Placed;
+
+static int compare_placed(const void *a, const void *b)
+{
+    const Placed *one = a, *other = b;
+    return one->first > other->first   ? 1
+           : one->first < other->first ? -1
+                                       : one->design - other->design;
+}
+
+// Those on the front by their first value; *front: [count], owned by the caller.
+static bool list_front(const Designs *designs, Placed **front, int32_t *count, Error *err)
+{
+    bool *is_on = NEW_ARRAY(bool, designs->count, err);
+    *count = 0;
+    *front = NULL;
+    TRY(is_on);
+    TRY(*front = NEW_ARRAY(Placed, designs->count, err));
+    front_find(designs, is_on);
+    for (int32_t d = 0; d < designs->count; d++)
+        if (is_on[d]) (*front)[(*count)++] = (Placed){designs_points(designs, d)->value, d};
+    qsort(*front, (size_t)*count, sizeof **front, compare_placed);
+cleanup:
+    memory_free(is_on);
+    return error_is_clean(err);
+}
+
+// "load.pressure=0.004" of point `c` of `vary`.
+static bool aim_words(const Search *search, int32_t c, char words[OPTIMISE_WORDS_SIZE], Error *err)
+{
+    const Study *study = search->study;
+    size_t used = 0;
+    words[0] = 0;
+    TRY(study_point_scene(study, c, search->scene, err));
+    for (int32_t k = 0; k < study->axis_count; k++) {
+        char value[SCENE_TEXT_SIZE];
+        double number = 0;
+        study_scene_value(search->scene, study->axes[k].key, value, sizeof value, &number);
+        int length = snprintf(words + used, OPTIMISE_WORDS_SIZE - used, "%s%s=%s", k ? " " : "",
+                              study->axes[k].key, value);
+        if (length < 0 || (size_t)length >= OPTIMISE_WORDS_SIZE - used) break;
+        used += (size_t)length;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool front_print(const Search *search, FILE *out, Error *err)
+{
+    const Designs *designs = &search->designs;
+    Placed *front = NULL;
+    int32_t count = 0;
+    char words[OPTIMISE_WORDS_SIZE];
+    TRY(list_front(designs, &front, &count, err));
+    fprintf(out, "%s, the %s at each of %d points:\n",
+            search->study->records[search->study->rank.record].name,
+            designs->lowest ? "lowest" : "highest", designs->conditions);
+    for (int32_t c = 0; c < designs->conditions; c++) {
+        TRY(aim_words(search, c, words, err));
+        fprintf(out, "  %d: %s\n", c + 1, words);
+    }
+    fprintf(
+        out,
+        "%d designs of %d, none of which another is better than at all points, by values alone:\n",
+        count, designs->count);
+    for (int32_t k = 0; k < count; k++) {
+        const DesignPoint *points = designs_points(designs, front[k].design);
+        design_words(search->study, &designs->list[front[k].design], words);
+        fprintf(out, "  %s:", words);
+        for (int32_t c = 0; c < designs->conditions; c++) {
+            char text[ESTIMATE_SIZE];
+            amontons_estimate(points[c].value, points[c].has_bar ? points[c].bar : (double)NAN,
+                              points[c].bar, text);
+            fprintf(out, "%s %s", c ? "," : "", text);
+        }
+        fprintf(out, "%s\n", front[k].design == search->start ? " (the scene as it is)" : "");
+    }
+cleanup:
+    memory_free(front);
+    return error_is_clean(err);
+}
+
+// "mu_hold at load.pressure=0.004".
+static bool aim_label(const Search *search, int32_t c, QuantityLabel *label, Error *err)
+{
+    char aim[OPTIMISE_WORDS_SIZE];
+    *label = label_of_record(search->study->records[search->study->rank.record].name);
+    TRY(aim_words(search, c, aim, err));
+    size_t used = strlen(label->words);
+    snprintf(label->words + used, sizeof label->words - used, " at %s", aim);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool front_draw(const Search *search, Error *err)
+{
+    const Designs *designs = &search->designs;
+    int32_t count = 0, all = designs->count;
+    Placed *front = NULL;
+    double *x = NEW_ARRAY(double, 4 * (int64_t)all, err);
+    if (designs->conditions < 2) goto cleanup;
+    TRY(x);
+    double *y = x + all, *front_x = y + all, *front_y = front_x + all;
+    TRY(list_front(designs, &front, &count, err));
+    for (int32_t d = 0; d < all; d++) {
+        const DesignPoint *points = designs_points(designs, d);
+        x[d] = points[0].value, y[d] = points[1].value;
+    }
+    for (int32_t k = 0; k < count; k++)
+        front_x[k] = x[front[k].design], front_y[k] = y[front[k].design];
+    Frame frame = {.name = "front", .x_scale = "linear", .y_scale = "linear"};
+    TRY(aim_label(search, 0, &frame.x, err));
+    TRY(aim_label(search, 1, &frame.y, err));
+    Curve curves[] = {search_dots("designs", all, x, y),
+                      search_dots("none is better at all", count, front_x, front_y)};
+    curves[1].color = COLOR_BEST;
+    curves[1].marker = "square";
+    TRY(search_draw(search, &frame, curves, 2, err));
+cleanup:
+    memory_free(front);
+    memory_free(x);
+    return error_is_clean(err);
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Random contact problems of nodes that remember, each with a law and a state of its own: rate and
+// state over many decades of slip rate, where no node sticks; ageing and slip-weakening. They are
+// solved, and rightly, from any guess, where S outweighs the weakening.
+#include "contact/friction_make.h"
+#include "contact/friction_state.h"
+#include "contact_by_hand.h"
+#include "plane.h"
+
+static HandContact hand, other;   // large; a test runs alone
+static FrictionLaw laws[HAND_NODES];
+
+static double log_between(Random *random, double low, double high)
+{
+    return exp(random_between(random, log(low), log(high)));
+}
+
+static void set_law(Random *random, FrictionKind kind, FrictionLaw *law)
+{
+    static const MemoryKind kinds[] = {[FRICTION_AGEING] = MEMORY_AGEING,
+                                       [FRICTION_SLIP_WEAKENING] = MEMORY_SLIP_WEAKENING,
+                                       [FRICTION_RATE_STATE] = MEMORY_RATE_STATE};
+    FrictionMemory memory = {.kind = kinds[kind],
+                             .mu_static = random_between(random, 0.2, 0.5),
+                             .mu_kinetic = 0.1,
+                             .critical_velocity = random_between(random, 1, 3),
+                             .slip_distance = 1,
+                             .healing_time = 1,
+                             .healing = random_between(random, 0.005, 0.02),
+                             .direct = random_between(random, 0.005, 0.02),
+                             .reference = random_between(random, 0.2, 0.6),
+                             .reference_velocity = log_between(random, 1e-9, 1e-2),
+                             .slip_law = random_index(random, 2) == 0};
+    *law = (FrictionLaw){.kind = kind};
+    friction_make_memory(&memory, law);
+    bool creeps = kind == FRICTION_RATE_STATE;
+    friction_set_stage(law, creeps ? random_between(random, -5, 5) : random_between(random, 0, 1),
+                       log_between(random, 1e-6, 0.3));
+}
+
+static void random_loads(Random *random)
+{
+    for (int32_t i = 0; i < hand.interface.contact_count; i++) {
+        hand.g[plane_tangent(i)] = random_between(random, -3, 3);
+        hand.g[plane_normal(i)] = random_between(random, -4, 1);
+        hand.bound[plane_normal(i)] = random_between(random, -0.4, 0.1);
+    }
+    for (int32_t j = 0; j < hand.interface.rod_count; j++) {
+        hand.g[interface_rod(&hand.interface, j)] = random_between(random, -1, 1);
+        hand.bound[interface_rod(&hand.interface, j)] = random_between(random, -0.5, 0.5);
+    }
+}
+
+static void random_statuses(Random *random, HandContact *contact)
+{
+    for (int32_t i = 0; i < contact->interface.contact_count; i++)
+        contact->status[i] = (uint8_t)random_index(random, 4);
+    for (int32_t j = 0; j < contact->interface.rod_count; j++)
+        contact->rod_touches[j] = (uint8_t)random_index(random, 2);
+}
+
+static void test_solved_from_any_guess(void **state)
+{
+    (void)state;
+    static const FrictionKind kinds[] = {FRICTION_RATE_STATE, FRICTION_RATE_STATE, FRICTION_AGEING,
+                                         FRICTION_SLIP_WEAKENING};
+    Random random = {.state = 11};
+    double slowest = INFINITY, fastest = 0;
+    int64_t solves = 0, iterations = 0;
+    for (int32_t trial = 0; trial < 200; trial++) {
+        HandCounts counts;
+        FrictionKind kind = kinds[trial % 4];
+        hand_contact_size(&hand, 1 + random_index(&random, HAND_NODES),
+                          random_index(&random, HAND_RODS + 1));
+        int32_t count = hand.interface.contact_count;
+        for (int32_t i = 0; i < count; i++) set_law(&random, kind, &laws[i]);
+        hand.law = friction_spread(laws, count);
+        hand_random_schur(&random, 3, 0.5, &hand);
+        random_loads(&random);
+        random_statuses(&random, &hand);
+        if (!hand_contact_solve_by(&hand, false, &counts))
+            fail_msg("trial %d with %d nodes is not solved", trial, count);
+        assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
+        other = hand;
+        random_statuses(&random, &other);
+        assert_true(hand_contact_solve_by(&other, false, &counts));
+        assert_all_near("from another guess", other.velocity, hand.velocity, hand.interface.count,
+                        1e-8);
+        if (kind != FRICTION_RATE_STATE) continue;
+        solves++;
+        iterations += counts.iterations;
+        for (int32_t i = 0; i < count; i++) {
+            double speed = fabs(hand.velocity[plane_tangent(i)]);
+            assert_true(hand.status[i] != CONTACT_STICK || speed == 0);
+            if (status_slips(hand.status[i])) slowest = fmin(slowest, speed);
+            if (status_slips(hand.status[i])) fastest = fmax(fastest, speed);
+        }
+    }
+    print_message("slip from %g to %g, %.1f iterations\n", slowest, fastest,
+                  (double)iterations / (double)solves);
+    assert_true(slowest < 1e-15 && fastest > 0.1 && iterations < 15 * solves);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_solved_from_any_guess)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

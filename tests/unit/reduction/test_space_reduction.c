@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Blocks of elements in space, reduced in their four parts, in two and as they are, against their
+// full matrices, dense and by hand: S within what the reduction allows, products and solves to
+// rounding, rigid motions that nothing resists.
+#include "reduction/mirror_nodes.h"
+#include "space_mesh.h"
+#include "unit/reduction/reduced_checks.h"
+
+static const Material MATERIAL = {
+    .young = 2.5, .poisson = 0.3, .density = 1.7, .eta1 = 0.4, .eta2 = 0.9, .plane_strain = true};
+static const double TOLERANCE = 2e-2, TRACTION[] = {0.1, 0.05, -0.3};
+
+// Four parts, two (one node off the middle of another's image across x), none (nodes inside moved
+// at random), and mid-sides that carry the contact.
+typedef struct SpaceCase {
+    SpaceDef shape;
+    int32_t parts;
+} SpaceCase;
+static const SpaceCase CASES[] = {
+    {{.kind = ELEMENT_HEX8, .cells = {5, 4, 3}, .size = {1.2, 0.9, 0.6}}, 4},
+    {{.kind = ELEMENT_HEX27, .cells = {2, 2, 2}, .size = {1.2, 0.9, 0.6}}, 4},
+    {{.kind = ELEMENT_HEX8, .cells = {4, 4, 3}, .size = {1, 1, 0.7}, .distortion = 0.1, .seed = 3},
+     1},
+    {{.kind = ELEMENT_TET10, .cells = {2, 2, 1}, .size = {1, 0.8, 0.5}}, 1},
+};
+enum { CASE_COUNT = sizeof CASES / sizeof *CASES };
+
+// All contact nodes with weight, and x of a row of rod nodes.
+static void list_interface(ReducedBlock *block)
+{
+    Error err = {0};
+    MeshBoundary contact, rod;
+    assert_true(mesh_boundary(&block->mesh, "contact", &contact, &err));
+    assert_true(mesh_boundary(&block->mesh, "rod", &rod, &err));
+    block->dofs = calloc(3 * (size_t)(contact.node_count + rod.node_count), sizeof *block->dofs);
+    int32_t count = 0, last = rod.nodes[rod.node_count - 1];
+    for (int32_t k = 0; k < 3 * contact.node_count; k++)
+        block->dofs[count++] = 3 * contact.nodes[k / 3] + k % 3;
+    double height = block->mesh.position[3 * last + 2];
+    for (int32_t k = 0; k < rod.node_count; k++)
+        if (fabs(block->mesh.position[3 * rod.nodes[k] + 2] - height) < 1e-9)
+            block->dofs[count++] = 3 * rod.nodes[k];
+    block->interface_count = count;
+}
+
+static void build(const SpaceCase *one, ReducedBlock *block)
+{
+    Error err = {0};
+    MeshBoundary top;
+    dense_use_one_thread();
+    memset(block, 0, sizeof *block);
+    space_build(&one->shape, &block->mesh);
+    assert_true(bulk_assemble(&block->mesh, &MATERIAL, &block->bulk, &err));
+    assert_true(mesh_boundary(&block->mesh, "top", &top, &err));
+    bulk_add_traction(&block->mesh, &top, TRACTION, &block->bulk);
+    list_interface(block);
+    int32_t *image[2];
+    for (int32_t axis = 0; axis < 2; axis++) {
+        double *position = hand_matrix(block->bulk.dof_count, 1);
+        memcpy(position, block->mesh.position, (size_t)block->bulk.dof_count * sizeof *position);
+        assert_true(
+            mirror_nodes_find(3, axis, position, block->mesh.node_count, &image[axis], &err));
+        free(position);
+    }
+    double length = one->shape.size[0];
+    block->def =
+        (ReductionDef){.tolerance = TOLERANCE,
+                       .materials = materials_of(&MATERIAL),
+                       .modes = true,
+                       .no_patches = true,
+                       .node_image = image,
+                       .position = block->mesh.position,
+                       .scales = {MATERIAL.young * length, (MATERIAL.eta1 + MATERIAL.eta2) * length,
+                                  MATERIAL.density * length * length * length,
+                                  dense_max_abs(block->bulk.load, block->bulk.dof_count)}};
+    if (!symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
+                                  &block->reduced, &err))
+        fail_msg("%s", err.message);
+    assert_int_equal(block->reduced.part_count, one->parts);
+    for (int32_t axis = 0; axis < 2; axis++) memory_free(image[axis]);
+}
+
+TEST(test_response)
+{
+    static const OperatorTerms ASKED[] = {
+        {.stiffness = 1, .mass = 1e-2}, {.stiffness = 1, .damping = 1, .mass = 1e-1},
+        {.stiffness = 1, .mass = 3},    {.damping = 1, .mass = 50},
+        {.stiffness = 1, .mass = 1000}, {.stiffness = 0.1, .damping = 2, .mass = 0.3}};
+    for (int32_t s = 0; s < CASE_COUNT; s++) {
+        ReducedBlock block;
+        build(&CASES[s], &block);
+        const BulkScales *scales = &block.def.scales;
+        for (size_t k = 0; k < sizeof ASKED / sizeof *ASKED; k++) {
+            double least, largest, *full = full_schur(&block, ASKED[k]);
+            double *reduced = reduced_schur(&block.reduced, ASKED[k]);
+            energy_differences(reduced, full, block.interface_count, &least, &largest);
+            double inertia =
+                ASKED[k].mass * scales->mass /
+                (ASKED[k].stiffness * scales->stiffness + ASKED[k].damping * scales->damping);
+            assert_true(least > -ROUNDING);   // a Galerkin projection is too stiff
+            assert_true(largest < reduced_bulk_error(&block.reduced, inertia) + ROUNDING);
+            free(full), free(reduced);
+        }
+        reduced_block_destroy(&block);
+    }
+}
+
+TEST(test_operator)
+{
+    for (int32_t s = 0; s < CASE_COUNT; s++) {
+        ReducedBlock block;
+        build(&CASES[s], &block);
+        check_operator(&block, 71 + (uint64_t)s);
+        reduced_block_destroy(&block);
+    }
+}
+
+// Translations move every node alike, rotations turn it: K u = 0, and u x is normal to its axis.
+TEST(test_rigid_motions)
+{
+    for (int32_t s = 0; s < CASE_COUNT; s++) {
+        ReducedBlock block;
+        BulkOperator system;
+        Error err = {0};
+        build(&CASES[s], &block);
+        assert_true(bulk_operator_reduce(&block.reduced, 1, 1, &system, &err));
+        int32_t n = block.bulk.dof_count;
+        double *full = hand_matrix(n, 1), *force = hand_matrix(n, 1);
+        for (int32_t which = 0; which < 6; which++) {
+            recover_state(&block.reduced, system.rigid + which * block.reduced.count, full);
+            sparse_apply(&block.bulk.pattern, block.bulk.stiffness, full, force);
+            assert_true(dense_max_abs(full, n) > 0.3);
+            assert_true(dense_max_abs(force, n) < 1e-10);
+            for (int32_t k = 0; which < 3 && k < n; k++)
+                assert_near("u", full[k], k % 3 == which, 1e-10);
+        }
+        bulk_operator_destroy(&system);
+        free(full), free(force);
+        reduced_block_destroy(&block);
+    }
+}
