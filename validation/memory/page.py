@@ -144,11 +144,12 @@ def measured(kept, asked):
         studies.setdefault(row["what"], []).append(row)
     by = {study: sorted(studies.get(study, []), key=lambda row: (row[key], list(LAWS).index(row["law"])))
           for study, key in (("pressure", "P"), ("length", "L"), ("velocity", "V"), ("variants", "P"))}
+    by["variants"] = [row for row in by["variants"] if row["law"] not in MAIN]
     standard = [row for row in by["pressure"] if row["P"] == P]
     by["length"] = sorted(by["length"] + standard, key=lambda row: (row["L"], list(LAWS).index(row["law"])))
     by["velocity"] = sorted(by["velocity"] + standard, key=lambda row: (row["V"], list(LAWS).index(row["law"])))
     first, rests = rest_table(kept)
-    found = {"match table": match_table(), "rest table": rests, "cost table": cost_table(kept), "promise": cases.section(asked)}
+    found = {"rest cells": ", ".join(map(str, REST_CELLS)), "match table": match_table(), "rest table": rests, "cost table": cost_table(kept), "promise": cases.section(asked)}
     for study, key in (("pressure", "P"), ("length", "L"), ("velocity", "V"), ("variants", "P")):
         found[f"{study} table"] = table_of(by[study], key, kept)
     for law in MAIN:
@@ -156,9 +157,10 @@ def measured(kept, asked):
                   f"rest {law}": slope(first, law)}
         for row in by["pressure"] + by["length"] + by["velocity"]:
             if row["law"] == law:
-                found |= {f"mu {law} P {row['P']:g} L {row['L']:g} V {row['V']:g}": with_bar(row, "mu_M"),
-                          f"slow {law} P {row['P']:g} L {row['L']:g} V {row['V']:g}": "none" if row["slow_reach"] is None else f"{row['slow_reach']:.2f}",
-                          f"bounded {law} P {row['P']:g} L {row['L']:g} V {row['V']:g}": "none" if row["bounded"] is None else f"{row['bounded']:.1f}"}
+                at = f"{law} P {row['P']:g} L {row['L']:g} V {row['V']:g}"
+                found |= {f"mu {at}": with_bar(row, "mu_M"), f"hold {at}": with_bar(row, "mu_hold"),
+                          f"slow {at}": "none" if row["slow_reach"] is None else f"{row['slow_reach']:.2f}",
+                          f"bounded {at}": "none" if row["bounded"] is None else f"{row['bounded']:.1f}"}
     for row in by["variants"]:
         found[f"variant {row['law']} P {row['P']:g}"] = with_bar(row, "mu_M")
     return found, by, first
@@ -181,7 +183,7 @@ def figures(by, first, folder):
 def text(kept, asked):
     found, by, first = measured(kept, asked)
     page = (HERE / "page.in").read_text(encoding="utf-8")
-    return re.sub(r"\[\[([^]]+)\]\]", lambda name: found[name[1]], page), by, first
+    return re.sub(r"\[\[([^]]+)\]\]", lambda name: found.get(name[1], "not computed"), page), by, first
 
 
 def write(folder):
