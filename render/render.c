@@ -294,6 +294,7 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     TRY(request_check(folder, request, err));
     TRY(result_view_open(folder, &view, err));
     TRY(check_compare(request, &view, err));
+    if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
     TRY(make_figures_folder(folder, err));
     if (request->panels) {
         TRY(figure_make(folder, request, NULL, &view, err));

@@ -43,13 +43,13 @@ enum { NODE_OPEN, NODE_STICKS, NODE_WEAKENS, NODE_SLIPS };
 typedef struct ContactView {
     int32_t count;   // contact nodes
     int32_t tangents;   // of slip: 1, along x; in space 2, and y; fastest of [count][tangents]
-    const double *x;   // [count] position, ascending, length
-    const double *y;   // [count] across the drive, length; NULL in the plane
+    const double *x, *y;   // [count] position, x ascending; y: across the drive, NULL in the plane
     const double *slip_rate;   // [count][tangents] velocity
     const double *slip;   // [count][tangents] since t = 0, length
     const double *pressure;   // [count] stress
     const double *shear;   // [count][tangents] positive where the floor drags the block back
     const uint8_t *status;   // [count] NODE_...
+    const double *state;   // [count] of friction that remembers; NULL: it does not
 } ContactView;
 
 // One accepted step, as shown to the caller.

@@ -40,6 +40,9 @@ extern "C" {
     X(to, TEXT, 0, 0, "", "U=U", "Where they end; or t=TIME")                                      \
     X(pixels, WORD, 0, 0, "largest mean", "WHAT",                                                  \
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean")   \
+    X(line, TEXT, 0, 0, "", "y=Y",                                                                 \
+      "Of a block in space: the line along the drive that is shown against U; by default in the "  \
+      "middle")                                                                                    \
     X(compare, TEXT, 0, 0, "", "FILE.csv", "Measurements to draw beside what was computed")        \
     X(warnings, WORD, 0, 0, "below none", "WHERE",                                                 \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
@@ -53,7 +56,8 @@ typedef struct PictureStyle {
     bool overwrite;   // a file that is there and is not ours goes; else it is refused
     double height;   // mm; 0: as the figure asks
     // As PICTURE_OPTIONS has them; NULL: the default.
-    const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *compare, *warnings;
+    const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *line, *compare,
+        *warnings;
 } PictureStyle;
 
 // Sets an option of PICTURE_OPTIONS; `value` stays the caller's, who keeps it as long as the style.

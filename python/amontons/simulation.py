@@ -32,7 +32,8 @@ class Simulation:
 
     `step` is one StepView, written anew in each step: copy what you keep. x, slip_rate, slip, pressure, shear, status
     are numpy arrays over the simulation's own memory, [nodes] each (in space slip_rate, slip, shear are [nodes, 2],
-    along x and y, and there is y, too; in the plane y is None): no copies, always those of the last accepted step.
+    along x and y, and there is y, too; in the plane y is None): no copies, always those of the last accepted step. state
+    is that of friction that remembers, None where nothing does.
 
     folder: for results, written by `finish`; None: nothing is written. whole_block: `displacement` will be asked for.
     """
@@ -62,6 +63,7 @@ class Simulation:
         self.pressure = _view(self, contact.pressure, ctypes.c_double, n)
         self.shear = _view(self, contact.shear, ctypes.c_double, *vector)
         self.status = _view(self, contact.status, ctypes.c_uint8, n)
+        self.state = _view(self, contact.state, ctypes.c_double, n) if contact.state else None
 
     def _destroy(self) -> None:
         if lib is not None and self._handle:

@@ -322,18 +322,35 @@ double block_magnification(const Block *block)
     return wanted;
 }
 
+// Where the camera sees what was moved.
+static void see_node(Block *block, int64_t i)
+{
+    double seen[3];
+    camera_see(&block->camera, block->moved[i], seen);
+    block->place[i][0] = seen[0];
+    block->place[i][1] = seen[1];
+}
+
+void block_mix(Block *block, const Block *other, double part)
+{
+    for (int64_t i = 0; i < block->frame.node_count; ++i) {
+        double *to = block->moved ? block->moved[i] : block->place[i];
+        const double *from = block->moved ? other->moved[i] : other->place[i];
+        block->value[i] += part * (other->value[i] - block->value[i]);
+        for (int32_t d = 0; d < block->frame.dim; ++d) to[d] += part * (from[d] - to[d]);
+        if (block->moved) see_node(block, i);
+    }
+}
+
 void block_deform(Block *block, double magnification)
 {
     const FieldFrame *frame = &block->frame;
     double mean[3] = {mean_along_x(frame), 0, 0};
     for (int64_t i = 0; i < frame->node_count; ++i) {
-        double *to = block->moved ? block->moved[i] : block->place[i], seen[3];
+        double *to = block->moved ? block->moved[i] : block->place[i];
         for (int32_t d = 0; d < frame->dim; ++d)
             to[d] = frame->position[3 * i + d] +
                     magnification * (frame->displacement[3 * i + d] - mean[d]);
-        if (!block->moved) continue;
-        camera_see(&block->camera, to, seen);
-        block->place[i][0] = seen[0];
-        block->place[i][1] = seen[1];
+        if (block->moved) see_node(block, i);
     }
 }

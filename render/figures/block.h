@@ -64,5 +64,7 @@ double block_magnification(const Block *block);
 // Fills block->place: position and `magnification` times the displacement less its mean along x,
 // which is how far the whole block has been pushed.
 void block_deform(Block *block, double magnification);
+// In place: so much of the way to the values and places of `other`, a block of as many nodes.
+void block_mix(Block *block, const Block *other, double part);
 
 #endif

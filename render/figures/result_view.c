@@ -5,9 +5,12 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { UNITS_SIZE = 32, LINES_SIZE = 1 << 16 };   // bytes
+
+static const double LINE_ROUNDING = 1e-6;   // of places along the contact, over a mean cell
 
 // One value a row; `rows` shrinks to the shortest series: a killed run may have flushed some only.
 static bool scalar_read(ResultView *view, ResultSeries series, double **values, Error *err)
@@ -254,6 +257,56 @@ bool result_view_read_plane(ResultView *view, Error *err)
     if (!view->contact_status)
         TRY(result_view_read_contact(view, SERIES_STATUS, &view->contact_status, err));
 cleanup:
+    return error_is_clean(err);
+}
+
+// y of the node nearest to `wanted`.
+static double nearest_y(const ContactPlane *plane, double wanted)
+{
+    double nearest = INFINITY;
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        if (fabs(plane->y[i] - wanted) < fabs(nearest - wanted)) nearest = plane->y[i];
+    return nearest;
+}
+
+// The nodes within half a mean cell of y, one for each x: that nearest to y. As the run itself
+// finds its line.
+static void take_nodes_at(ResultView *view, double y)
+{
+    const ContactPlane *plane = &view->plane;
+    double area = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) area += plane->weight[i];
+    double cell = sqrt(area / plane->nodes), rounding = LINE_ROUNDING * cell;
+    view->nodes = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) {
+        double off = fabs(plane->y[i] - y);
+        if (off > 0.5 * cell + rounding) continue;
+        int32_t last = view->nodes - 1;
+        bool beside = last >= 0 && plane->x[i] - view->x[last] <= rounding;
+        if (beside && off >= fabs(plane->y[view->line[last]] - y)) continue;
+        int32_t at = beside ? last : view->nodes++;
+        view->line[at] = i;
+        view->x[at] = plane->x[i];
+    }
+}
+
+bool result_view_choose_line(ResultView *view, const char *words, Error *err)
+{
+    double *pad = NULL, y = NAN;
+    int32_t pads = 0;
+    char *end = NULL;
+    if (strncmp(words, "y=", 2) == 0) y = strtod(words + 2, &end);
+    if (!isfinite(y) || *end)
+        FAIL(err, ERROR_INPUT, "a line is given by its y, as y=0.2, not as \"%.40s\"", words);
+    TRY(result_view_read_plane(view, err));
+    TRY(result_file_read_nodes(view->file, NODES_PAD, &pad, &pads, err));
+    memory_free(view->x);
+    view->x = NULL;
+    TRY(view->x = NEW_ARRAY(double, view->all_nodes, err));
+    take_nodes_at(view, nearest_y(&view->plane, y));
+    for (int32_t k = 0; k < view->nodes; ++k) view->pad[k] = pad[view->line[k]];
+cleanup:
+    memory_free(pad);
     return error_is_clean(err);
 }
 

@@ -67,6 +67,10 @@ bool result_view_read(ResultView *view, ResultSeries series, double **values, Er
 // The same of all nodes of the contact: *values [rows * all_nodes].
 bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err);
 
+// Another line along the drive than that in the middle: "y=0.2", the nodes nearest to it.
+// ERROR_INPUT also where the block is in the plane. Before any series of nodes is read.
+bool result_view_choose_line(ResultView *view, const char *words, Error *err);
+
 // The first and the last finite U.
 void result_view_range(const ResultView *view, double *low, double *high);
 

@@ -6,7 +6,8 @@
 static const double DECADE_LOW = -2;   // quasi-static slip is about V or a tenth of it
 static const double DECADE_HIGH_MIN = 1;   // at least this range is shown
 static const double DECADE_HIGH_MAX = 8;
-static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
+static const Color STICK = {0.976f, 0.980f, 0.984f,
+                            1};   // lighter than any slip, in grey print too
 
 Colorbar slip_scale(const ResultView *view, double V)
 {

@@ -337,10 +337,7 @@ static bool draw_mixture(FilmPage *page, int32_t first, double t, Error *err)
     if (a->frame.node_count != b->frame.node_count)
         FAIL(err, ERROR_FILE, "two fields of the film have %d and %d nodes", a->frame.node_count,
              b->frame.node_count);
-    for (int32_t i = 0; i < a->frame.node_count; ++i) {
-        a->value[i] += part * (b->value[i] - a->value[i]);
-        for (int32_t d = 0; d < 2; ++d) a->place[i][d] += part * (b->place[i][d] - a->place[i][d]);
-    }
+    block_mix(a, b, part);
     a->t = t;   // from here on to the second
     page->shown = -1;
     TRY(put_block(page, a, true, err));
@@ -391,8 +388,9 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
     else
         TRY(film_profile_now(&page->frame, &page->profile, &now, err));
     if (page->stored)
-        block_page_contact(&page->frame, &page->map, &page->block_shown, film_nearest_row(&now),
-                           &page->block);
+        block_page_contact(&page->frame, &page->map,
+                           page->shown >= 0 ? &page->block_shown : &page->pair[0],
+                           film_nearest_row(&now), &page->block);
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
 cleanup:
     return error_is_clean(err);

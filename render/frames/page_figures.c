@@ -39,7 +39,7 @@ static const struct {
      "before a sliding. Black line: the front of slip."},
     {"contact-plane", "png", "Maps: slip rate over the contact at moments before and in a sliding.",
      "Slip rate over the rod\u2019s velocity, over the contact, while slow slip grows and as slip "
-     "turns rapid. Grey: stick."},
+     "turns rapid. Where there is no colour: stick."},
 };
 
 // The last one is of a block in space whose slip turned rapid.

@@ -30,7 +30,7 @@ static const CommandText text = {
         "leaves such files; render/plot/plot_file.h explains their keys. Of the folder SWEEP "
         "that a sweep left: draws what its study asks for again, or with --plot anything that its "
         "table holds, in the words of a study's `plot`."
-        "\vWithout --figure all pictures are drawn. In PDF and SVG lines and letters stay sharp "
+        "\vIn PDF and SVG lines and letters stay sharp "
         "at any size, and fonts come along. Letters are 7 to 8 points high in print, whatever the "
         "width. Examples:\n\n"
         "  amontons render fig1-result --figure force --format pdf\n"
@@ -104,8 +104,9 @@ int command_render(int argc, char **argv)
     const Option options[] = {
         {"figure", 'f', "NAME",
          "Draw only this picture: force, slip-map, contact-density, contact-plane (of a block in "
-         "space), field or field-strip (up to six frames of one sliding). May be given several "
-         "times",
+         "space), precursors (length of slip over F_T/F_N), front-speed, field or field-strip (up "
+         "to six frames of one sliding). May be given several times; without it those that the "
+         "result has fields and events for, and those that --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
          "Draw these of force, slip-map and contact-density below each other, as panels.png",

@@ -10,7 +10,6 @@
 #include "contact/contact_equations.h"
 
 #include <math.h>
-#include <string.h>
 
 // An old matrix is given up when the residual of a step is above this part of that before it.
 static const double CHORD_GAIN = 0.1;
@@ -104,9 +103,9 @@ static bool update_statuses(Solve *solve, double least)
 // The rod's kind decides what a bonded or absent rod does.
 static void fix_rod_kind(const ContactProblem *problem, const ContactSolution *solution)
 {
-    size_t rods = (size_t)problem->interface->rod_count;
-    if (problem->rod_kind == ROD_AWAY) memset(solution->rod_touches, 0, rods);
-    if (problem->rod_kind == ROD_IS_BONDED) memset(solution->rod_touches, 1, rods);
+    bool bonded = problem->rod_kind == ROD_IS_BONDED;
+    if (!bonded && problem->rod_kind != ROD_AWAY) return;
+    for (int32_t j = 0; j < problem->interface->rod_count; j++) solution->rod_touches[j] = bonded;
 }
 
 // What is left to the tolerance becomes exact. A node may slip against its status by the tolerance,

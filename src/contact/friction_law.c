@@ -116,16 +116,22 @@ bool friction_has_drop(const FrictionLaw *law)
     return false;
 }
 
-// Of a law that has one; with memory that of its numbers, whatever its state.
+// Of a law that has one, without memory.
 static inline double drop_of(const FrictionLaw *law)
 {
-    if (friction_has_memory(law)) return law->own.memory.mu_static - law->own.memory.mu_kinetic;
     return law->mu_static - law->mu_kinetic;
+}
+
+// With memory that of its numbers, whatever its state.
+static double lasting_drop(const FrictionLaw *law)
+{
+    const FrictionMemory *memory = &law->own.memory;
+    return friction_has_memory(law) ? memory->mu_static - memory->mu_kinetic : drop_of(law);
 }
 
 double friction_drop(const FrictionLaw *law)
 {
-    return friction_has_drop(law) ? fmax(drop_of(law), law->fall) : 0;
+    return friction_has_drop(law) ? fmax(lasting_drop(law), law->fall) : 0;
 }
 
 double friction_slip(const FrictionLaw *law, double pressure, double height, double young)
@@ -352,7 +358,7 @@ double friction_spent_speed(const FrictionLaw *law)
 // law just the paper's 1 - |v|/v_c.
 double friction_contact_density(const FrictionLaw *law, double speed)
 {
-    double drop = friction_has_drop(law) ? drop_of(law) : 0;
+    double drop = friction_has_drop(law) ? lasting_drop(law) : 0;
     double left = drop > 0 ? (friction_coefficient(law, speed) - law->mu_kinetic) / drop : 1.0;
     return fmin(fmax(left, 0), 1);
 }

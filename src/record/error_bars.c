@@ -17,6 +17,7 @@ enum { USUAL_LEVELS = 1 };
 static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh
 static const double SPAN = 2;   // of cell size, of the levels behind a bar that is met
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
+static const double ONE_MESH_IN_SPACE = 0.9;   // likewise, over nodes along the contact
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 
@@ -296,7 +297,8 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
 // Over the value. NaN: cells are too long for slip.
 static double usual_of_one(const Level *level)
 {
-    return level->undamped ? (double)NAN : fmax(ONE_MESH / level->nodes_along, STEPS);
+    double usual = level->space ? ONE_MESH_IN_SPACE : ONE_MESH;
+    return level->undamped ? (double)NAN : fmax(usual / level->nodes_along, STEPS);
 }
 
 double levels_known_to(const Levels *levels, AnswerKind kind)

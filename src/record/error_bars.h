@@ -47,6 +47,7 @@ typedef struct Level {
     double refine;   // mesh.set.refine
     int32_t contact_nodes;
     double nodes_along;   // along its length (contact/interface), of which a cell is 1/nodes_along
+    bool space;   // of a block in space
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
     double slip_cells;   // least that slipped before slow slip turned fast; NaN: not known
     double end_wait;   // what mu rises by while the last nodes of the contact hold (run/end_wait)
@@ -65,7 +66,6 @@ typedef struct LevelCut {
 } LevelCut;
 
 typedef struct Levels {
-    bool space;   // meshes of a block in space
     double wanted;   // bar over value
     bool met;
     AnswerKind asked;   // what `wanted` is of

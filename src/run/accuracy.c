@@ -96,7 +96,7 @@ static double growth_ahead(const Accuracy *accuracy, double step)
 {
     const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
     double finer = log(last->nodes_along / first->nodes_along);
-    bool space = accuracy->levels.space;
+    bool space = last->space;
     double power = GROWTH[space];
     if (finer > 0) power = log(seconds_of_run(last) / seconds_of_run(first)) / finer;
     return pow(step, fmin(fmax(power, GROWTH_LEAST[space]), GROWTH_MOST[space]));
@@ -154,7 +154,7 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = pow(accuracy->step, GROWTH[accuracy->levels.space]) *
+        accuracy->out_of_time = pow(accuracy->step, GROWTH[accuracy_last_level(accuracy)->space]) *
                                     accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;

@@ -83,7 +83,8 @@ bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
     double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
     if (answers->steady) return true;
     if (answers->regime.run_in != RUN_IN_OVER) return false;
-    int32_t least = accuracy->levels.space ? SPACE_PEAKS_MIN : PEAKS_MIN;
+    int32_t least = accuracy->levels.list[accuracy->levels.count - 1].space ? SPACE_PEAKS_MIN
+                                                                            : PEAKS_MIN;
     if (answers->peaks_counted >= least) return mu_M->error <= allowed * mu_M->value;
     return answers->peaks_counted == 0 && answers->enough;
 }
@@ -250,7 +251,6 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
-    accuracy->levels.space = interface->dim > 2;
     if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
     double begun = clock_seconds();
     step_until_known(accuracy, simulation, &wait, err);

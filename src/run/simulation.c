@@ -222,6 +222,8 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);
+    warnings_of_memory(&simulation->model, simulation->model.scales.load * schedule_largest(&load),
+                       &simulation->warnings);
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,
                       &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,

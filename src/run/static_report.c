@@ -69,8 +69,7 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
     int64_t nodes = mesh->node_count, contacts = interface->contact_count;
-    int32_t dim = mesh->dim;
-    bool plane = dim == 2;
+    int32_t dim = mesh->dim, plane = dim == 2;
     const char *force = plane ? "force/width" : "force";
     ArrayFile *file = NULL;
     char path[PATH_SIZE];

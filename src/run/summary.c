@@ -20,7 +20,8 @@ static ContactView contact_view(const Interface *interface, const ContactArrays 
                          .slip = contact->slip,
                          .pressure = contact->pressure,
                          .shear = contact->shear,
-                         .status = contact->status};
+                         .status = contact->status,
+                         .state = contact->state};
 }
 
 StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,

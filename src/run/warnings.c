@@ -13,6 +13,7 @@
 // with more (median 0.3 %, largest 3.2 %).
 #include "run/warnings.h"
 
+#include "contact/friction_state.h"
 #include "record/drops.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
@@ -63,6 +64,35 @@ void warnings_of_resolution(const Certificate *certificate, double load, RunWarn
                      "element, and what comes out depends on the mesh; elements %.2g times as "
                      "long would do",
                      undamped, certificate->moving.interface->contact_count, 1 / worst);
+}
+
+// Cells on the length over which what is remembered makes slip unstable.
+static const double MEMORY_CELLS = 8;
+
+void warnings_of_memory(const Model *model, double load, RunWarnings *warnings)
+{
+    const Interface *interface = &model->interface;
+    const Material *floor = &model->materials.list[model->contact_region];
+    double shear = moduli_shear(material_elastic(floor)), length = 0, least = INFINITY;
+    int32_t coarse = 0, count = interface->contact_count;
+    if (!friction_remembers(&model->law, count)) return;
+    for (int32_t i = 0; i < count; i++) length += interface->weight[i];
+    for (int32_t i = 0; i < count; i++) {
+        const FrictionLaw *law = friction_at(&model->law, i);
+        FrictionRates rates =
+            friction_rates(law, model->scales.slip_velocity, friction_start_state(law));
+        double reach = shear / (load / length * fabs(rates.mu_state * rates.rate_speed));
+        double cell = interface->dim == 2 ? interface->weight[i] : sqrt(interface->weight[i]);
+        coarse += MEMORY_CELLS * cell > reach;
+        least = fmin(least, reach);
+    }
+    if (coarse > 0)
+        warnings_add(
+            warnings,
+            "slip is not resolved: what contacts remember is lost over so little slip that "
+            "it turns unstable on %.2g of length, and at %d of %d contact nodes cells are "
+            "longer than an eighth of it",
+            least, coarse, count);
 }
 
 // Of the displacement gradient. What the theory of small strains leaves out, half its square in the

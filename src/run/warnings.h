@@ -24,6 +24,10 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
 // Says so. Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
+// Where friction remembers, slip turns unstable over G/(p k), k what it loses in a unit of slip at
+// the start (b/D_c of rate and state): contact nodes with cells longer than an eighth of that.
+void warnings_of_memory(const Model *model, double load, RunWarnings *warnings);
+
 // A block that is taller than long though only its length was given: one that a mesh file made so
 // by a height of its own.
 void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings);

@@ -23,7 +23,7 @@ class MemoryPage(unittest.TestCase):
 
     def test_page_says_what_was_computed(self):
         text, _, _ = page.text(self.kept, cases.known(cases.Kept(FOLDER / "cases.jsonl")))
-        self.assertEqual(text, (FOLDER / "README.md").read_text(encoding="utf-8"), "run validation/memory/question.py --page")
+        self.assertEqual(text, (FOLDER / "laws.md").read_text(encoding="utf-8"), "run validation/memory/question.py --page")
 
     def test_cases_are_those_laid_down(self):
         self.assertEqual(cases.digest(), (FOLDER / "cases.sha256").read_text(encoding="utf-8").strip())

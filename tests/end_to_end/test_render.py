@@ -24,7 +24,7 @@ from sanitizer_fixture import begin_again_with
 MODULES = os.environ["AMONTONS_MODULES"]
 FIGURES = ("force", "slip-map", "contact-density")
 INK, CURVE, RED, BLUE = (20, 20, 26), (13, 69, 140), (191, 31, 31), (20, 89, 179)
-STICK, OPEN = (214, 217, 222), (140, 143, 148)
+STICK, OPEN = (249, 250, 251), (140, 143, 148)
 DECADES = (-2, 3.5)   # of the fixture's slip map: the fastest slip is 2040 V
 ERROR_INPUT, ERROR_FILE, ERROR_LIBRARY = 1, 2, 4
 
@@ -37,7 +37,7 @@ class Error(ctypes.Structure):
 class Style(ctypes.Structure):
     _fields_ = [("format", ctypes.c_char_p), ("width", ctypes.c_double), ("dpi", ctypes.c_double),
                 ("dark", ctypes.c_bool), ("overwrite", ctypes.c_bool), ("height", ctypes.c_double),
-                *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "pixels",
+                *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "pixels", "line",
                                                        "compare", "warnings"))]
 
 

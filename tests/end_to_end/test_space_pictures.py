@@ -26,7 +26,7 @@ time: {{until: {{U: %g}}}}
 output: {{figures: [], fields: {{every_U: 5e-4, at_events: true}}}}
 """
 HEXAHEDRA = "nx: 5, ny: 4, nz: 3"
-BACKGROUND, STICK = (255, 255, 255), (214, 217, 222)
+BACKGROUND, STICK = (255, 255, 255), (249, 250, 251)
 
 
 def array(data, name):
@@ -185,7 +185,7 @@ class SpacePictures(unittest.TestCase):
         until = self.draw_up("drawn")
         self.render("drawn", "--figure", "contact-plane", "--at", f"U={until}", "--warnings", "none")
         pixels = picture(self.folder / "drawn/figures/contact-plane.png")
-        inside = near(pixels, STICK)
+        inside = near(pixels, STICK, 1)
         rows, columns = numpy.flatnonzero(inside.sum(axis=1) > 300), numpy.flatnonzero(inside.sum(axis=0) > 300)
         top, bottom, left, right = rows[0], rows[-1], columns[0], columns[-1]
         self.assertAlmostEqual((bottom - top) / (right - left), 0.8, delta=0.02)   # to scale
@@ -194,6 +194,24 @@ class SpacePictures(unittest.TestCase):
         self.assertAlmostEqual((x.mean() + 3) / (right - left), 0.6, delta=0.01)
         self.assertAlmostEqual(1 - (y.mean() + 3) / (bottom - top), 0.25, delta=0.01)
         self.assertAlmostEqual(len(x) / fast.size, 1 / 20, delta=0.003)   # a cell's area around an inner node
+
+    def test_lines(self):
+        """Of a history in which nodes are as fast as their y says, each line has its own colour: that of its nodes alone."""
+        target = self.folder / "lines"
+        subprocess.run(["cp", "-r", self.folder / "cube", target], check=True)
+        with h5py.File(target / "history.h5", "r+") as file:
+            rates, y = file["interface/slip_rate"], file["nodes/y"][:]
+            rates[...] = 0
+            rates[:, :, 0] = 2e-7 * 10**(10 * y)[None, :]   # from V/100 at y = 0 to 100 V at 0.4
+            del file["events"]
+        found = []
+        for words in ("y=0", "y=0.11", "y=0.4"):
+            self.render("lines", "--figure", "slip-map", "--line", words, "--warnings", "none")
+            pixels = picture(target / "figures/slip-map.png")
+            middle = pixels[pixels.shape[0] // 2, pixels.shape[1] // 2]
+            found.append(int(middle.sum()))
+        self.assertTrue(found[0] > found[1] + 100 > found[2] + 200, found)   # the faster the darker
+        self.assertIn("a line is given by its y", self.render("cube", "--figure", "slip-map", "--line", "0.2", fails=True))
 
     def test_moments(self):
         """Those that are asked for, up to twelve; without a word those of the last rapid event."""

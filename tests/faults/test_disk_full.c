@@ -146,9 +146,8 @@ TEST(test_report_only)
     assert_true(failed >= 2 && failed <= 5);
 }
 
-static int group_begin(void **state)
+FIXTURE(group_begin)
 {
-    (void)state;
     signal(SIGXFSZ, SIG_IGN);   // then write() fails with EFBIG
     return 0;
 }

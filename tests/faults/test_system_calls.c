@@ -368,9 +368,8 @@ static void test_slurm(void **state)
     try_all(element, 101);
 }
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // many fsyncs
     setenv("AMONTONS_APART", "1", 1);   // as the program has it
     place_make(place);
@@ -380,16 +379,14 @@ static int begin(void **state)
     return nowhere ? 0 : -1;
 }
 
-static int anew(void **state)
+FIXTURE(anew)
 {
-    (void)state;
     place_remove(result);
     return 0;
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     fclose(nowhere);
     place_remove(place);
     return 0;

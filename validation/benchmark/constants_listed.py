@@ -226,7 +226,7 @@ NOT_A_CHOICE = {
     "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "record/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "record/error_bars.c": {
-        "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "SPAN": "the same",
+        "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "ONE_MESH_IN_SPACE": "of digits without a bar: validation/space/priors.md", "SPAN": "the same",
         "ROUNDING": "of products of a few steps from mesh to mesh", "END_WAITS": "of error bars: set B at P = 1e-5",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The method of manufactured solutions for K: a smooth displacement is chosen,
+// The method of manufactured solutions for K: a smooth displacement is chosen, in the plane
 //
 //     u_x = sin(2 x + 0.5) cos(3 z),   u_z = cos(x + 2 z),
 //
-// the body force that it needs is put into f by quadrature, the boundary is held at it, and what is
-// solved is compared with it. Prints the elements' size h and the errors of u in the L2 norm and of
-// the strain energy's norm, both relative.
+// in space such waves along all three axes (WAVES), the body force that it needs is put into f by
+// quadrature, the boundary is held at it, and what is solved is compared with it. Prints the
+// elements' size h and the errors of u in the L2 norm and of the strain energy's norm, both
+// relative.
 //
 //   amontons_manufactured MESH.geo name=value ...
 #include "base/dense.h"
@@ -27,51 +28,92 @@ typedef struct Problem {
     double *u;   // [dof_count]
 } Problem;
 
-// Displacement, its gradient [component][direction], and second derivatives xx, xz, zz.
-static void chosen(double x, double z, double u[2], double gradient[2][2], double second[2][3])
+// amplitude sin(along . x + phase), two of them a component.
+typedef struct Wave {
+    double amplitude, along[3], phase;
+} Wave;
+
+static const Wave WAVES[2][3][2] = {
+    {{{0.5, {2, 3}, 0.5}, {0.5, {2, -3}, 0.5}}, {{1, {1, 2}, 1.5707963267948966}}},
+    {{{0.5, {2, 1, 3}, 0.5}, {0.5, {2, -2, -1}, 0.5}},
+     {{0.7, {1, 3, -1}, 0.2}, {0.4, {-2, 1, 2}, 1}},
+     {{1, {1, -1, 2}, 1.5}, {0.3, {2, 3, 1}, 0}}}};
+
+// Displacement, its gradient [component][direction] and second derivatives.
+typedef struct Chosen {
+    double u[3], gradient[3][3], second[3][3][3];
+} Chosen;
+
+static Chosen chosen(int32_t dim, const double *x)
 {
-    double a = 2 * x + 0.5, b = 3 * z, c = x + 2 * z;
-    u[0] = sin(a) * cos(b);
-    u[1] = cos(c);
-    gradient[0][0] = 2 * cos(a) * cos(b);
-    gradient[0][1] = -3 * sin(a) * sin(b);
-    gradient[1][0] = -sin(c);
-    gradient[1][1] = -2 * sin(c);
-    second[0][0] = -4 * sin(a) * cos(b);
-    second[0][1] = -6 * cos(a) * sin(b);
-    second[0][2] = -9 * sin(a) * cos(b);
-    second[1][0] = -cos(c);
-    second[1][1] = -2 * cos(c);
-    second[1][2] = -4 * cos(c);
+    Chosen at = {{0}, {{0}}, {{{0}}}};
+    for (int32_t c = 0; c < dim; c++)
+        for (int32_t w = 0; w < 2; w++) {
+            const Wave *wave = &WAVES[dim - 2][c][w];
+            double angle = wave->phase;
+            for (int32_t d = 0; d < dim; d++) angle += wave->along[d] * x[d];
+            at.u[c] += wave->amplitude * sin(angle);
+            for (int32_t d = 0; d < dim; d++) {
+                at.gradient[c][d] += wave->amplitude * wave->along[d] * cos(angle);
+                for (int32_t e = 0; e < dim; e++)
+                    at.second[c][d][e] -= wave->amplitude * wave->along[d] * wave->along[e] *
+                                          sin(angle);
+            }
+        }
+    return at;
 }
 
-// -div sigma of plane stress, sigma = dev eps + lam tr(eps) I, with moduli that owe nothing to
-// fem/material:  (dev + lam) u_x,xx + lam u_z,xz + dev/2 (u_x,zz + u_z,xz), and likewise along z.
-static void body_force(const Material *material, double x, double z, double force[2])
+// -div sigma, sigma = dev eps + lam tr(eps) I, of plane stress or in space, with moduli that owe
+// nothing to fem/material:  -(dev/2 (u_i,jj + u_j,ij) + lam u_j,ij).
+static void body_force(const Material *material, int32_t dim, const double *x, double force[3])
 {
-    double u[2], gradient[2][2], s[2][3], nu = material->poisson;
-    double dev = material->young / (1 + nu), lam = material->young * nu / (1 - nu * nu);
-    chosen(x, z, u, gradient, s);
-    force[0] = -((dev + lam) * s[0][0] + lam * s[1][1] + dev / 2 * (s[0][2] + s[1][1]));
-    force[1] = -((dev + lam) * s[1][2] + lam * s[0][1] + dev / 2 * (s[0][1] + s[1][0]));
-}
-
-// 5 x 5 Gauss points on the square, collapsed onto the triangle: exact enough for any element here.
-static int32_t fine_points(ElementKind kind, double point[25][2], double weight[25])
-{
-    static const double x[5] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
-                                0.906179845938664};
-    static const double w[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889,
-                                0.478628670499366, 0.236926885056189};
-    bool triangle = kind == ELEMENT_T3 || kind == ELEMENT_T6;
-    for (int32_t q = 0; q < 25; q++) {
-        double a = x[q % 5], b = x[q / 5];
-        weight[q] = w[q % 5] * w[q / 5];
-        point[q][0] = triangle ? (1 + a) / 2 : a;
-        point[q][1] = triangle ? (1 - a) * (1 + b) / 4 : b;
-        if (triangle) weight[q] *= (1 - a) / 8;
+    Chosen at = chosen(dim, x);
+    double nu = material->poisson, dev = material->young / (1 + nu);
+    double lam = dev * nu / (dim == 2 ? 1 - nu : 1 - 2 * nu);
+    for (int32_t i = 0; i < dim; i++) {
+        force[i] = 0;
+        for (int32_t j = 0; j < dim; j++)
+            force[i] -= dev / 2 * (at.second[i][j][j] + at.second[j][i][j]) +
+                        lam * at.second[j][i][j];
     }
-    return 25;
+}
+
+enum { FINE = 5, FINE_MAX = FINE * FINE * FINE };
+
+// From a square or cube [-1, 1] to the reference element, with the factor of the weight: triangles,
+// wedges and tetrahedra are squares and cubes that collapsed.
+static double collapse(ElementKind kind, double at[3])
+{
+    int32_t dim = element_dim(kind), corners = element_corner_count(kind);
+    double t[3];
+    if (corners == 1 << dim) return 1;
+    for (int32_t d = 0; d < 3; d++) t[d] = (1 + at[d]) / 2;
+    at[0] = t[0];
+    at[1] = t[1] * (1 - t[0]);
+    if (corners != 4) return (1 - t[0]) / 4;   // of a triangle; a wedge's third axis stays
+    at[2] = t[2] * (1 - at[0] - at[1]);
+    return (1 - t[0]) * (1 - at[0] - at[1]) / 8;
+}
+
+// 5 Gauss points along each axis: exact enough for any element here.
+static int32_t fine_points(ElementKind kind, double point[FINE_MAX][3], double weight[FINE_MAX])
+{
+    static const double x[FINE] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
+                                   0.906179845938664};
+    static const double w[FINE] = {0.236926885056189, 0.478628670499366, 0.568888888888889,
+                                   0.478628670499366, 0.236926885056189};
+    int32_t dim = element_dim(kind), count = dim == 2 ? FINE * FINE : FINE_MAX;
+    for (int32_t q = 0; q < count; q++) {
+        const int32_t place[3] = {q % FINE, q / FINE % FINE, q / FINE / FINE};
+        weight[q] = 1;
+        point[q][2] = 0;
+        for (int32_t d = 0; d < dim; d++) {
+            point[q][d] = x[place[d]];
+            weight[q] *= w[place[d]];
+        }
+        weight[q] *= collapse(kind, point[q]);
+    }
+    return count;
 }
 
 static int32_t element_positions(const Mesh *mesh, int32_t e, MeshPlace position[])
@@ -85,17 +127,17 @@ static int32_t element_positions(const Mesh *mesh, int32_t e, MeshPlace position
 typedef struct Place {
     ShapeValues shape;
     double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
-    double x, z, weight;   // weight: with the Jacobian determinant
+    double x[3], weight;   // weight: with the Jacobian determinant
 } Place;
 
-static Place place_at(ElementKind kind, const MeshPlace *position, const double point[2],
+static Place place_at(ElementKind kind, const MeshPlace *position, const double *point,
                       double weight)
 {
     Place place = {.shape = shape_at(kind, point)};
     place.weight = weight * element_strain_matrix(kind, position, point, place.b);
     for (int32_t a = 0; a < element_node_count(kind); a++) {
-        place.x += place.shape.value[a] * position[a][0];
-        place.z += place.shape.value[a] * position[a][1];
+        for (int32_t d = 0; d < element_dim(kind); d++)
+            place.x[d] += place.shape.value[a] * position[a][d];
     }
     return place;
 }
@@ -105,18 +147,18 @@ static void add_body_forces(Problem *problem)
     const Mesh *mesh = &problem->mesh;
     for (int32_t e = 0; e < mesh->element_count; e++) {
         MeshPlace position[ELEMENT_NODES_MAX];
-        double point[25][2], weight[25];
+        double point[FINE_MAX][3], weight[FINE_MAX];
         int32_t count = element_positions(mesh, e, position);
         int32_t points = fine_points(mesh->kind[e], point, weight);
         for (int32_t q = 0; q < points; q++) {
-            double force[2];
+            double force[3];
             Place place = place_at(mesh->kind[e], (const MeshPlace *)position, point[q], weight[q]);
-            body_force(&problem->material, place.x, place.z, force);
+            body_force(&problem->material, mesh->dim, place.x, force);
             for (int32_t a = 0; a < count; a++) {
                 int32_t node = mesh->element_nodes[mesh->first_node[e] + a];
-                for (int d = 0; d < 2; d++)
-                    problem->bulk.load[2 * node + d] += place.weight * place.shape.value[a] *
-                                                        force[d];
+                for (int d = 0; d < mesh->dim; d++)
+                    problem->bulk.load[node_dof(mesh->dim, node, d)] +=
+                        place.weight * place.shape.value[a] * force[d];
             }
         }
     }
@@ -127,14 +169,19 @@ static bool hold_boundary(Problem *problem, Error *err)
 {
     const Mesh *mesh = &problem->mesh;
     Bulk *bulk = &problem->bulk;
-    double gradient[2][2], second[2][3], tiny = 1e-9 * (mesh->x_max - mesh->x_min);
+    const double low[] = {mesh->x_min, mesh->dim > 2 ? mesh->y_min : mesh->z_min, mesh->z_min};
+    const double high[] = {mesh->x_max, mesh->dim > 2 ? mesh->y_max : mesh->z_max, mesh->z_max};
+    double tiny = 1e-9 * (mesh->x_max - mesh->x_min);
     double *force = NEW_ARRAY(double, bulk->dof_count, err);
     if (!force) return false;
     for (int32_t node = 0; node < mesh->node_count; node++) {
-        double x = mesh->position[2 * node], z = mesh->position[2 * node + 1];
-        bool inside = x > mesh->x_min + tiny && x < mesh->x_max - tiny && z > mesh->z_min + tiny &&
-                      z < mesh->z_max - tiny;
-        if (!inside) chosen(x, z, problem->u + 2 * node, gradient, second);
+        const double *x = mesh_place(mesh, node);
+        bool inside = true;
+        for (int32_t d = 0; d < mesh->dim; d++)
+            inside = inside && x[d] > low[d] + tiny && x[d] < high[d] - tiny;
+        Chosen at = chosen(mesh->dim, x);
+        for (int32_t d = 0; d < mesh->dim && !inside; d++)
+            problem->u[node_dof(mesh->dim, node, d)] = at.u[d];
     }
     sparse_apply(&bulk->pattern, bulk->stiffness, problem->u, force);
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] -= force[dof];
@@ -169,43 +216,64 @@ cleanup:
     return error_is_clean(err);
 }
 
+// As strains are ordered, shear twice.
+static void strains_of(const Chosen *at, int32_t dim, double strain[STRAINS_MAX])
+{
+    static const int32_t axes[2][6][2] = {{{0, 0}, {1, 1}, {0, 1}},
+                                          {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+    for (int32_t k = 0; k < strain_count(dim); k++) {
+        int32_t a = axes[dim - 2][k][0], b = axes[dim - 2][k][1];
+        strain[k] = a == b ? at->gradient[a][a] : at->gradient[a][b] + at->gradient[b][a];
+    }
+}
+
+// Squares, summed over the block.
+typedef struct Sums {
+    double wrong, size, wrong_energy, energy;
+} Sums;
+
+static void add_place(const Problem *problem, const Place *place, const int32_t *nodes,
+                      int32_t count, Sums *sums)
+{
+    int32_t dim = problem->mesh.dim, strains = strain_count(dim);
+    double d[STRAINS_MAX][STRAINS_MAX], exact[STRAINS_MAX], off[STRAINS_MAX], ours[3] = {0};
+    Chosen at = chosen(dim, place->x);
+    moduli_matrix(material_elastic(&problem->material), dim, d);
+    strains_of(&at, dim, exact);
+    for (int32_t r = 0; r < strains; r++) off[r] = -exact[r];
+    for (int32_t a = 0; a < count; a++)
+        for (int32_t c = 0; c < dim; c++) {
+            double nodal = problem->u[node_dof(dim, nodes[a], c)];
+            ours[c] += place->shape.value[a] * nodal;
+            for (int32_t r = 0; r < strains; r++) off[r] += place->b[r][dim * a + c] * nodal;
+        }
+    for (int32_t c = 0; c < dim; c++) {
+        sums->wrong += place->weight * (ours[c] - at.u[c]) * (ours[c] - at.u[c]);
+        sums->size += place->weight * at.u[c] * at.u[c];
+    }
+    for (int32_t r = 0; r < strains; r++)
+        for (int32_t c = 0; c < strains; c++) {
+            sums->wrong_energy += place->weight * off[r] * d[r][c] * off[c];
+            sums->energy += place->weight * exact[r] * d[r][c] * exact[c];
+        }
+}
+
 static void print_errors(const Problem *problem)
 {
     const Mesh *mesh = &problem->mesh;
-    double d[STRAINS_MAX][STRAINS_MAX], wrong = 0, size = 0, wrong_energy = 0, energy = 0;
-    moduli_matrix(material_elastic(&problem->material), 2, d);
+    Sums sums = {0, 0, 0, 0};
     for (int32_t e = 0; e < mesh->element_count; e++) {
         MeshPlace position[ELEMENT_NODES_MAX];
-        double point[25][2], weight[25];
+        double point[FINE_MAX][3], weight[FINE_MAX];
         int32_t count = element_positions(mesh, e, position);
         int32_t points = fine_points(mesh->kind[e], point, weight);
         for (int32_t q = 0; q < points; q++) {
-            double u[2], gradient[2][2], second[2][3], ours[2] = {0};
             Place place = place_at(mesh->kind[e], (const MeshPlace *)position, point[q], weight[q]);
-            chosen(place.x, place.z, u, gradient, second);
-            double exact[3] = {gradient[0][0], gradient[1][1], gradient[0][1] + gradient[1][0]};
-            double off[3] = {-exact[0], -exact[1], -exact[2]};
-            for (int32_t a = 0; a < count; a++) {
-                const double *nodal = problem->u + 2 * mesh->element_nodes[mesh->first_node[e] + a];
-                for (int c = 0; c < 2; c++) {
-                    ours[c] += place.shape.value[a] * nodal[c];
-                    for (int r = 0; r < 3; r++) off[r] += place.b[r][2 * a + c] * nodal[c];
-                }
-            }
-            for (int c = 0; c < 2; c++) {
-                wrong += place.weight * (ours[c] - u[c]) * (ours[c] - u[c]);
-                size += place.weight * u[c] * u[c];
-            }
-            for (int r = 0; r < 3; r++) {
-                for (int c = 0; c < 3; c++) {
-                    wrong_energy += place.weight * off[r] * d[r][c] * off[c];
-                    energy += place.weight * exact[r] * d[r][c] * exact[c];
-                }
-            }
+            add_place(problem, &place, mesh->element_nodes + mesh->first_node[e], count, &sums);
         }
     }
-    printf("%.17g %.17g %.17g\n", sqrt(problem->bulk.area / mesh->element_count),
-           sqrt(wrong / size), sqrt(wrong_energy / energy));
+    printf("%.17g %.17g %.17g\n", pow(problem->bulk.area / mesh->element_count, 1.0 / mesh->dim),
+           sqrt(sums.wrong / sums.size), sqrt(sums.wrong_energy / sums.energy));
 }
 
 static int32_t read_parameters(int argc, char **argv, MeshParameter *parameters)
@@ -235,6 +303,7 @@ int main(int argc, char **argv)
     int32_t count = read_parameters(argc, argv, parameters);
     TRY(mesh_file_read(argv[1], parameters, count, &file, &err));
     TRY(mesh_build(&file, argv[1], &problem.mesh, &err));
+    problem.material.plane_strain = problem.mesh.dim > 2;   // moduli in space are its
     TRY(bulk_assemble(&problem.mesh, &problem.material, &problem.bulk, &err));
     problem.u = NEW_ARRAY(double, problem.bulk.dof_count, &err);
     if (!problem.u) goto cleanup;

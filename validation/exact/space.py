@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from exact.bulk import NU, PRESSURE, column_exact
-from harness import Run, Static, observed_order, relative
+from harness import SOURCE, Run, Static, observed_order, relative
 
 HERE = Path(__file__).resolve().parent
 GROUP = "space"
@@ -25,6 +25,18 @@ def patch(study):
         stress = ours.stress - [0, 0, -PRESSURE, 0, 0, 0]
         study.add(GROUP, f"patch test, unstructured {element}", "stress at every node", -PRESSURE, ours.stress[:, 2].min(),
                   np.abs(stress).max() / PRESSURE, 1e-10)
+
+
+def orders(study):
+    """A made-up displacement of waves along all axes, on unstructured meshes: the order of the element in u, one less in energy."""
+    for element, (shape, order) in ELEMENTS.items():
+        table = np.array([[float(word) for word in study.call("amontons_manufactured", [
+            SOURCE / "meshes/block3d.geo", f"shape={shape}", f"order={order}", "layout=free", f"nx={n}", f"ny={n}", f"nz={n}"]).stdout.split()]
+            for n in (4, 8)])
+        for k, (name, expected) in enumerate((("displacement, L2 norm", order + 1), ("strain energy's norm", order))):
+            study.add(GROUP, f"manufactured solution, {element}", name, "chosen", f"{table[-1, k + 1]:.2e}", table[-1, k + 1],
+                      (0.1, 1e-2)[order - 1] if k else (1e-2, 3e-4)[order - 1], order=f"{expected} expected",
+                      seen=observed_order(table[:, 0], table[:, k + 1]), least=expected - 0.25)
 
 
 WAVES = {"longitudinal": ("space_wave.yaml", (1 - NU) / ((1 + NU) * (1 - 2 * NU)), 0.2, 2, -1),
@@ -193,6 +205,6 @@ def controls(study):
 
 
 def run(study):
-    for part in (patch, waves, hertz, mindlin, punch, plate, held_across):
+    for part in (patch, orders, waves, hertz, mindlin, punch, plate, held_across):
         part(study)
     controls(study)

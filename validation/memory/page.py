@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""README.md of this folder: page.in with what question.jsonl and cases.jsonl say in the place of [[names]], and the figures."""
+"""laws.md of this folder: page.in with what question.jsonl and cases.jsonl say in the place of [[names]], and the figures."""
 import json
 import math
 import re
@@ -189,5 +189,5 @@ def text(kept, asked):
 def write(folder):
     kept = Kept(folder / "question.jsonl")
     page, by, first = text(kept, cases.known(Kept(folder / "cases.jsonl")))
-    (folder / "README.md").write_text(page, encoding="utf-8")
+    (folder / "laws.md").write_text(page, encoding="utf-8")
     figures(by, first, folder)

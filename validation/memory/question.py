@@ -5,7 +5,7 @@
     validation/memory/question.py [--quick] [--only STUDY ...] [--page] [-o FOLDER]
 
 The block is that of parameter set A (validation/paper/fig1.yaml, H = L/2). Each point is a run with an error bar (`--to 3%`) and stays
-in FOLDER/question.jsonl (default validation/memory): a call that is stopped goes on where it was. Writes README.md from page.in, with
+in FOLDER/question.jsonl (default validation/memory): a call that is stopped goes on where it was. Writes laws.md from page.in, with
 what was measured in the place of [[names]], and the figures beside it. --quick: three pressures on coarse meshes, into
 results/memory. --page: only the page, from what is there. The ten cases of the promise are cases.py's."""
 import argparse

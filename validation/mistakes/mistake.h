@@ -42,7 +42,11 @@
     X(MISTAKE_WINDOW_FIRST, "window-first")                                                        \
     X(MISTAKE_WINDOW_FORGOTTEN, "window-forgotten")                                                \
     X(MISTAKE_STATES_FORGOTTEN, "states-forgotten")                                                \
-    X(MISTAKE_STATE_ROUNDED, "state-rounded")
+    X(MISTAKE_STATE_ROUNDED, "state-rounded")                                                      \
+    X(MISTAKE_MEMORY_LAGGED, "memory-lagged")                                                      \
+    X(MISTAKE_MEMORY_KEPT, "memory-kept")                                                          \
+    X(MISTAKE_MEMORY_FRESH, "memory-fresh")                                                        \
+    X(MISTAKE_MEMORY_EVOLUTION, "memory-evolution")
 
 typedef enum Mistake {
 #define X(symbol, name) symbol,

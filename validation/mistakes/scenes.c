@@ -43,6 +43,9 @@ REPLACED(bool, window_take_back, Window *window, const Observation *seen, Error 
 REPLACED(void, window_archive, Window *window, Archive *archive);
 REPLACED(bool, kept_states_archive, KeptStates *kept, Archive *archive, Error *err);
 REPLACED(bool, saved_state_take_back, Simulation *simulation, const SavedState *state, Error *err);
+REPLACED(double, memory_coefficient, const FrictionMemory *memory, double speed, double *slope);
+REPLACED(double, memory_state, const FrictionMemory *memory, double speed);
+REPLACED(double, memory_rested, const FrictionMemory *memory, double rest);
 
 static bool made(Mistake mistake)
 {
@@ -169,4 +172,25 @@ bool __wrap_saved_state_take_back(Simulation *simulation, const SavedState *stat
     double *displacement = simulation->control.now.displacement;
     if (made(MISTAKE_STATE_ROUNDED)) displacement[0] = nextafter(displacement[0], INFINITY);
     return done;
+}
+
+// --- friction that remembers --------------------------------------------------------------------
+
+double __wrap_memory_coefficient(const FrictionMemory *memory, double speed, double *slope)
+{
+    FrictionMemory other = *memory;
+    if (made(MISTAKE_MEMORY_LAGGED)) other.reach = 0;
+    return __real_memory_coefficient(&other, speed, slope);
+}
+
+double __wrap_memory_state(const FrictionMemory *memory, double speed)
+{
+    FrictionMemory other = *memory;
+    if (made(MISTAKE_MEMORY_EVOLUTION)) other.slip_law = false;
+    return __real_memory_state(&other, made(MISTAKE_MEMORY_KEPT) ? 0 : speed);
+}
+
+double __wrap_memory_rested(const FrictionMemory *memory, double rest)
+{
+    return __real_memory_rested(memory, made(MISTAKE_MEMORY_FRESH) ? 1e-9 * rest : rest);
 }

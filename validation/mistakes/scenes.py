@@ -34,6 +34,10 @@ TABLE = (
     ("window-forgotten", "a checkpoint does not have the window", "test_windows.Windows.test_killed"),
     ("states-forgotten", "a checkpoint does not have the states that a run may be taken back to",
      "test_windows.Windows.test_killed"),
+    ("memory-lagged", "friction takes the state that a stage began with", "test_memory.Memory.test_velocity_steps"),
+    ("memory-kept", "slip takes nothing away from what is remembered", "test_memory.Memory.test_rigid_block_that_sticks"),
+    ("memory-fresh", "contacts have rested for no time when the rod begins", "test_memory.Memory.test_rigid_block_that_sticks"),
+    ("memory-evolution", "the slip law evolves as the ageing law does", "test_memory.Memory.test_velocity_steps"),
     ("state-rounded", "a run that is taken back is off by one rounding", "test_windows.Windows.test_around"),
 )
 

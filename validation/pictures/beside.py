@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of a result beside the same data drawn by matplotlib (docs/examples/redraw.py): one sheet to look at, and of each what can
-be measured. Needs python3-matplotlib, python3-h5py, python3-pil and poppler.
+"""Figures of a result, or of a sweep, beside the same data drawn by matplotlib (docs/examples/redraw.py; of a sweep here): one sheet to
+look at, and of each what can be measured. Needs python3-matplotlib, python3-h5py, python3-pil and poppler. What a stranger said of the
+sheets stands in README.md.
 
     validation/pictures/beside.py RESULT [SHEET.png]
+    validation/pictures/beside.py SWEEP [SHEET.png]
 
 What was asked of them before any was drawn, and who judges it:
 
@@ -15,11 +17,16 @@ What was asked of them before any was drawn, and who judges it:
     6  no title that was not asked for                  by eye
     7  no larger in bytes than a journal takes (10 MB)  measured
 """
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
 
+import h5py
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
@@ -27,6 +34,8 @@ SOURCE = Path(__file__).resolve().parents[2]
 PROGRAM = SOURCE / "build/bin/amontons"
 NAMES = ("force", "slip-map", "contact-density")
 PARTS, DPI = 48, 220
+WIDTH = 86 / 25.4   # inches
+plt.rcParams.update({"font.size": 8, "axes.linewidth": 0.5, "lines.linewidth": 0.8, "savefig.dpi": 600})
 
 
 def picture(pdf):
@@ -56,14 +65,74 @@ def empty_share(image):
     return best / PARTS**2
 
 
-def main():
-    result, sheet = Path(sys.argv[1]), Path(sys.argv[2] if len(sys.argv) > 2 else "beside.png")
+def values(folder, numbers):
+    """A list of a plot's description, or the column of a table that it names."""
+    if not isinstance(numbers, str):
+        return np.array([np.nan if number is None else number for number in numbers], float)
+    path, name = numbers.split(":")
+    with h5py.File(folder / path) as file:
+        return file[name][:]
+
+
+def math(words):
+    """Our marks of symbols as matplotlib's."""
+    return re.sub(r"~\{([^}]*)\}(?:_\{([^}]*)\})?", lambda found: f"${found[1]}" + (f"_{{\\rm {found[2]}}}" if found[2] else "") + "$", words or "")
+
+
+def redraw_plot(description):
+    """The same curves or map with matplotlib's defaults and a journal's sizes."""
+    plot, folder = json.loads(description.read_text()), description.parent
+    figure, axes = plt.subplots(figsize=(WIDTH, 0.75 * WIDTH))
+    for name in ("x", "y"):
+        axis = plot.get(name, {})
+        getattr(axes, f"set_{name}label")(math(axis.get("label")))
+        getattr(axes, f"set_{name}scale")(axis.get("scale", "linear"))
+    if "map" in plot:
+        x, y, value = (values(folder, plot["map"][name]) for name in ("x", "y", "value"))
+        grid = [np.unique(places) for places in (x, y)]
+        table = np.full((len(grid[1]), len(grid[0])), np.nan)
+        table[np.searchsorted(grid[1], y), np.searchsorted(grid[0], x)] = value
+        figure.colorbar(axes.pcolormesh(*grid, table, shading="nearest"), label=math(plot["color"]["label"]))
+        if "contour" in plot["map"]:
+            lines = np.full(table.shape, np.nan)
+            lines[np.searchsorted(grid[1], y), np.searchsorted(grid[0], x)] = values(folder, plot["map"]["contour"])
+            axes.clabel(axes.contour(*grid, lines, colors="black", linewidths=0.6))
+    names = plot.get("y", {}).get("names")
+    for series in plot.get("series", []):
+        x, y = values(folder, series["x"]), values(folder, series["y"])
+        style = {"ms": 4, "ls": "-" if series["line"] in ("thin", "solid") else "", "mfc": None if series["filled"] else "white"}
+        bars = (values(folder, series["high"]) - values(folder, series["low"])) / 2 if "low" in series else None
+        axes.errorbar(x, y, yerr=None if names else bars, xerr=bars if names else None, marker="" if series["marker"] == "none" else "o",
+                      label=math(series["label"]) or None, capsize=2, **style)
+    if names:
+        axes.set_yticks(range(1, len(names) + 1), names)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend()
+    path = folder / f"{description.stem}-redrawn.pdf"
+    figure.savefig(path, bbox_inches="tight")
+    plt.close(figure)
+
+
+def draw(result):
+    """Names of what was drawn in both ways."""
+    if (result / "sweep.h5").exists():
+        subprocess.run([PROGRAM, "render", result, "--format", "pdf", "--overwrite"], check=True)
+        plots = sorted(path for path in (result / "figures").glob("*.json") if "panels" not in json.loads(path.read_text()))
+        for path in plots:
+            redraw_plot(path)
+        return [path.stem for path in plots]
     subprocess.run([PROGRAM, "render", result, "--format", "pdf", "--overwrite",
                     *(word for name in NAMES for word in ("--figure", name))], check=True)
     subprocess.run([sys.executable, SOURCE / "docs/examples/redraw.py", result], check=True)
+    return NAMES
+
+
+def main():
+    result, sheet = Path(sys.argv[1]), Path(sys.argv[2] if len(sys.argv) > 2 else "beside.png")
+    names = draw(result)
     rows = []
     print(f"{'':28s}   kB   letters, pt   empty")
-    for name in NAMES:
+    for name in names:
         pair = [result / "figures" / f"{name}{end}.pdf" for end in ("", "-redrawn")]
         rows.append([picture(pdf) for pdf in pair])
         for pdf, image in zip(pair, rows[-1]):

@@ -2,14 +2,17 @@
 #include "study/search/optimise_report.h"
 
 #include "base/memory.h"
+#include "io/text/json_reader.h"
 #include "study/search/front.h"
 #include "study/search/search_answer.h"
 #include "study/search/search_figure.h"
+#include "study/sweep/computing/point.h"
 
 #include <math.h>
 #include <stdio.h>
 
 enum { OTHERS_SHOWN = 5 };
+enum { COST_LEAST = 2, COST_MOST = 4 };   // what half an error costs, over what it cost
 
 static const char *quantity(const Search *search)
 {
@@ -58,12 +61,29 @@ static void print_gain(const Search *search, const OptimiseSummary *summary, int
         fprintf(out, " +- %.1f %%\n", 100 * error);
 }
 
+// Time of a design's points, s.
+static double design_seconds(const Search *search, int32_t d)
+{
+    double sum = 0;
+    for (int32_t c = 0; c < search->designs.conditions; c++) {
+        Error ignored = {0};
+        double seconds = 0;
+        char *report = point_report(search->sweep, search->designs.list[d].point + c, &ignored);
+        if (report && json_find_number(report, "timing_s.total", &seconds)) sum += seconds;
+        memory_free(report);
+    }
+    return sum;
+}
+
 static void print_open(const Search *search, int32_t best, FILE *out)
 {
     int32_t open = 0;
+    double seconds = design_seconds(search, best);
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
-        if (!designs_may_equal(&search->designs, best, d) || open++ >= OTHERS_SHOWN) continue;
+        if (!designs_may_equal(&search->designs, best, d)) continue;
+        seconds += design_seconds(search, d);
+        if (open++ >= OTHERS_SHOWN) continue;
         design_words(search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
                 words);
@@ -75,9 +95,9 @@ static void print_open(const Search *search, int32_t best, FILE *out)
     if (open == 0) return;
     if (search->study->rank.refine > 0)
         fprintf(out,
-                "  telling them apart needs a smaller `refine` than %g %% (half the error "
-                "takes two to four times as long), or does not matter\n",
-                100 * search->study->rank.refine);
+                "  telling them apart needs a smaller `refine` than %g %% (half the error of all "
+                "takes some %.0f to %.0f s of one processor), or does not matter\n",
+                100 * search->study->rank.refine, COST_LEAST * seconds, COST_MOST * seconds);
     else
         fprintf(out, "  `rank: {refine: 1%%}` with `set: {accuracy.mu: 4%%}` computes them again "
                      "until they are told apart\n");

@@ -24,18 +24,16 @@ static void take(const char *name)
     assert_string_equal(kernels_name(), name);
 }
 
-static int can_choose(void **state)
+FIXTURE(can_choose)
 {
-    (void)state;
     if (!gotoblas_dynamic_init) return 0;
     const char *was = getenv("OPENBLAS_CORETYPE");
     asked = was ? strdup(was) : NULL;
     return 0;
 }
 
-static int take_back(void **state)
+FIXTURE(take_back)
 {
-    (void)state;
     if (asked) setenv("OPENBLAS_CORETYPE", asked, 1);
     free(asked);
     return 0;

@@ -215,9 +215,8 @@ TEST(test_times)
     }
 }
 
-static int group_end(void **state)
+FIXTURE(group_end)
 {
-    (void)state;
     free(text);
     return 0;
 }

@@ -75,9 +75,8 @@ static double stage_of_speed(const FrictionLaw *law, double speed, double unused
     return friction_coefficient(law, speed);
 }
 
-static void test_derivatives(void **state)
+TEST(test_derivatives)
 {
-    (void)state;
     const double speeds[] = {1e-4, 0.01, 0.03, 0.2};
     for (int k = 0; k < LAWS; k++) {
         FrictionLaw law = law_of(k);
@@ -99,9 +98,8 @@ static void test_derivatives(void **state)
 }
 
 // State and slope of a stage, short and long beside D_c/v.
-static void test_stage(void **state)
+TEST(test_stage)
 {
-    (void)state;
     const double speeds[] = {0, 1e-9, 1e-3, 0.03, 0.4}, reaches[] = {1e-6, 0.1, 3, 1e4};
     for (int k = 0; k < LAWS; k++) {
         for (int r = 0; r < 4; r++) {
@@ -138,9 +136,8 @@ static double stepped(int k, double speed, double time, int32_t steps)
     return theta;
 }
 
-static void test_constant_slip(void **state)
+TEST(test_constant_slip)
 {
-    (void)state;
     double v = 0.03, t = 1.1, fades = exp(-v * t / 0.02);
     double theta[LAWS];
     for (int k = 0; k < LAWS; k++) theta[k] = 2 * stepped(k, v, t, 20000) - stepped(k, v, t, 10000);
@@ -163,9 +160,8 @@ static void test_constant_slip(void **state)
 }
 
 // No memory of ageing, and a state that stays.
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     FrictionMemory memory = MEMORIES[0];
     FrictionLaw law = {.kind = FRICTION_AGEING}, linear = {.kind = FRICTION_LINEAR_WEAKENING,
                                                            .mu_static = 0.4,
@@ -196,9 +192,8 @@ static void test_limits(void **state)
 }
 
 // A step in mu: forward and back leads to where it began, over many decades, and through 0.
-static void test_follow(void **state)
+TEST(test_follow)
 {
-    (void)state;
     FrictionLaw law = law_of(2);
     friction_set_stage(&law, 0.3, 0);
     for (double v = 1e-14; v < 1; v *= 31) {
@@ -208,14 +203,4 @@ static void test_follow(void **state)
         double through = friction_follow(&law, v, -2 * mu / slope);
         assert_near("through 0", through / -v, 1, 1e-9);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_derivatives),   cmocka_unit_test(test_stage),
-        cmocka_unit_test(test_constant_slip), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_follow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -191,8 +191,8 @@ TEST(test_shares)
     mesh_destroy(&mesh);
 }
 
-// As many as there are in the plane; in space by cells as long along the drive as across it: 40 rows
-// of 10 on a contact four times as long as it is wide.
+// As many as there are in the plane; in space by cells as long along the drive as across it: 40
+// rows of 10 on a contact four times as long as it is wide.
 TEST(test_nodes_along)
 {
     enum { ALONG = 40, ACROSS = 10, ALL = ALONG * ACROSS };

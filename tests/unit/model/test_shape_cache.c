@@ -25,9 +25,8 @@ static void write_text(const char *name, const char *text)
     fclose(stream);
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons-shapes-XXXXXX");
     if (!mkdtemp(folder)) return -1;
     snprintf(cache, sizeof cache, "%s/a/cache", folder);
@@ -35,9 +34,8 @@ static int make_folder(void **state)
     return setenv("AMONTONS_CACHE", cache, 1);
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[FOLDER_SIZE + 16];
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return system(command);

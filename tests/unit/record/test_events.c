@@ -8,17 +8,15 @@
 static HandSeen hand;
 static Events events;
 
-static int setup(void **state)
+FIXTURE(setup)
 {
-    (void)state;
     Error err = {0};
     hand_seen_init(&hand);
     return events_create(&hand.interface, 1, &events, &err) ? 0 : 1;
 }
 
-static int teardown(void **state)
+FIXTURE(teardown)
 {
-    (void)state;
     events_destroy(&events);
     events_destroy(&events);
     return 0;

@@ -14,9 +14,8 @@ static Fields fields;
 static Observation seen;
 static char place[PLACE_SIZE];
 
-static int setup(void **state)
+FIXTURE(setup)
 {
-    (void)state;
     Error err = {0};
     if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // many small files
     RigDef def = rig_def();
@@ -31,9 +30,8 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
+FIXTURE(teardown)
 {
-    (void)state;
     fields_destroy(&fields);
     fields_destroy(&fields);
     state_destroy(&now);

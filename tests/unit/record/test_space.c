@@ -30,9 +30,8 @@ typedef struct HandSpace {
 static HandSpace hand;
 static Events events;
 
-static int setup(void **state)
+FIXTURE(setup)
 {
-    (void)state;
     Error err = {0};
     hand = (HandSpace){
         .interface = {.dim = 3,
@@ -66,9 +65,8 @@ static int setup(void **state)
     return events_create(&hand.interface, 1, &events, &err) ? 0 : 1;
 }
 
-static int teardown(void **state)
+FIXTURE(teardown)
 {
-    (void)state;
     events_destroy(&events);
     memory_free(hand.interface.line);
     return 0;

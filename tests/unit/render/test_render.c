@@ -36,7 +36,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static int result_write(void **state)
+FIXTURE(result_write)
 {
     static const double x[NODES] = {0, 0.25, 0.5, 0.75, 1}, pad[NODES] = {0, 0, 1, 1, 1};
     const double kind[2] = {1, 2}, U_start[2] = {0.9, 1}, U_stop[2] = {0.91, 1.01};
@@ -47,7 +47,6 @@ static int result_write(void **state)
                        .remembers = true,
                        .contact_count = NODES};
     Error err = {0};
-    (void)state;
     for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : x;
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k) head.numbers[k] = 0.01 * (k + 1);
     snprintf(folder, sizeof folder, "/tmp/amontons_render_XXXXXX");
@@ -63,10 +62,9 @@ static int result_write(void **state)
     return array_file_close(file, &err) && done ? 0 : -1;
 }
 
-static int result_remove(void **state)
+FIXTURE(result_remove)
 {
     char command[PATH_SIZE + 20];
-    (void)state;
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     return system(command);
 }

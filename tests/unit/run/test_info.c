@@ -194,7 +194,6 @@ TEST(test_long_result)
     char *text = malloc(EVENTS * EACH + 200);
     char *end = text + sprintf(text, "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
                                      "\"events\": [");
-    (void)state;
     for (int32_t k = 0; k < EVENTS; k++)
         end += sprintf(end, "%s{\"kind\": \"bounded\", \"U\": %d, \"x\": [1, 2]}",
                        k > 0 ? ",\n" : "", k);
@@ -254,16 +253,14 @@ TEST(test_broken_results)
     assert_non_null(strstr(err.message, "not a result folder"));
 }
 
-static int group_begin(void **state)
+FIXTURE(group_begin)
 {
-    (void)state;
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int group_end(void **state)
+FIXTURE(group_end)
 {
     char path[200];
-    (void)state;
     snprintf(path, sizeof path, "%s/s.yaml", folder);
     unlink(path);
     return rmdir(folder);

@@ -51,6 +51,17 @@ TEST(test_resolution)
     assert_true(finer > 2.5 * hundred && finer < 6 * hundred);
 }
 
+// Of rate and state that length is G D_c/(b p); G = 1/2.68.
+TEST(test_memory)
+{
+    const char *law = "friction={law: rate-and-state, mu_reference: 0.3, reference_velocity: 1e-5, "
+                      "direct_effect: 0.01, evolution_effect: 0.02, slip_distance: 1e-3}";
+    assert_int_equal(warnings_of(law, "load.pressure=0.001").count, 0);
+    RunWarnings found = warnings_of(law, "load.pressure=0.03");
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "it turns unstable on 0.62 of length"));
+}
+
 TEST(test_without_viscosity)
 {
     RunWarnings found = warnings_of("material.eta1=0", "material.eta2=1");

@@ -340,9 +340,8 @@ TEST(test_mutated_scenes)
     assert_int_equal(memory_counters().live, live);
 }
 
-static int group_begin(void **state)
+FIXTURE(group_begin)
 {
-    (void)state;
     snprintf(fig1, sizeof fig1, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
     return 0;
 }

@@ -156,9 +156,8 @@ static double fastest_growth(Fixture *fixture, const double *stiffness, const do
     return fastest;
 }
 
-static void test_what_grows_is_resolved(void **state)
+TEST(test_what_grows_is_resolved)
 {
-    (void)state;
     static Fixture fixture;
     RigDef def = rig_def();
     fixture.random = (Random){1};
@@ -188,10 +187,4 @@ static void test_what_grows_is_resolved(void **state)
     assert_true(held > TRIALS / 5 && growing > 10 && rightly > TRIALS / 10);
     free(stiffness), free(damping), free(fixture.free), free(fixture.place);
     certificate_rig_destroy(&fixture.built);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_what_grows_is_resolved)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,9 +43,8 @@ static void fill_values(void)
     for (int32_t e = 0; e < CELLS; e++) cell_values[e] = -1.0 / (e + 3);
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     fill_values();
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
@@ -53,9 +52,8 @@ static int make_folder(void **state)
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[300];
     if (getenv("AMONTONS_TEST_OUTPUT")) return 0;
     snprintf(command, sizeof command, "rm -r %s", folder);

@@ -139,17 +139,15 @@ TEST(test_list)
     assert_null(times);
 }
 
-static int make(void **state)
+FIXTURE(make)
 {
-    (void)state;
     place_make(place);
     snprintf(path, sizeof path, "%s/one.vtu", place);
     return 0;
 }
 
-static int drop(void **state)
+FIXTURE(drop)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }

@@ -169,18 +169,16 @@ TEST(nowhere_to_lock)
     file_lock_release(&lock);
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/x.lock", folder);
     snprintf(number, sizeof number, "%s/number", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     unlink(number);
     return rmdir(folder);
 }

@@ -16,9 +16,8 @@
 static char folder[64];
 static char path[128], part[136];
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_part_XXXXXX");
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/result", folder);
@@ -26,15 +25,13 @@ static int make_folder(void **state)
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     return rmdir(folder);   // fails when a test left anything
 }
 
-static int forget_files(void **state)
+FIXTURE(forget_files)
 {
-    (void)state;
     unlink(path);
     unlink(part);
     return 0;

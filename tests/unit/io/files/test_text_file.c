@@ -141,17 +141,15 @@ TEST(test_memory)
     assert_int_equal(k, 5);   // 4096 bytes, doubled three times, and the one that went well
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/text", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     unlink(path);
     return rmdir(folder);
 }

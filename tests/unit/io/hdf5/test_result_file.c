@@ -20,18 +20,16 @@ static const double node_x[NODES] = {0, 0.25, 0.5, 0.75, 1};
 static const double node_weight[NODES] = {0.125, 0.25, 0.25, 0.25, 0.125};
 static const double node_pad[NODES] = {0, 0, 1, 1, 2};
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
     snprintf(folder, sizeof folder, "/tmp/amontons_result_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[300];
     if (getenv("AMONTONS_TEST_OUTPUT")) return 0;
     snprintf(command, sizeof command, "rm -r %s", folder);

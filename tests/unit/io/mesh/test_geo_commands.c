@@ -18,7 +18,6 @@ static void expect_refused(const char *place, const char *wanted)
 TEST(test_pipe)
 {
     char place[PLACE_SIZE];
-    (void)state;
     place_make(place);
     assert_int_equal(mkfifo(place_path(place, "pipe"), 0600), 0);
     place_write(place, "a.geo", "Include \"pipe\";\n");
@@ -33,7 +32,6 @@ TEST(test_pipe)
 TEST(test_tenfold)
 {
     char place[PLACE_SIZE], text[400];
-    (void)state;
     place_make(place);
     for (char name[] = "a.geo"; *name < 'h'; ++*name) {
         size_t length = 0;
@@ -51,7 +49,6 @@ TEST(test_tenfold)
 TEST(test_itself)
 {
     char place[PLACE_SIZE];
-    (void)state;
     place_make(place);
     place_write(place, "a.geo", "Include \"a.geo\";\n");
     expect_refused(place, "deep");
@@ -73,7 +70,6 @@ TEST(test_words)
         {"Include name;\n", "a.geo:1: includes a file whose name is not written out"},
     };
     char place[PLACE_SIZE];
-    (void)state;
     place_make(place);
     place_write(place, "calm.geo", "nx = 1;\n");
     place_write(place, "wild.geo", "\nSystemCall \"touch here\";\n");

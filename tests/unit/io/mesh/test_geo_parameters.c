@@ -26,16 +26,14 @@ static const char *write_file(const char *name, const char *text, char path[PATH
     return path;
 }
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_geo_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     char command[200];
     snprintf(command, sizeof command, "rm -r '%s'", folder);
     return system(command);

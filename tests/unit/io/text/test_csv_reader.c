@@ -28,7 +28,6 @@ TEST(what_was_written_is_read)
     enum { COUNT = sizeof words / sizeof *words };
     Error err = {0};
     CsvTable table;
-    (void)state;
     CsvWriter *csv = csv_create(PATH, &err);
     for (int32_t row = 0; row < 2; ++row) {
         for (int32_t k = 0; k < COUNT; ++k) csv_text(csv, words[k]);
@@ -56,7 +55,6 @@ TEST(other_line_ends_are_read)
 {
     Error err = {0};
     CsvTable table;
-    (void)state;
     assert_true(read_text("x,y\r\n1,\"2\"\r\n3,4", &table, &err));
     assert_int_equal(table.rows, 2);
     assert_true(csv_value(&table, 0, 1) == 2);
@@ -72,7 +70,6 @@ TEST(other_line_ends_are_read)
 TEST(wrong_tables_are_told)
 {
     static const char *const wrong[] = {"", "a,b\n1\n", "a\n1,2\n", "a,b\n1,", "a,b\n\"1,2\n3,4\n"};
-    (void)state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         Error err = {0};
         CsvTable table;

@@ -118,15 +118,13 @@ TEST(nothing_is_left_of_an_abandoned_one)
     assert_int_equal(memory_counters().live, live);
 }
 
-static int group_begin(void **state)
+FIXTURE(group_begin)
 {
-    (void)state;
     return close(mkstemp(path));
 }
 
-static int group_end(void **state)
+FIXTURE(group_end)
 {
-    (void)state;
     return unlink(path);
 }
 

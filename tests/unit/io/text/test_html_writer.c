@@ -75,7 +75,6 @@ TEST(base64_is_that_of_rfc_4648)
                                              {"fooba", "Zm9vYmE="},
                                              {"foobar", "Zm9vYmFy"}};
     char text[16];
-    (void)state;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; ++k) {
         html_base64((const uint8_t *)vectors[k][0], (int64_t)strlen(vectors[k][0]), text);
         assert_string_equal(text, vectors[k][1]);
@@ -116,7 +115,6 @@ static void write_too_much(HtmlWriter *html)
 TEST(a_failure_leaves_no_file)
 {
     Error err = {0};
-    (void)state;
     HtmlWriter *html = html_create(PATH, false, &err);
     assert_non_null(html);
     write_too_much(html);

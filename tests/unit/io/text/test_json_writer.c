@@ -19,9 +19,8 @@
 static char folder[64];
 static char path[128], part[136];
 
-static int make_folder(void **state)
+FIXTURE(make_folder)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_json_XXXXXX");
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/document", folder);
@@ -29,9 +28,8 @@ static int make_folder(void **state)
     return 0;
 }
 
-static int remove_folder(void **state)
+FIXTURE(remove_folder)
 {
-    (void)state;
     unlink(path);
     return rmdir(folder);   // fails when anything else was left
 }

@@ -26,7 +26,6 @@ TEST(each_is_checked)
                  {"limits", "1,2,3", "two rising numbers"},
                  {"limits", "1", "two rising numbers"},
                  {"colour", "red", "no option \"colour\"; known are: style, width"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         PictureStyle style = {0};

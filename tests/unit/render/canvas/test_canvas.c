@@ -16,18 +16,16 @@ enum { SIZE = 400 };
 static const Color BLACK = {0, 0, 0, 1};
 static Canvas *canvas;
 
-static int canvas_begin(void **state)
+FIXTURE(canvas_begin)
 {
     const CanvasDef def = {.width = SIZE, .height = SIZE, .dpi = 200};
     Error err = {0};
-    (void)state;
     canvas = canvas_create(&def, &err);
     return canvas ? 0 : -1;
 }
 
-static int canvas_end(void **state)
+FIXTURE(canvas_end)
 {
-    (void)state;
     canvas_destroy(canvas);
     canvas = NULL;
     return 0;

@@ -25,7 +25,6 @@ TEST(few_colors_are_kept_exactly)
 {
     Palette palette;
     Error err = {0};
-    (void)state;
     for (int32_t k = 0; k < SIZE * SIZE; ++k) paint(k, k % 3 ? 200 : 10, 20, k % 2 ? 30 : 250);
     assert_true(palette_make(&pixels, &palette, &err));
     assert_int_equal(palette.count, 4);
@@ -51,7 +50,6 @@ TEST(many_colors_become_the_nearest)
 {
     Palette palette;
     Error err = {0};
-    (void)state;
     for (int32_t k = 0; k < SIZE * SIZE; ++k)
         paint(k, (uint8_t)(17 * (k / 256)), (uint8_t)(17 * (k / 16 % 16)),
               (uint8_t)(17 * (k % 16)));

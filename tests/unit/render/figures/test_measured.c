@@ -14,9 +14,8 @@ static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01
 static double t[3] = {0, 2, 6};   // s: V is 0.5 mm/s
 static ResultView view = {.si = true, .rows = 3, .t = t, .U = U, .mu = mu};
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     view.number[NUMBER_LENGTH] = 0.1;
     view.number[NUMBER_C_RAYLEIGH] = 900;
     view.number[NUMBER_ROD_VELOCITY] = -5e-4;
@@ -24,9 +23,8 @@ static int begin(void **state)
     return file < 0 ? -1 : close(file);
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     return unlink(path);
 }
 

@@ -29,7 +29,6 @@ TEST(few_are_all_taken)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     assert_int_equal(frames_choose(&view, rows, MOST, MOST, chosen), MOST);
     for (int32_t k = 0; k < MOST; ++k) assert_int_equal(chosen[k], k);
 }
@@ -38,7 +37,6 @@ TEST(frames_rise_and_reach_both_ends)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     int32_t count = frames_choose(&view, rows, ROWS, MOST, chosen);
     assert_in_range(count, MOST - 4, MOST);
     assert_int_equal(chosen[0], 0);
@@ -58,7 +56,6 @@ TEST(frames_stand_close_where_the_force_falls)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     int32_t count = frames_choose(&view, rows, ROWS, MOST, chosen);
     assert_in_range(between(chosen, count, 0.295, 0.315) + between(chosen, count, 0.695, 0.715), 4,
                     12);
@@ -70,7 +67,6 @@ TEST(each_rapid_event_has_a_frame)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     for (int32_t k = 0; k < ROWS; ++k) mu[k] = 0.1;
     int32_t count = frames_choose(&view, rows, ROWS, 6, chosen);
     assert_in_range(count, 5, 6);
@@ -82,7 +78,6 @@ TEST(a_history_without_numbers_is_no_trap)
 {
     ResultView view = history();
     int32_t chosen[MOST];
-    (void)state;
     for (int32_t k = 0; k < ROWS; ++k) mu[k] = U[k] = NAN;
     assert_in_range(frames_choose(&view, rows, ROWS, MOST, chosen), 1, MOST);
 }

@@ -3,19 +3,15 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "cases.h"
 #include "render/plot/figure_curves.h"
 #include "render/render.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char path[] = "/tmp/amontons_plot_XXXXXX.yaml", png[40];
 
@@ -52,9 +48,8 @@ static Plot *plot_make(void)
     return NEW_ARRAY(Plot, 1, &err);
 }
 
-static void holds_what_the_file_says(void **state)
+TEST(holds_what_the_file_says)
 {
-    (void)state;
     Error err = {0};
     Plot *plot = plot_make();
     write_plot(WHOLE);
@@ -85,9 +80,8 @@ static void holds_what_the_file_says(void **state)
 }
 
 // Where y has names its ends follow from them, and error bars lie along x.
-static void names_stand_beside_y(void **state)
+TEST(names_stand_beside_y)
 {
-    (void)state;
     Error err = {0};
     Plot *plot = plot_make();
     write_plot("y: {names: [worst, best]}\n"
@@ -102,9 +96,8 @@ static void names_stand_beside_y(void **state)
     memory_free(plot);
 }
 
-static void says_what_is_wrong(void **state)
+TEST(says_what_is_wrong)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } known[] = {
@@ -152,9 +145,8 @@ static void says_what_is_wrong(void **state)
 
 // Values 0, 1/3, 1 and none at the corners of a square: each colour of the map covers a quarter of
 // the frame, the fourth quarter is paper; the logarithmic axis ends half a decade beyond.
-static void map_shows_its_values(void **state)
+TEST(map_shows_its_values)
 {
-    (void)state;
     Error err = {0};
     Plot *plot = plot_make();
     Page page = {0};
@@ -187,12 +179,12 @@ static void map_shows_its_values(void **state)
     memory_free(plot);
 }
 
-static void draws_and_frees_all(void **state)
+static void draw_and_free_all(const char *text)
 {
     Error err = {0};
     const PictureStyle small = {.width = 100, .dpi = 150};
     int64_t live = memory_counters().live, k = 0;
-    write_plot(*state);
+    write_plot(text);
     if (!amontons_render_plot(path, png, &small, &err)) fail_msg("%s", err.message);
     assert_int_equal(access(png, F_OK), 0);
     assert_int_equal(memory_counters().live, live);
@@ -208,28 +200,26 @@ static void draws_and_frees_all(void **state)
     assert_true(k > 20);
 }
 
-static int file_make(void **state)
+FIXTURE(file_make)
 {
-    (void)state;
     int descriptor = mkstemps(path, 5);
     snprintf(png, sizeof png, "%.27s.png", path);
     return descriptor < 0 ? -1 : 0;
 }
 
-static int file_remove(void **state)
+FIXTURE(file_remove)
 {
-    (void)state;
     return remove(path) || remove(png) ? -1 : 0;
 }
 
-int main(void)
+TEST(draws_and_frees_a_whole_plot)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(holds_what_the_file_says),
-        cmocka_unit_test(names_stand_beside_y),
-        cmocka_unit_test(says_what_is_wrong),
-        cmocka_unit_test(map_shows_its_values),
-        cmocka_unit_test_prestate(draws_and_frees_all, (void *)WHOLE),
-        cmocka_unit_test_prestate(draws_and_frees_all, (void *)PANELS)};
-    return cmocka_run_group_tests(tests, file_make, file_remove);
+    draw_and_free_all(WHOLE);
 }
+
+TEST(draws_and_frees_panels)
+{
+    draw_and_free_all(PANELS);
+}
+
+GROUP_BETWEEN(file_make, file_remove);

@@ -148,9 +148,8 @@ TEST(test_memory)
     assert_true(k > 10);
 }
 
-static int group_begin(void **state)
+FIXTURE(group_begin)
 {
-    (void)state;
     dense_use_one_thread();
     return 0;
 }

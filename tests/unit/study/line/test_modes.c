@@ -167,9 +167,8 @@ TEST(test_memory)
     assert_int_equal(memory_counters().live, live);
 }
 
-static int group_begin(void **state)
+FIXTURE(group_begin)
 {
-    (void)state;
     dense_use_one_thread();
     return 0;
 }

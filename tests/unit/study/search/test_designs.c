@@ -12,7 +12,7 @@ static Study study = {
     .search = {.key_count = 2,
                .keys = {{"mesh.set.n", SEARCH_WHOLE, 1, 12}, {"rod.height", SEARCH_LOG, 0.01, 1}}}};
 
-static int begin(void **state)
+FIXTURE(begin)
 {
     static Designs designs;
     Error err = {0};
@@ -22,7 +22,7 @@ static int begin(void **state)
     return 0;
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
     designs_destroy(*state);
     return 0;

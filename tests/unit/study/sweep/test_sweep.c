@@ -92,9 +92,8 @@ TEST(stops_when_told)
     assert_int_equal(summary.pending, 2);
 }
 
-static int place_make(void **state)
+FIXTURE(place_make)
 {
-    (void)state;
     const char *source = getenv("AMONTONS_SOURCE") ? getenv("AMONTONS_SOURCE") : "../..";
     if (!mkdtemp(place)) return -1;
     snprintf(study, sizeof study, "%s/study.yaml", place);
@@ -110,9 +109,8 @@ static int place_make(void **state)
     return fclose(file);
 }
 
-static int place_remove(void **state)
+FIXTURE(place_remove)
 {
-    (void)state;
     char command[PATH_SIZE + 20];
     snprintf(command, sizeof command, "rm -rf '%s'", place);
     return system(command);

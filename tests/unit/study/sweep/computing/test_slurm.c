@@ -208,9 +208,8 @@ TEST(test_share)
     assert_int_equal(chdir(here), 0);
 }
 
-static int begin(void **state)
+FIXTURE(begin)
 {
-    (void)state;
     char text[2000];
     place_make(place);
     fake_slurm_make(place);
@@ -226,9 +225,8 @@ static int begin(void **state)
     return 0;
 }
 
-static int end(void **state)
+FIXTURE(end)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }

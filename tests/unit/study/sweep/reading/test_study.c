@@ -419,18 +419,16 @@ TEST(test_memory)
     memory_free(study);
 }
 
-static int make_file(void **state)
+FIXTURE(make_file)
 {
-    (void)state;
     int descriptor = mkstemps(path, 5);
     snprintf(head, sizeof head, "scene: %s/validation/paper/fig1.yaml\n",
              getenv("AMONTONS_SOURCE") ? getenv("AMONTONS_SOURCE") : "../..");
     return descriptor < 0 ? -1 : 0;
 }
 
-static int remove_file(void **state)
+FIXTURE(remove_file)
 {
-    (void)state;
     return remove(path);
 }
 

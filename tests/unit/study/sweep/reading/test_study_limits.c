@@ -149,17 +149,15 @@ TEST(test_too_many)
     assert_refused(words, 1, "expected key=value");
 }
 
-static int make(void **state)
+FIXTURE(make)
 {
-    (void)state;
     place_make(place);
     snprintf(path, sizeof path, "%s/study.yaml", place);
     return 0;
 }
 
-static int drop(void **state)
+FIXTURE(drop)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }

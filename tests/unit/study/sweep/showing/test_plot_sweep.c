@@ -155,10 +155,9 @@ TEST(test_refused)
     assert_refused("many", "{x: load.pressure, y: mu_M, series: mesh.set.length}", "too many");
 }
 
-static int make(void **state)
+FIXTURE(make)
 {
     static const char columns[] = "load.pressure|mesh.set.length|rod.kind|mu_M|mu_hold|short";
-    (void)state;
     place_make(place);
     write_table((Table){"one", "First", columns, 3, 2, false});
     write_table((Table){"untitled", NULL, NULL, 3, 2, false});
@@ -169,9 +168,8 @@ static int make(void **state)
     return 0;
 }
 
-static int drop(void **state)
+FIXTURE(drop)
 {
-    (void)state;
     place_remove(place);
     return 0;
 }
