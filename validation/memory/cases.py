@@ -112,6 +112,15 @@ def ask(one):
             "nodes": [level["contact_nodes"] for level in found.get("levels", [])], "said": ended.said[-200:]}
 
 
+def known(kept):
+    """As judged, of what was computed before."""
+    found = []
+    for one in map(case, range(DRAWN)):
+        if (one.name, f"to {WANTED}") in kept.rows:
+            found.append((one, *reference(one, kept), kept.rows[one.name, f"to {WANTED}"]))
+    return found
+
+
 def judged(kept, limit):
     """(case, reference, its own error, answer) of the first cases that slide as a whole."""
     found = []
