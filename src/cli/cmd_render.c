@@ -146,9 +146,7 @@ int command_render(int argc, char **argv)
     if (figures.count && request.panels) return report_misuse("--figure and --panels: one of them");
     if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
     if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");
-    if (is_plot(from)) {
-        return draw_plot(from, &request.style);
-    }
+    if (is_plot(from)) return draw_plot(from, &request.style);
     request.figures = figures.list;
     request.figure_count = figures.count;
     if (!amontons_render_result(from, &request, &err)) return report_error(&err);

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "io/files/open_file.h"
 #include "run/pictures.h"
 #include "run/warnings.h"
@@ -49,6 +50,7 @@ static bool open_history(Simulation *simulation, Error *err)
     const Scene *scene = &simulation->scene;
     const Model *model = &simulation->model;
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
+    bool creeps = friction_creeps(&model->law);
     ResultHead head = {
         .title = scene->title,
         .units = scene->units == UNITS_SI ? "si" : "normalised",
@@ -62,8 +64,9 @@ static bool open_history(Simulation *simulation, Error *err)
                     [NUMBER_LOAD] = simulation->model.scales.load,
                     [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
                     [NUMBER_CRITICAL_VELOCITY] = simulation->model.law.critical_velocity,
-                    [NUMBER_MU_STATIC] = simulation->model.law.mu_static,
-                    [NUMBER_MU_KINETIC] = simulation->model.law.mu_kinetic,
+                    // Of what never sticks they are scales, not levels to draw.
+                    [NUMBER_MU_STATIC] = creeps ? NAN : simulation->model.law.mu_static,
+                    [NUMBER_MU_KINETIC] = creeps ? NAN : simulation->model.law.mu_kinetic,
                     [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
                     [NUMBER_C_SHEAR] = speeds.shear,
                     [NUMBER_C_RAYLEIGH] = speeds.rayleigh,

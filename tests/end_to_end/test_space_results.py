@@ -63,10 +63,6 @@ class Space(unittest.TestCase):
             done = call("render", "run", "--figure", "contact-plane")
             self.assertEqual(done.returncode, 2)
             self.assertIn("no rapid slip has been seen from start to end: say when, as --at U=", done.stderr)
-            Path(folder, "plot.yaml").write_text("x: {label: U}\n")
-            done = call("render", "plot.yaml", "--compare", "measured.csv")
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("compare goes with a result's folder", done.stderr)
 
     def test_sums(self):
         """Pressure and shear are forces over weights; the rod's force is the shear of a block at rest."""

@@ -59,9 +59,8 @@ static void random_statuses(Random *random, HandContact *contact)
         contact->rod_touches[j] = (uint8_t)random_index(random, 2);
 }
 
-static void test_solved_from_any_guess(void **state)
+TEST(test_solved_from_any_guess)
 {
-    (void)state;
     static const FrictionKind kinds[] = {FRICTION_RATE_STATE, FRICTION_RATE_STATE, FRICTION_AGEING,
                                          FRICTION_SLIP_WEAKENING};
     Random random = {.state = 11};
@@ -99,10 +98,4 @@ static void test_solved_from_any_guess(void **state)
     print_message("slip from %g to %g, %.1f iterations\n", slowest, fastest,
                   (double)iterations / (double)solves);
     assert_true(slowest < 1e-15 && fastest > 0.1 && iterations < 15 * solves);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_solved_from_any_guess)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,8 +99,8 @@ typedef enum ResultColumns {
     X(NUMBER_LOAD, "normal_force", "force/width", "F_N, the applied load")                         \
     X(NUMBER_ROD_VELOCITY, "rod_velocity", "velocity", "V")                                        \
     X(NUMBER_CRITICAL_VELOCITY, "critical_velocity", "velocity", "v_c of the friction law")        \
-    X(NUMBER_MU_STATIC, "mu_static", "1", "mu_S, local")                                           \
-    X(NUMBER_MU_KINETIC, "mu_kinetic", "1", "mu_K, local")                                         \
+    X(NUMBER_MU_STATIC, "mu_static", "1", "mu_S, local; absent of rate and state")                 \
+    X(NUMBER_MU_KINETIC, "mu_kinetic", "1", "mu_K, local; likewise")                               \
     X(NUMBER_C_LONGITUDINAL, "speed_longitudinal", "velocity", "c_L")                              \
     X(NUMBER_C_SHEAR, "speed_shear", "velocity", "c_S")                                            \
     X(NUMBER_C_RAYLEIGH, "speed_rayleigh", "velocity", "c_R")                                      \
