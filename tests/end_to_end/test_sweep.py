@@ -417,10 +417,10 @@ class Sweep(unittest.TestCase):
             decided = np.abs(value - value[k]) > np.sqrt(error**2 + error[k]**2)   # not where an error is not known
             first, last = 1 + np.sum(decided & (value > value[k])), len(value) - np.sum(decided & (value < value[k]))
             self.assertEqual((int(row["rank"]), int(row["rank_from"]), int(row["rank_to"])), (place, first, last))
-            said = f"not decided between {first} and {last}"
+            note = f"not decided between {first} and {last}"
             open_ranks += first < last
-            self.assertEqual(said in row["note"], first < last)
-            self.assertEqual(said in shown[place + 1], first < last)
+            self.assertEqual(note in row["note"], first < last)
+            self.assertEqual(note in shown[place + 1], first < last)
             self.assertEqual("error not known" in row["note"], np.isnan(error[k]))
             ratio = value[k] / value[base]
             gain = 0 if k == base else 100 * ratio * np.sqrt((error[k] / value[k])**2 + (error[base] / value[base])**2)

@@ -40,7 +40,7 @@ def main():
             force, reach = curve(study, *sizes, load)
             rows.append((name, f"{load / 1e6:g} MPa", *(f"{np.interp(part, force, reach):.2f}" for part in PARTS), f"{force.max():.2f}"))
             print(rows[-1], flush=True)
-    lines = ["| slider | pressure | " + " | ".join(f"l/L at {part}" for part in PARTS) + " | largest F_x/(mu_S W) |", "|" + "---|" * 7]
+    lines = ["# A slider of PMMA: how far slow slip has come", "", "Made by `katano.py`; what it means: [katano.md](katano.md).", "", "| slider | pressure | " + " | ".join(f"l/L at {part}" for part in PARTS) + " | largest F_x/(mu_S W) |", "|" + "---|" * 7]
     (HERE / "katano-table.md").write_text("\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n")
 
 
