@@ -95,6 +95,15 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
 } RunWarnings;
 
+// Of a rod whose program has jumps: what results.program of run.json holds, in short. A bar holds
+// those of all velocity steps in which they are known; NaN: none.
+typedef struct ProgramSummary {
+    int32_t steps, holds;
+    double direct, direct_error, change, change_error;   // per ln(V2/V1)
+    double distance, distance_error;   // length
+    double healing, healing_error;   // per decade of time held
+} ProgramSummary;
+
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
     // Answers, as record/answers.h defines them: macroscopic static friction coefficient, holding
@@ -119,6 +128,7 @@ typedef struct RunSummary {
     // turned fast, length and cells; NaN: none. The pad's name; empty: a contact in one piece.
     double slip_length, slip_cells;
     char slip_pad[64];
+    ProgramSummary program;   // 0 where the rod never jumps
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;

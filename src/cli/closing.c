@@ -156,6 +156,30 @@ static void print_mu_hold(const RunSummary *summary)
     say("\n");
 }
 
+// What a program with jumps of the rod's velocity shows; why not stands in run.json.
+static void print_program(const ProgramSummary *program)
+{
+    if (program->steps > 0) {
+        say("  velocity steps  %d: ", program->steps);
+        if (isnan(program->direct))
+            say("mu was not steady before");
+        else
+            say("direct effect %.4f +- %.2g", program->direct, program->direct_error);
+        if (!isnan(program->change))
+            say(", change %.4f +- %.2g", program->change, program->change_error);
+        say("%s", isnan(program->direct) ? "" : " per ln(V2/V1)");
+        if (!isnan(program->distance))
+            say("; slip distance %.3g +- %.2g", program->distance, program->distance_error);
+        say("\n");
+    }
+    if (program->holds == 0) return;
+    say("  holds           %d: ", program->holds);
+    if (isnan(program->healing))
+        say("no line of healing: it takes two of other lengths from steady sliding\n");
+    else
+        say("healing %.4f +- %.2g per decade of time\n", program->healing, program->healing_error);
+}
+
 // Cells over which slow slip turned fast; on pads also where, and over which length.
 static void print_resolution(const RunSummary *summary)
 {
@@ -208,6 +232,7 @@ static void print_answers(const RunSummary *summary)
     say("  slidings        %d of the whole block\n", summary->leading);
     print_critical_length(summary);
     print_resolution(summary);
+    print_program(&summary->program);
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;

@@ -187,6 +187,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     write_slip(json, report->least_resolved, report->pads);
     pads_write_json(report->pads, json);
     if (report->model->interface.dim > 2) turning_write_json(report->turning, json);
+    if (report->readings->course) program_readings_json(report->readings, json);
     write_events(json, report->events, report->pads);
     json_end(json);
 }

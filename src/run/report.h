@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "record/error_bars.h"
 #include "record/pads.h"
+#include "record/program_readings.h"
 #include "record/steady.h"
 #include "record/turning.h"
 
@@ -44,6 +45,7 @@ typedef struct RunReport {
     const Steady *steady;
     const Pads *pads;
     const Turning *turning;
+    const ProgramReadings *readings;
     const Levels *levels;   // NULL: one run
     const RunWarnings *warnings;
 } RunReport;

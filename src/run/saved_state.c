@@ -177,6 +177,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     pads_archive(&simulation->pads, archive);
     contact_arrays_archive(&simulation->contact, archive);
     turning_archive(&simulation->turning, archive);
+    program_readings_archive(&simulation->readings, archive);
     archive_errors(&simulation->errors, archive);
     archive_warnings(&simulation->warnings, archive);
 cleanup:

@@ -56,6 +56,10 @@ static bool open_recorders(Simulation *simulation, Error *err)
     TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
                               &simulation->contact, err));
     recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
+    if (program_jumps(&simulation->rod_course)) {
+        simulation->readings = program_readings_of(&simulation->rod_course);
+        recorders_add(&simulation->recorders, &simulation->readings, program_readings_record);
+    }
     simulation->turning = turning_of(&simulation->contact);
     recorders_add(&simulation->recorders, &simulation->turning, turning_record);
     if (result_folder_is_ours(&simulation->folder)) TRY(output_open(simulation, err));
@@ -390,6 +394,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
                             .steady = &simulation->steady,
                             .pads = &simulation->pads,
                             .turning = &simulation->turning,
+                            .readings = &simulation->readings,
                             .levels = simulation->levels,
                             .warnings = &simulation->warnings};
         TRY(hand_out_report(simulation, &report, err));

@@ -11,6 +11,7 @@
 #include "record/contact_arrays.h"
 #include "record/fields.h"
 #include "record/history.h"
+#include "record/program_readings.h"
 #include "record/steady.h"
 #include "record/turning.h"
 #include "run/kept_states.h"
@@ -38,6 +39,7 @@ struct Simulation {
     Pads pads;
     ContactArrays contact;
     Turning turning;
+    ProgramReadings readings;   // empty where the rod never jumps
     History history;
     Fields fields;
     Recorders recorders;

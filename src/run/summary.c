@@ -197,6 +197,8 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     note_slip(simulation, answers->first, summary);
+    if (simulation->readings.course)
+        program_readings_sum(&simulation->readings, &summary->program);
     const ErrorParts *mu_M = &answers->mu_M_parts, *mu_hold = &answers->mu_hold_parts;
     memcpy(summary->mu_M_parts, (double[]){mu_M->mesh, mu_M->branches, mu_M->drops},
            sizeof summary->mu_M_parts);

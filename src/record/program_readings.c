@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "record/program_readings.h"
+
+#include <math.h>
+
+// Of mu: a level that is known no better is none. As in record/steady.
+static const double STEADY_RANGE = 2e-3;
+// Relative; steps end at points up to rounding.
+static const double REACHED = 3e-12;
+
+static const Estimate NONE = {NAN, NAN};
+
+bool program_jumps(const RodCourse *course)
+{
+    const Schedule *over = &course->schedule;
+    for (int32_t k = 0; k + 1 < over->count; k++)
+        if (over->at[k] == over->at[k + 1] && over->factor[k] != over->factor[k + 1]) return true;
+    return over->repeats && over->factor[over->count - 1] != over->factor[0];
+}
+
+ProgramReadings program_readings_of(const RodCourse *course)
+{
+    return (ProgramReadings){.course = course};
+}
+
+// --- what a stretch shows -----------------------------------------------------------------------
+
+// Of mu in the bins where slip is from `from` to `to`, and in the one before, as steps may be long.
+static void range_of(const ProgramStretch *stretch, double from, double to, double range[2])
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (int32_t k = 0; k < stretch->count && stretch->at[k] <= to; k++) {
+        if (k + 1 < stretch->count && stretch->at[k + 1] < from) continue;
+        range[0] = fmin(range[0], stretch->low[k]);
+        range[1] = fmax(range[1], stretch->high[k]);
+    }
+}
+
+static Estimate level_of(const ProgramStretch *stretch)
+{
+    enum { LEAST = 3 };   // bins
+    double last[2], earlier[2];
+    if (!stretch->level || stretch->count < LEAST) return NONE;
+    double end = stretch->at[stretch->count - 1];
+    range_of(stretch, 0.75 * end, end, last);
+    range_of(stretch, 0.5 * end, 0.75 * end, earlier);
+    double middle = 0.5 * (last[0] + last[1]);
+    double moved = fabs(middle - 0.5 * (earlier[0] + earlier[1]));
+    double error = last[1] - last[0] + moved;
+    return error <= STEADY_RANGE * fabs(middle) ? (Estimate){middle, error} : NONE;
+}
+
+// What nodes that are not quite at the rod's velocity do to the direct effect (mu may be steeper
+// there than on the way), and the length of the step behind a peak to that.
+static double top_error(const ProgramStretch *stretch)
+{
+    const ProgramReading *reading = &stretch->reading;
+    const ProgramTop *top = &stretch->top;
+    if (reading->kind == READING_HOLD) return top->off;
+    double slope = (top->mu - reading->before.value) /
+                   log(reading->velocity / reading->velocity_before);
+    return 2 * fabs(slope) * top->off;
+}
+
+// The first bin in which no more than 1/e of the way to `after` is left.
+static Estimate distance_of(const ProgramStretch *stretch, const Estimate *after, double error)
+{
+    const ProgramTop *top = &stretch->top;
+    double left = top->mu - after->value, from = top->slip, mu = left;
+    if (!(fabs(left) > 2 * (after->error + error))) return NONE;
+    for (int32_t k = 0; k < stretch->count; k++) {
+        double here = stretch->first[k] - after->value, at = stretch->at[k];
+        if (at <= top->slip) continue;
+        if (here / left > exp(-1)) {
+            from = at;
+            mu = here;
+            continue;
+        }
+        double part = (mu - left * exp(-1)) / (mu - here);
+        double distance = from + part * (at - from) - top->slip;
+        double threshold = after->error * (1 - exp(-1)) + error * exp(-1);
+        double open = distance * exp(1) * threshold / fabs(left);
+        return (Estimate){distance, open + 0.5 * (at - from) + top->slip};
+    }
+    return NONE;
+}
+
+// Of the stretch as far as it was seen.
+static ProgramReading read_stretch(const ProgramStretch *stretch)
+{
+    ProgramReading reading = stretch->reading;
+    const ProgramTop *top = &stretch->top;
+    double error = top_error(stretch);
+    reading.after = level_of(stretch);
+    reading.distance = distance_of(stretch, &reading.after, error);
+    double evolved = fabs(top->mu - reading.after.value) * top->slip / reading.distance.value;
+    if (!isnan(evolved)) error += evolved;
+    reading.peak = (Estimate){top->mu - reading.before.value, reading.before.error + error};
+    bool compares = reading.kind == READING_STEP || reading.velocity == reading.velocity_before;
+    if (!compares || isnan(reading.peak.value)) reading.peak = NONE;
+    return reading;
+}
+
+// --- steps --------------------------------------------------------------------------------------
+
+// What kind of reading a stretch is that follows `old` with a jump from `v` to `next`.
+static ProgramReading begin_reading(const ProgramStretch *old, double v, double next)
+{
+    ProgramReading reading = {.kind = READING_NONE, .before = NONE, .velocity = next};
+    if (v > 0 && next > 0 && v != next) {
+        reading.kind = READING_STEP;
+        reading.velocity_before = v;
+        reading.before = level_of(old);
+    } else if (v == 0 && next > 0 && old->level && old->reading.velocity_before > 0) {
+        reading.kind = READING_HOLD;
+        reading.velocity_before = old->reading.velocity_before;
+        reading.before = old->reading.before;
+        reading.duration = old->ends - old->begins;
+    } else if (v > 0 && next == 0) {
+        reading.velocity_before = v;
+        reading.before = level_of(old);
+    }
+    return reading;
+}
+
+// The stretch under way is over; the next one begins at `time`, where the step seen last is.
+static void begin_stretch(ProgramReadings *readings, double time)
+{
+    const RodCourse *course = readings->course;
+    ProgramStretch *now = &readings->now;
+    if (now->reading.kind != READING_NONE && readings->count < PROGRAM_READINGS_MAX)
+        readings->list[readings->count++] = read_stretch(now);
+    double tiny = 1e-9 * fabs(course->velocity);
+    double before = rod_course_velocity(course, time);
+    double after = rod_course_velocity(course, time * (1 + REACHED));
+    if (fabs(after - before) <= tiny) after = before;
+    ProgramReading reading = begin_reading(now, before, after);
+    double ends = schedule_next(&course->schedule, time);
+    double last = isfinite(ends) ? rod_course_velocity(course, ends) : after;
+    reading.t = time;
+    reading.U = readings->U;
+    *now = (ProgramStretch){
+        .reading = reading,
+        .level = fabs(last - after) <= tiny,
+        .begins = time,
+        .ends = ends,
+        .mu = readings->mu,
+        .slip = readings->slip,
+        .top.mu = NAN,
+    };
+}
+
+// Two bins each become one.
+static void merge_bins(ProgramStretch *stretch)
+{
+    for (int32_t k = 0; k < PROGRAM_BINS / 2; k++) {
+        stretch->at[k] = stretch->at[2 * k];
+        stretch->first[k] = stretch->first[2 * k];
+        stretch->low[k] = fmin(stretch->low[2 * k], stretch->low[2 * k + 1]);
+        stretch->high[k] = fmax(stretch->high[2 * k], stretch->high[2 * k + 1]);
+    }
+    stretch->count = PROGRAM_BINS / 2;
+    stretch->width = stretch->at[stretch->count - 1] / stretch->count;
+}
+
+static void add_to_bin(ProgramStretch *stretch, double mu, double slip)
+{
+    int32_t last = stretch->count - 1;
+    if (last >= 0 && slip < stretch->at[last] + stretch->width) {
+        stretch->low[last] = fmin(stretch->low[last], mu);
+        stretch->high[last] = fmax(stretch->high[last], mu);
+        return;
+    }
+    if (stretch->count == PROGRAM_BINS) merge_bins(stretch);
+    int32_t k = stretch->count++;
+    stretch->at[k] = slip;
+    stretch->first[k] = stretch->low[k] = stretch->high[k] = mu;
+}
+
+// A peak is past where mu has gone back by half of it, and by more than a level may.
+static void follow_peak(ProgramStretch *stretch, double mu, double slip)
+{
+    ProgramTop *top = &stretch->top;
+    if (stretch->fell) return;
+    if (!(mu <= top->mu)) {
+        *top = (ProgramTop){.mu = mu, .slip = slip};
+        return;
+    }
+    if (top->off == 0) top->off = top->mu - mu;
+    double limit = fmax(0.5 * (top->mu - stretch->mu), STEADY_RANGE * fabs(top->mu));
+    stretch->fell = top->mu - mu > limit;
+}
+
+static void note_arrival(ProgramStretch *stretch, double mu, double slip, double off)
+{
+    static const double ARRIVED = 0.02;
+    if (isnan(stretch->top.mu) && off <= ARRIVED)
+        stretch->top = (ProgramTop){.mu = mu, .slip = slip, .off = off};
+}
+
+static void see_contact(ProgramReadings *readings, const Observation *seen)
+{
+    const Interface *interface = seen->interface;
+    double shear = 0, normal = 0, slip = 0, weight = 0, velocity = readings->now.reading.velocity;
+    readings->off = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t t = interface_unknown(interface, i, 0), n = interface_normal(interface, i);
+        shear -= seen->state->reaction[t];
+        normal += seen->state->reaction[n];
+        slip += interface->weight[i] * seen->state->displacement[seen->system->interface_dofs[t]];
+        weight += interface->weight[i];
+        double ratio = seen->state->slip_rate[t] / velocity;
+        readings->off = fmax(readings->off, ratio > 0 ? fabs(log(ratio)) : INFINITY);
+    }
+    readings->mu = normal > 0 ? shear / normal : 0;
+    readings->slip = slip / weight;
+    readings->U = seen->U;
+}
+
+// A point that a step ends at belongs to what came before; one that was stepped over, not.
+bool program_readings_record(void *self, const Observation *seen, Error *err)
+{
+    (void)err;
+    ProgramReadings *readings = self;
+    ProgramStretch *now = &readings->now;
+    while (readings->started && now->ends < seen->t * (1 - REACHED))
+        begin_stretch(readings, now->ends);
+    see_contact(readings, seen);
+    if (!readings->started) begin_stretch(readings, 0);
+    readings->started = true;
+    add_to_bin(now, readings->mu, readings->slip - now->slip);
+    if (now->reading.kind == READING_HOLD)
+        follow_peak(now, readings->mu, readings->slip - now->slip);
+    else
+        note_arrival(now, readings->mu, readings->slip - now->slip, readings->off);
+    while (now->ends <= seen->t * (1 + REACHED)) begin_stretch(readings, now->ends);
+    return true;
+}
+
+// --- results ------------------------------------------------------------------------------------
+
+// Those that are over, and the one under way. false: there are no more.
+static bool reading_at(const ProgramReadings *readings, int32_t k, ProgramReading *reading)
+{
+    bool open = k == readings->count && readings->now.reading.kind != READING_NONE;
+    if (k < readings->count) *reading = readings->list[k];
+    if (open) *reading = read_stretch(&readings->now);
+    return k < readings->count || open;
+}
+
+static double logarithm(const ProgramReading *reading)
+{
+    return log(reading->velocity / reading->velocity_before);
+}
+
+static Estimate direct_of(const ProgramReading *reading)
+{
+    double ln = logarithm(reading);
+    return (Estimate){reading->peak.value / ln, reading->peak.error / fabs(ln)};
+}
+
+static Estimate change_of(const ProgramReading *reading)
+{
+    double ln = logarithm(reading);
+    return (Estimate){(reading->after.value - reading->before.value) / ln,
+                      (reading->after.error + reading->before.error) / fabs(ln)};
+}
+
+static bool heals(const ProgramReadings *readings, int32_t k, ProgramReading *reading)
+{
+    return reading_at(readings, k, reading) && reading->kind == READING_HOLD &&
+           !isnan(reading->peak.value);
+}
+
+// A straight line of healing over the logarithm of the time held: its slope.
+static Estimate healing_of(const ProgramReadings *readings)
+{
+    ProgramReading reading;
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, parts = 0;
+    for (int32_t k = 0; k <= readings->count; k++) {
+        if (!heals(readings, k, &reading)) continue;
+        double dx = log10(reading.duration) - x, dy = reading.peak.value - y;   // from means so far
+        n++;
+        x += dx / n;
+        y += dy / n;
+        xx += dx * dx * (n - 1) / n;
+        xy += dx * dy * (n - 1) / n;
+        yy += dy * dy * (n - 1) / n;
+    }
+    if (!(xx > 1e-12 * (1 + x * x))) return NONE;
+    double slope = xy / xx, rest = fmax(yy - slope * xy, 0);
+    for (int32_t k = 0; k <= readings->count; k++)
+        if (heals(readings, k, &reading))
+            parts += fabs(log10(reading.duration) - x) / xx * reading.peak.error;
+    return (Estimate){slope, parts + (n > 2 ? sqrt(rest / (n - 2) / xx) : 0)};
+}
+
+// Widens *all to hold the bar of `one` where it is known.
+static void span(Estimate *all, Estimate one)
+{
+    if (isnan(one.value)) return;
+    double low = fmin(all->value - all->error, one.value - one.error);   // NaN counts for nothing
+    double high = fmax(all->value + all->error, one.value + one.error);
+    *all = (Estimate){0.5 * (low + high), 0.5 * (high - low)};
+}
+
+void program_readings_sum(const ProgramReadings *readings, ProgramSummary *summary)
+{
+    ProgramReading reading;
+    Estimate direct = NONE, change = NONE, distance = NONE, healing = healing_of(readings);
+    int32_t kinds[READING_KINDS] = {0};
+    for (int32_t k = 0; reading_at(readings, k, &reading); k++) {
+        kinds[reading.kind]++;
+        if (reading.kind != READING_STEP) continue;
+        span(&direct, direct_of(&reading));
+        span(&change, change_of(&reading));
+        span(&distance, reading.distance);
+    }
+    *summary = (ProgramSummary){.steps = kinds[READING_STEP],
+                                .holds = kinds[READING_HOLD],
+                                .direct = direct.value,
+                                .direct_error = direct.error,
+                                .change = change.value,
+                                .change_error = change.error,
+                                .distance = distance.value,
+                                .distance_error = distance.error,
+                                .healing = healing.value,
+                                .healing_error = healing.error};
+}
+
+static const char *why_not(const ProgramReading *reading)
+{
+    if (isnan(reading->before.value)) return "mu was not steady before";
+    if (reading->kind == READING_HOLD && reading->velocity != reading->velocity_before)
+        return "the rod goes on with another velocity";
+    if (isnan(reading->peak.value)) return "the contact never had the rod's velocity as a whole";
+    if (reading->kind == READING_HOLD) return NULL;
+    if (isnan(reading->after.value)) return "mu was not steady after";
+    return isnan(reading->distance.value) ? "no change of mu with slip stands out" : NULL;
+}
+
+static void write_estimate(JsonWriter *json, const char *name, const char *error, Estimate value)
+{
+    json_number(json, name, value.value);
+    json_number(json, error, value.error);
+}
+
+static void write_step(JsonWriter *json, const ProgramReading *reading)
+{
+    json_number(json, "t", reading->t);
+    json_number(json, "U", reading->U);
+    json_number(json, "velocity_before", reading->velocity_before);
+    json_number(json, "velocity", reading->velocity);
+    write_estimate(json, "mu_before", "mu_before_error", reading->before);
+    write_estimate(json, "direct", "direct_error", reading->peak);
+    write_estimate(json, "direct_per_ln", "direct_per_ln_error", direct_of(reading));
+    write_estimate(json, "mu_after", "mu_after_error", reading->after);
+    write_estimate(json, "change_per_ln", "change_per_ln_error", change_of(reading));
+    write_estimate(json, "slip_distance", "slip_distance_error", reading->distance);
+}
+
+static void write_hold(JsonWriter *json, const ProgramReading *reading)
+{
+    json_number(json, "t", reading->t);
+    json_number(json, "U", reading->U);
+    json_number(json, "duration", reading->duration);
+    write_estimate(json, "mu_before", "mu_before_error", reading->before);
+    write_estimate(json, "healing", "healing_error", reading->peak);
+}
+
+void program_readings_json(const ProgramReadings *readings, JsonWriter *json)
+{
+    static const char *const lists[] = {[READING_STEP] = "steps", [READING_HOLD] = "holds"};
+    ProgramReading reading;
+    json_begin_object(json, "program");
+    for (int32_t kind = READING_STEP; kind < READING_KINDS; kind++) {
+        json_begin_list(json, lists[kind]);
+        for (int32_t k = 0; reading_at(readings, k, &reading); k++) {
+            if (reading.kind != kind) continue;
+            json_begin_object(json, NULL);
+            if (kind == READING_STEP)
+                write_step(json, &reading);
+            else
+                write_hold(json, &reading);
+            json_text(json, "why_not", why_not(&reading));
+            json_end(json);
+        }
+        json_end(json);
+    }
+    write_estimate(json, "healing_per_decade", "healing_per_decade_error", healing_of(readings));
+    json_end(json);
+}
+
+// --- checkpoints --------------------------------------------------------------------------------
+
+static void archive_estimate(Estimate *estimate, Archive *archive)
+{
+    archive_number(archive, &estimate->value);
+    archive_number(archive, &estimate->error);
+}
+
+static void archive_reading(ProgramReading *reading, Archive *archive)
+{
+    archive_index(archive, &reading->kind, 0, READING_KINDS);
+    archive_number(archive, &reading->t);
+    archive_number(archive, &reading->U);
+    archive_number(archive, &reading->velocity_before);
+    archive_number(archive, &reading->velocity);
+    archive_number(archive, &reading->duration);
+    archive_estimate(&reading->before, archive);
+    archive_estimate(&reading->after, archive);
+    archive_estimate(&reading->peak, archive);
+    archive_estimate(&reading->distance, archive);
+}
+
+static void archive_stretch(ProgramStretch *stretch, Archive *archive)
+{
+    ProgramTop *top = &stretch->top;
+    archive_reading(&stretch->reading, archive);
+    archive_flag(archive, &stretch->level);
+    archive_number(archive, &stretch->begins);
+    archive_number(archive, &stretch->ends);
+    archive_number(archive, &stretch->mu);
+    archive_number(archive, &stretch->slip);
+    archive_number(archive, &stretch->width);
+    archive_index(archive, &stretch->count, 0, PROGRAM_BINS + 1);
+    archive_numbers(archive, stretch->at, stretch->count);
+    archive_numbers(archive, stretch->first, stretch->count);
+    archive_numbers(archive, stretch->low, stretch->count);
+    archive_numbers(archive, stretch->high, stretch->count);
+    archive_number(archive, &top->mu);
+    archive_number(archive, &top->slip);
+    archive_number(archive, &top->off);
+    archive_flag(archive, &stretch->fell);
+}
+
+void program_readings_archive(ProgramReadings *readings, Archive *archive)
+{
+    if (!readings->course) return;
+    archive_section(archive, "program readings");
+    archive_flag(archive, &readings->started);
+    archive_number(archive, &readings->mu);
+    archive_number(archive, &readings->slip);
+    archive_number(archive, &readings->U);
+    archive_stretch(&readings->now, archive);
+    archive_index(archive, &readings->count, 0, PROGRAM_READINGS_MAX + 1);
+    for (int32_t k = 0; k < readings->count; k++) archive_reading(&readings->list[k], archive);
+}

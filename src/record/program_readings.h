@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What an experiment reads off a rod that changes its velocity at once: velocity steps, and
+// slide-hold-slide. mu here is the friction of the contact, its shear over its normal force: F_T/F_N
+// without the block's inertia, since on a rigid drive a jump is a blow. Slip is the mean of the
+// contact.
+//
+//     direct effect   mu in the first step in which every node slides with the rod's new velocity,
+//                     within 2 %, less the level before. (The largest mu of a jump is that of waves
+//                     in the block.)
+//     level           the middle of mu over the last quarter of a stretch's slip, between two points
+//                     of the program. Its error: all of the range there, and how far it moved from
+//                     the quarter before, which holds if slip goes on for twice the slip distance
+//     slip distance   from there on until 1/e of what mu still has to go to the new level is left
+//     healing         the first peak of mu after a hold, less the level before the hold; per decade
+//                     of time by a straight line. Its error: the standard error of the line, and
+//                     what the errors of the healings can do to its slope
+//
+// Errors add up what levels, velocities, slip so far and bins leave open. Made by run/ only where a
+// program has jumps (program_jumps); written by run/report.
+#ifndef AMONTONS_RECORD_PROGRAM_READINGS_H
+#define AMONTONS_RECORD_PROGRAM_READINGS_H
+
+#include "amontons.h"
+#include "contact/rod_course.h"
+#include "io/text/json_writer.h"
+#include "record/observation.h"
+#include "record/series.h"
+
+enum { PROGRAM_BINS = 512, PROGRAM_READINGS_MAX = 64 };
+
+typedef enum ReadingKind { READING_NONE, READING_STEP, READING_HOLD, READING_KINDS } ReadingKind;
+
+typedef struct ProgramReading {
+    int32_t kind;   // ReadingKind
+    double t, U;   // of the jump (of a hold: when it ends), time, length
+    double velocity_before, velocity;   // of the rod, velocity
+    double duration;   // of a hold, time
+    Estimate before, after;   // levels of mu; NaN: not steady
+    Estimate peak;   // less `before`: direct effect, healing; NaN: not known
+    Estimate distance;   // length; NaN: not known
+} ProgramReading;
+
+// What a level is compared with. After a velocity step: the first step in which all of the contact
+// has the rod's velocity; after a hold: the first largest mu.
+typedef struct ProgramTop {
+    double mu, slip;   // slip since the jump, length; mu NaN: none yet
+    double off;   // largest |ln(v/V)| of a node; of a hold: how far mu falls in the step behind
+} ProgramTop;
+
+// Steps between two points of the program, in bins of slip: as many as there is room for.
+typedef struct ProgramStretch {
+    ProgramReading reading;   // what began it
+    bool level;   // the rod's velocity is the same in all of it
+    double begins, ends;   // time
+    double mu, slip;   // where it begins; mean slip since the start, length
+    double width;   // of a bin, at least; length
+    int32_t count;
+    double at[PROGRAM_BINS], first[PROGRAM_BINS];   // slip and mu of a bin's first step
+    double low[PROGRAM_BINS], high[PROGRAM_BINS];   // of mu in it
+    ProgramTop top;
+    bool fell;   // behind a hold's
+} ProgramStretch;
+
+typedef struct ProgramReadings {
+    const RodCourse *course;   // not owned; NULL: nothing is read
+    bool started;   // the first step was seen
+    double mu, slip, U, off;   // of the step seen last; off: as in ProgramTop
+    ProgramStretch now;
+    int32_t count;   // readings of stretches that are over; later ones are left out
+    ProgramReading list[PROGRAM_READINGS_MAX];
+} ProgramReadings;
+
+bool program_jumps(const RodCourse *course);   // its velocity does, somewhere
+ProgramReadings program_readings_of(const RodCourse *course);   // after start of its programs
+bool program_readings_record(void *self, const Observation *seen, Error *err);   // a Recorder
+
+void program_readings_sum(const ProgramReadings *readings, ProgramSummary *summary);
+void program_readings_json(const ProgramReadings *readings, JsonWriter *json);   // results.program
+void program_readings_archive(ProgramReadings *readings, Archive *archive);
+
+#endif
