@@ -125,6 +125,8 @@ typedef struct FilmRequest {
     FrameCallback on_frame;   // NULL: none
     void *context;   // handed to it
     const volatile sig_atomic_t *stop;   // non-zero: ERROR_INTERRUPT, and no file; NULL: never
+    double *still;   // out: longest time in s for which one stored field stands; 0: there are none;
+        // NULL: not asked
 } FilmRequest;
 
 // Films the result in `folder`: the block where fields are stored, slip rate along the contact, the

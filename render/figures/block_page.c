@@ -221,23 +221,31 @@ static void draw_load(const Page *page, const BlockPage *map, const Block *block
     }
 }
 
-// Where the rod's strip of the face is drawn: its nodes were those of least x at their height. The
-// mark stands before all that is drawn at these heights, also of a soft layer that bulges.
+// Where a height of the trailing face is drawn: between the nodes of it below and above.
+static double drawn_height(const Block *block, double height, double face, double slack)
+{
+    const FieldFrame *frame = &block->frame;
+    double below[2] = {-INFINITY, 0}, above[2] = {INFINITY, 0};   // height, and where it is drawn
+    for (int32_t i = 0; i < frame->node_count; ++i) {
+        const double *was = frame->position + 3 * i;
+        if (was[0] > face + slack) continue;
+        const double at[2] = {was[1], block->place[i][1]};
+        if (at[0] <= height + slack && at[0] > below[0]) memcpy(below, at, sizeof at);
+        if (at[0] >= height - slack && at[0] < above[0]) memcpy(above, at, sizeof at);
+    }
+    double part = (height - below[0]) / (above[0] - below[0]);
+    return above[0] > below[0] ? below[1] + part * (above[1] - below[1]) : above[1];
+}
+
+// Where the rod's strip of the face is drawn. The mark stands before all that is drawn at these
+// heights, also of a soft layer that bulges.
 static RodMark rod_find(const Block *block, double low, double high, double share)
 {
     const FieldFrame *frame = &block->frame;
-    RodMark rod = {INFINITY, INFINITY, -INFINITY, share};
-    double face = INFINITY;
-    for (int32_t i = 0; i < frame->node_count; ++i)
-        if (frame->position[3 * i + 1] >= low && frame->position[3 * i + 1] <= high)
-            face = fmin(face, frame->position[3 * i]);
-    for (int32_t i = 0; i < frame->node_count; ++i) {
-        const double *was = frame->position + 3 * i;
-        if (was[0] > face + FACE_SLACK * (high - low) || !(was[1] >= low && was[1] <= high))
-            continue;
-        rod.low = fmin(rod.low, block->place[i][1]);
-        rod.high = fmax(rod.high, block->place[i][1]);
-    }
+    double face = INFINITY, slack = FACE_SLACK * (high - low);
+    for (int32_t i = 0; i < frame->node_count; ++i) face = fmin(face, frame->position[3 * i]);
+    RodMark rod = {INFINITY, drawn_height(block, low, face, slack),
+                   drawn_height(block, high, face, slack), share};
     for (int32_t i = 0; i < frame->node_count; ++i)
         if (block->place[i][1] >= rod.low && block->place[i][1] <= rod.high)
             rod.face = fmin(rod.face, block->place[i][0]);

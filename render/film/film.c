@@ -156,6 +156,7 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY(sink = film_sink_create(&file, err));
     TRY(shoot(&film, page, sink, frames, err));
     TRY(film_sink_finish(sink, err));
+    if (film.still) *film.still = (double)film_page_still(page) / film.rate;
 cleanup:
     film_sink_destroy(sink);
     film_page_destroy(page);

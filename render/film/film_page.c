@@ -37,6 +37,7 @@ struct FilmPage {
     FilmPlane plane;
     BlockTimes times;   // owned
     int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
+    int32_t still, still_most;   // frames for which the block has stood, and did at most
     int32_t shown;   // the one that stands on the base; -1: none, or a mixture
     Block pair[2];   // of neighbouring steps, to be mixed; owned
     int32_t pair_index[2];   // of `times`; -1: none
@@ -354,6 +355,8 @@ static bool draw_block(FilmPage *page, int32_t k, double t, Error *err)
     if (times->times[first].t > t && first > 0) --first;
     bool neighbours = first + 1 < times->count && times->times[first].t <= t &&
                       times->row[first + 1] == times->row[first] + 1;
+    page->still = !neighbours && page->shown == page->stored[k] ? page->still + 1 : 1;
+    if (page->still > page->still_most) page->still_most = page->still;
     return neighbours ? draw_mixture(page, first, t, err) : draw_stored(page, page->stored[k], err);
 }
 
@@ -394,6 +397,11 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
 cleanup:
     return error_is_clean(err);
+}
+
+int32_t film_page_still(const FilmPage *page)
+{
+    return page->still_most;
 }
 
 // --- begin and end -------------------------------------------------------------------------------

@@ -28,4 +28,7 @@ void film_page_destroy(FilmPage *page);   // NULL is fine
 // Frame k, which follows k - 1: *pixels as canvas_pixels has them.
 bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err);
 
+// The most frames so far through which one stored field stood; 0: there are no fields.
+int32_t film_page_still(const FilmPage *page);
+
 #endif

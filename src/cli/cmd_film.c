@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { RATE_MAX = 240, NAME_SIZE = 256 };
+static const double STILL_MOST = 0.5;   // s: what stands for longer looks as if it were at rest
 
 static const CommandText text = {
     .name = "film",
@@ -76,15 +77,21 @@ static void show_frame(int32_t frame, int32_t frames, void *context)
 static int make_film(const char *result, FilmRequest *film, bool quiet)
 {
     Error err = {0};
+    double still = 0;
     Progress progress = progress_begin(quiet);
     film->on_frame = show_frame;
     film->context = &progress;
+    film->still = &still;
     film->stop = stop_on_signals();
     stop_in_order();
     bool done = amontons_film(result, film, &err);
     progress_end(&progress);
     if (!done) return report_error(&err);
     if (!quiet) say("film: %s\n", film->path);
+    if (!quiet && !film->fields && still > STILL_MOST)
+        say("Its block stands still for up to %.1f s while time goes on: fields are stored too "
+            "seldom for slow motion. With --fields as many are computed as the film shows.\n",
+            still);
     return 0;
 }
 

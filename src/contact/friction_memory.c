@@ -91,7 +91,7 @@ static double wright_omega(double x)
     double y = x > 1 ? x - log(x) : exp(x) / (1 + exp(x));
     for (int k = 0; k < STEPS; k++) {
         double next = y * (1 + x - log(y)) / (1 + y);
-        if (!(fabs(next - y) > 1e-16 * y)) break;
+        if (!(next > y)) break;
         y = next;
     }
     return y;

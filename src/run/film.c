@@ -2,6 +2,7 @@
 // A film of a stored result, by the render module; where it is asked for, of fields that its run is
 // computed once more for.
 #include "base/apart.h"
+#include "base/memory.h"
 #include "base/module.h"
 #include "render/render.h"
 #include "run/film_fields.h"
@@ -17,10 +18,12 @@ typedef struct FilmWork {
 static bool film_apart(void *context, FILE *reply, Error *err)
 {
     const FilmWork *film = context;
-    (void)reply;
     RenderFilmFunction render =
         (RenderFilmFunction)module_function("render", "amontons_render_film", err);
-    return render && render(film->folder, film->request, err);
+    if (!render || !render(film->folder, film->request, err)) return false;
+    const double *still = film->request->still;   // this process's
+    if (reply && still) fwrite(still, sizeof *still, 1, reply);
+    return true;
 }
 
 bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
@@ -34,13 +37,23 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
                       .read = film_apart,
                       .context = &film};
     FilmFields fields = {0};
+    ApartReply reply = {0};
+    double *still = NULL;
     TRY(pictures_check_folder(folder, err));
     if (request->fields) {
         TRY(film_fields_make(folder, request, &fields, err));
         film.folder = fields.folder;
     }
-    TRY(apart_do(&work, err));
+    if (!request->still || !apart_is_wanted()) {
+        TRY(apart_do(&work, err));
+    } else {
+        TRY(apart_read(&work, &reply, err));
+        TRY(still = apart_take(&reply, 1, sizeof *still, err));
+        *request->still = *still;
+    }
 cleanup:
+    memory_free(still);
+    apart_destroy(&reply);
     film_fields_remove(&fields);
     return error_is_clean(err);
 }

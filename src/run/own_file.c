@@ -17,7 +17,8 @@ static const char *const FIELDS[] = {"bulk_", ".vtu", "interface_", ".vtp"};
 #define FIELD_FILE(id, name, ...) FIGURE_FILE(id, "field-" name, )   // of a quantity
 #define CONTACT_FILE(id, name, ...) FIGURE_FILE(id, "contact-plane-" name, )
 static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE)
-                                          CONTACT_QUANTITIES(CONTACT_FILE) "accuracy.png",
+                                          CONTACT_QUANTITIES(CONTACT_FILE)
+                                              FIGURE_FILE(, "panels", ) "accuracy.png",
                                       "accuracy.json"};
 
 const char *own_file_name(int32_t k)

@@ -2,6 +2,7 @@
 """Films, made as users make them and decoded by ffmpeg: length, rate, size; known slip rates and a known field read back
 through the colour map; what a kill and a full disk leave; errors."""
 import os
+import re
 import resource
 import shutil
 import signal
@@ -170,6 +171,18 @@ class Films(OfHistory):
         rapid = [k for k in range(len(self.frames)) if self.profile(k)[40, 20].sum() < 500]
         self.assertAlmostEqual(len(rapid) / len(self.frames), 0.5, delta=0.16)
         self.assertEqual(rapid, list(range(rapid[0], len(self.frames))))
+
+    def test_sparse_fields_are_said(self):
+        """Of the 2 s rapid slip has 1 and the time from 60 to 90, which the field stored at 80 is the nearest to, a third; with
+        a field in every tenth of a second of film, or none, nothing is said."""
+        result = self.folder / "sparse"
+        make_history(result)
+        self.assertNotIn("--fields", film(result, self.folder / "none.mp4").stdout)
+        make_fields(result)
+        said = re.search(r"stands still for up to (\d\.\d) s .*--fields", film(result, self.folder / "sparse.mp4").stdout)
+        self.assertAlmostEqual(float(said[1]), 1 + 1 / 3, delta=0.2)   # eased at both ends
+        self.assertNotIn("--fields", film(result, self.folder / "early.mp4", "--seconds", "1", "--to", "t=80").stdout)
+        self.assertEqual(film(result, self.folder / "quiet.mp4", "--quiet").stdout, "")
 
     def test_fields(self):
         """Each frame shows the field stored nearest in time, in the colour that the bar has for it."""

@@ -804,6 +804,23 @@ class Fields(unittest.TestCase):
         for end in ends:
             self.assertLess(abs(end / step - round(end / step)) * step, 0.03 * slope)
 
+    def test_rod_is_as_high_as_it_is(self):
+        """Its mark reaches from where the face is at the rod's lower end to where it is at its upper end, between nodes, too:
+        of this mesh one node lies within."""
+        done = self.call("render", self.result, "--figure", "field", "--at", "t=1e9")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture, data = read_picture(self.result, "field").astype(int), self.read_frame(len(os.listdir(os.path.join(self.result, "fields"))) // 2 - 1)
+        moved = data["displacement"] - [data["displacement"][:, 0].mean(), 0, 0]
+        place = data["position"] + self.magnification(moved, data["position"]) * moved
+        face = np.flatnonzero(data["position"][:, 0] == 0)
+        face = face[np.argsort(data["position"][face, 1])]
+        low, high = np.interp((0.225, 0.275), data["position"][face, 1], place[face, 1])
+        frame, point = Frame(picture), picture.shape[1] / (86 / 25.4 * 72)
+        scale = (frame.right - frame.left - 20 * point) / np.ptp(place[:, 0])
+        red = np.abs(picture - (204, 56, 20)).max(axis=2) < 3
+        strip = red[:, :int(frame.left + 16 * point)].sum(axis=0).max()   # pixels of its highest column
+        self.assertAlmostEqual(strip, (high - low) * scale, delta=3)
+
     @staticmethod
     def magnification(moved, position):
         most = 0.05 * np.ptp(position, axis=0).max() / np.abs(moved).max()

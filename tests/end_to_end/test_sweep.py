@@ -431,6 +431,7 @@ class Sweep(unittest.TestCase):
         self.assertGreater(open_ranks, 1)
         self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_M", "gain"])
         self.assertFalse([line for line in shown if "+-" in line])   # no error bar was asked for
+        self.assertRegex(said, r"At \d+ of \d+ points there is no error bar")
         done = self.sweep(study=self.study(STUDY + "rank: {by: l_c, against: first}\n"))   # run.json has no l_c_error
         self.assertRegex(done.stdout, r"l_c, highest first; gain over .*; no errors are known of it\n.* l_c +gain\n")
 
@@ -445,6 +446,8 @@ class Sweep(unittest.TestCase):
                      and float(row["mu_M_error"]) > 0.0075 * float(row["mu_M"])}
         self.assertIn(len(left_open), (1, 2))
         done = self.sweep(study=self.study(text))
+        self.assertTrue(all(row["mu_M_error"] == row["mu_M_known_to"] for row in plain.values()))
+        self.assertNotIn("there is no error bar", done.stdout)   # mu_max, which never has one, does not count
         again = int(re.search(r"\((\d+) again, to decide ranks\)", done.stdout)[1])
         self.assertGreaterEqual(again, len(left_open))
         self.assertRegex(done.stdout, r"\n  \d of 3 points were computed again with smaller error bars, and moved by up to \d\.\d of those before")

@@ -24,7 +24,7 @@ SCENE = ROOT / "validation/paper/fig1.yaml"
 SHEAR_MODULUS = 1 / (2 * 1.34)
 P, V, REST, FAST = 0.003, 1e-5, 200, 3.4e-3   # REST: about the time between two slidings; FAST: 10 v_c
 MU_STATIC, MU_KINETIC = 0.38, 0.1
-CELLS_ASKED = 8
+CELLS_ASKED, CELLS_MOST = 8, 160   # on the length over which slip weakens; of one run along the contact
 TO = 0.03
 
 
@@ -194,7 +194,7 @@ def compute(kept, words):
         if words.only and point.study not in words.only:
             continue
         row, length = kept.obtain(point, point.study, point.compute), length_of(LAWS[point.law], point.pressure)
-        if length and row["nodes"] and (row["nodes"][-1] - 1) * length < CELLS_ASKED * point.length:
+        if length and row["nodes"] and (row["nodes"][-1] - 1) * length < CELLS_ASKED * point.length and point.cells() <= CELLS_MOST:
             kept.obtain(point, "resolved", lambda one=point: resolved(one))
     for law in MAIN if not words.only or "rest" in words.only else ():
         for rest in RESTS if LAWS[law] else (1,):

@@ -105,6 +105,7 @@ static const char *const OWN[] = {"run.json",
                                   "fields/interface_000003.vtp",
                                   "figures/force.png",
                                   "figures/force.svg",
+                                  "figures/panels.png",
                                   "figures/field-stress_xz.png",
                                   "figures/force.png.part"};
 static const char *const OTHERS[] = {"notes.txt",

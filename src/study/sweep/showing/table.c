@@ -176,11 +176,11 @@ static void write_besides(TableWriter *writer, int32_t point, int32_t k, const c
     }
 }
 
-// Of a point with a value of which more is usually open than its error says.
-static bool lacks_bar(const SweepTable *table, int64_t at)
+// Of a point with a value that may have a bar, and of which more is open than its error says.
+static bool lacks_bar(const SweepTable *table, int32_t record, int64_t at)
 {
-    return isfinite(table->records[at]) && isfinite(table->known_to[at]) &&
-           table->known_to[at] != table->errors[at];
+    return table->has_error[record] && isfinite(table->records[at]) &&
+           isfinite(table->known_to[at]) && table->known_to[at] != table->errors[at];
 }
 
 static void write_records(TableWriter *writer, int32_t point, const char *report)
@@ -200,7 +200,7 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
             csv_number(writer->csv, number);
         table->records[at] = number;
         write_besides(writer, point, k, isfinite(number) ? report : NULL);
-        no_bar |= lacks_bar(table, at);
+        no_bar |= lacks_bar(table, k, at);
         if (report && study->records[k].is_shown && !isfinite(number)) {
             why_missing(&study->records[k], report, text);
             warned_add(&table->warned, point, text);
