@@ -33,7 +33,7 @@ typedef struct ContactProblem {
     const double *bound;   // [count] of normals and rod; entries of tangents are not used
 } ContactProblem;
 
-// Arrays are the caller's. Statuses come in as a first guess and go out as found.
+// Arrays are the caller's, none of them null. Statuses come in as a guess and go out as found.
 typedef struct ContactSolution {
     double *velocity;   // v [count]
     double *reaction;   // r [count]

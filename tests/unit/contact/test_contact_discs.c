@@ -94,7 +94,8 @@ TEST(test_plane)
                     contact_solver_create(&plane, contact_solver_def(), &solver, &err));
         ContactProblem problem = {
             .interface = &plane, .law = &hand.law, .matrix = &matrix, .g = g, .bound = bound};
-        assert_true(contact_solve(&solver, &problem, &(ContactSolution){v, r, status, NULL}));
+        uint8_t no_rod[1] = {0};
+        assert_true(contact_solve(&solver, &problem, &(ContactSolution){v, r, status, no_rod}));
         memset(hand.status, CONTACT_STICK, sizeof hand.status);
         assert_true(hand_contact_solve(&hand));
         for (int32_t k = 0; k < UNKNOWNS; k++) {
