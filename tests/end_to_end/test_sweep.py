@@ -405,6 +405,7 @@ class Sweep(unittest.TestCase):
                            "rank: {by: mu_M, top: 16, against: {rod.kind: push, load.pressure: 0.003}}\n")
         said = self.sweep(study=study).stdout
         shown = said.split("mu_M, highest first")[1].split("\n\n")[0].splitlines()
+        self.assertRegex(said, r"At \d+ of \d+ points there is no error bar")
         self.assertRegex(said, r"The best is at the edge of what was varied: load\.pressure = 0\.00\d+; look beyond\n")
         rows = self.table()
         value, error = (np.array([float(row[name] or "nan") for row in rows]) for name in ("mu_M", "mu_M_known_to"))
@@ -431,7 +432,6 @@ class Sweep(unittest.TestCase):
         self.assertGreater(open_ranks, 1)
         self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_M", "gain"])
         self.assertFalse([line for line in shown if "+-" in line])   # no error bar was asked for
-        self.assertRegex(said, r"At \d+ of \d+ points there is no error bar")
         done = self.sweep(study=self.study(STUDY + "rank: {by: l_c, against: first}\n"))   # run.json has no l_c_error
         self.assertRegex(done.stdout, r"l_c, highest first; gain over .*; no errors are known of it\n.* l_c +gain\n")
 
