@@ -81,7 +81,6 @@ typedef struct RunCounters {
     int64_t certificates;   // factorisations to judge states
     int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;
-
 typedef struct RunPhase {   // of a run, for --profile
     const char *name;   // "contact"; static storage
     double seconds;   // wall time
@@ -94,15 +93,6 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
 } RunWarnings;
-
-// Of a rod whose program has jumps: what results.program of run.json holds, in short. A bar holds
-// those of all velocity steps in which they are known; NaN: none.
-typedef struct ProgramSummary {
-    int32_t steps, holds;
-    double direct, direct_error, change, change_error;   // per ln(V2/V1)
-    double distance, distance_error;   // length
-    double healing, healing_error;   // per decade of time held
-} ProgramSummary;
 
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
@@ -128,7 +118,10 @@ typedef struct RunSummary {
     // turned fast, length and cells; NaN: none. The pad's name; empty: a contact in one piece.
     double slip_length, slip_cells;
     char slip_pad[64];
-    ProgramSummary program;   // 0 where the rod never jumps
+    // Of a program whose velocity jumps (results.program): value and error; NaN: not known.
+    int32_t velocity_steps, holds;
+    double direct_effect[2], level_change[2];   // per ln(V2/V1)
+    double slip_distance[2], healing[2];   // length; per decade of time held
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;
@@ -148,10 +141,8 @@ typedef struct LevelView {
     double seconds, seconds_next;   // wall time; expected of the next mesh, NaN: not known
 } LevelView;
 typedef void (*LevelCallback)(const LevelView *view, void *context);
-
 // Called after every accepted step (run) on the thread of the run. Must not keep `view`.
 typedef void (*StepCallback)(const StepView *view, void *context);
-
 // Called when "meshing", "reducing" or "relaxing" begins. Static storage.
 typedef void (*StageCallback)(const char *stage, void *context);
 typedef void (*ReportCallback)(const char *json, void *context);   // json: during the call
@@ -235,7 +226,6 @@ typedef struct SweepView {
     int32_t finished, failed, points;   // so far, among them, and in all
 } SweepView;
 typedef void (*SweepCallback)(const SweepView *view, void *context);
-
 typedef struct SweepOptions {
     const char *folder;   // for sweep.csv, sweep.h5 and points/; created
     const char *const *overrides;   // "key=value", for every point
@@ -251,7 +241,6 @@ typedef struct SweepOptions {
     const volatile sig_atomic_t *stop;   // non-zero: stop the points under way; they count as not
         // begun when the sweep is taken up again
 } SweepOptions;
-
 typedef struct SweepSummary {
     int32_t points, computed, reused, failed, pending;
     int32_t refined;   // of those computed: again, with a smaller error, for their rank

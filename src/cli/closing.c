@@ -157,27 +157,27 @@ static void print_mu_hold(const RunSummary *summary)
 }
 
 // What a program with jumps of the rod's velocity shows; why not stands in run.json.
-static void print_program(const ProgramSummary *program)
+static void print_program(const RunSummary *summary)
 {
-    if (program->steps > 0) {
-        say("  velocity steps  %d: ", program->steps);
-        if (isnan(program->direct))
+    const double *direct = summary->direct_effect, *change = summary->level_change;
+    const double *distance = summary->slip_distance, *healing = summary->healing;
+    if (summary->velocity_steps > 0) {
+        say("  velocity steps  %d: ", summary->velocity_steps);
+        if (isnan(direct[0]))
             say("mu was not steady before");
         else
-            say("direct effect %.4f +- %.2g", program->direct, program->direct_error);
-        if (!isnan(program->change))
-            say(", change %.4f +- %.2g", program->change, program->change_error);
-        say("%s", isnan(program->direct) ? "" : " per ln(V2/V1)");
-        if (!isnan(program->distance))
-            say("; slip distance %.3g +- %.2g", program->distance, program->distance_error);
+            say("direct effect %.4f +- %.2g", direct[0], direct[1]);
+        if (!isnan(change[0])) say(", change %.4f +- %.2g", change[0], change[1]);
+        say("%s", isnan(direct[0]) ? "" : " per ln(V2/V1)");
+        if (!isnan(distance[0])) say("; slip distance %.3g +- %.2g", distance[0], distance[1]);
         say("\n");
     }
-    if (program->holds == 0) return;
-    say("  holds           %d: ", program->holds);
-    if (isnan(program->healing))
+    if (summary->holds == 0) return;
+    say("  holds           %d: ", summary->holds);
+    if (isnan(healing[0]))
         say("no line of healing: it takes two of other lengths from steady sliding\n");
     else
-        say("healing %.4f +- %.2g per decade of time\n", program->healing, program->healing_error);
+        say("healing %.4f +- %.2g per decade of time\n", healing[0], healing[1]);
 }
 
 // Cells over which slow slip turned fast; on pads also where, and over which length.
@@ -232,7 +232,7 @@ static void print_answers(const RunSummary *summary)
     say("  slidings        %d of the whole block\n", summary->leading);
     print_critical_length(summary);
     print_resolution(summary);
-    print_program(&summary->program);
+    print_program(summary);
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;

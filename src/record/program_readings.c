@@ -154,11 +154,12 @@ static void begin_stretch(ProgramReadings *readings, double time)
 // Two bins each become one.
 static void merge_bins(ProgramStretch *stretch)
 {
-    for (int32_t k = 0; k < PROGRAM_BINS / 2; k++) {
-        stretch->at[k] = stretch->at[2 * k];
-        stretch->first[k] = stretch->first[2 * k];
-        stretch->low[k] = fmin(stretch->low[2 * k], stretch->low[2 * k + 1]);
-        stretch->high[k] = fmax(stretch->high[2 * k], stretch->high[2 * k + 1]);
+    for (int32_t bin = 0, one = 0; one < PROGRAM_BINS; bin++, one += 2) {
+        int32_t next = one + 1;
+        stretch->at[bin] = stretch->at[one];
+        stretch->first[bin] = stretch->first[one];
+        stretch->low[bin] = fmin(stretch->low[one], stretch->low[next]);
+        stretch->high[bin] = fmax(stretch->high[one], stretch->high[next]);
     }
     stretch->count = PROGRAM_BINS / 2;
     stretch->width = stretch->at[stretch->count - 1] / stretch->count;
@@ -305,28 +306,19 @@ static void span(Estimate *all, Estimate one)
     *all = (Estimate){0.5 * (low + high), 0.5 * (high - low)};
 }
 
-void program_readings_sum(const ProgramReadings *readings, ProgramSummary *summary)
+ProgramSums program_readings_sum(const ProgramReadings *readings)
 {
+    ProgramSums sums = {0, 0, NONE, NONE, NONE, healing_of(readings)};
     ProgramReading reading;
-    Estimate direct = NONE, change = NONE, distance = NONE, healing = healing_of(readings);
-    int32_t kinds[READING_KINDS] = {0};
     for (int32_t k = 0; reading_at(readings, k, &reading); k++) {
-        kinds[reading.kind]++;
+        if (reading.kind == READING_HOLD) sums.holds++;
         if (reading.kind != READING_STEP) continue;
-        span(&direct, direct_of(&reading));
-        span(&change, change_of(&reading));
-        span(&distance, reading.distance);
+        sums.steps++;
+        span(&sums.direct, direct_of(&reading));
+        span(&sums.change, change_of(&reading));
+        span(&sums.distance, reading.distance);
     }
-    *summary = (ProgramSummary){.steps = kinds[READING_STEP],
-                                .holds = kinds[READING_HOLD],
-                                .direct = direct.value,
-                                .direct_error = direct.error,
-                                .change = change.value,
-                                .change_error = change.error,
-                                .distance = distance.value,
-                                .distance_error = distance.error,
-                                .healing = healing.value,
-                                .healing_error = healing.error};
+    return sums;
 }
 
 static const char *why_not(const ProgramReading *reading)

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What an experiment reads off a rod that changes its velocity at once: velocity steps, and
-// slide-hold-slide. mu here is the friction of the contact, its shear over its normal force: F_T/F_N
-// without the block's inertia, since on a rigid drive a jump is a blow. Slip is the mean of the
-// contact.
+// slide-hold-slide. mu here is the friction of the contact, its shear over its normal force:
+// F_T/F_N without the block's inertia, since on a rigid drive a jump is a blow. Slip is the mean of
+// the contact.
 //
 //     direct effect   mu in the first step in which every node slides with the rod's new velocity,
 //                     within 2 %, less the level before. (The largest mu of a jump is that of waves
 //                     in the block.)
-//     level           the middle of mu over the last quarter of a stretch's slip, between two points
-//                     of the program. Its error: all of the range there, and how far it moved from
-//                     the quarter before, which holds if slip goes on for twice the slip distance
+//     level           the middle of mu over the last quarter of a stretch's slip, between two
+//                     points of the program. Its error: all of the range there, and how far it
+//                     moved from the quarter before, which holds if slip goes on for twice the
+//                     slip distance
 //     slip distance   from there on until 1/e of what mu still has to go to the new level is left
 //     healing         the first peak of mu after a hold, less the level before the hold; per decade
 //                     of time by a straight line. Its error: the standard error of the line, and
@@ -20,7 +21,6 @@
 #ifndef AMONTONS_RECORD_PROGRAM_READINGS_H
 #define AMONTONS_RECORD_PROGRAM_READINGS_H
 
-#include "amontons.h"
 #include "contact/rod_course.h"
 #include "io/text/json_writer.h"
 #include "record/observation.h"
@@ -70,11 +70,18 @@ typedef struct ProgramReadings {
     ProgramReading list[PROGRAM_READINGS_MAX];
 } ProgramReadings;
 
+// A bar holds those of all velocity steps in which they are known; NaN: none.
+typedef struct ProgramSums {
+    int32_t steps, holds;
+    Estimate direct, change;   // per ln(V2/V1)
+    Estimate distance, healing;   // length; per decade of time held
+} ProgramSums;
+
 bool program_jumps(const RodCourse *course);   // its velocity does, somewhere
 ProgramReadings program_readings_of(const RodCourse *course);   // after start of its programs
 bool program_readings_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-void program_readings_sum(const ProgramReadings *readings, ProgramSummary *summary);
+ProgramSums program_readings_sum(const ProgramReadings *readings);
 void program_readings_json(const ProgramReadings *readings, JsonWriter *json);   // results.program
 void program_readings_archive(ProgramReadings *readings, Archive *archive);
 

@@ -156,6 +156,18 @@ void amontons_estimate(double value, double bar, double known_to, char text[ESTI
     text_estimate(value, bar, known_to, text);
 }
 
+static void note_program(const ProgramReadings *readings, RunSummary *summary)
+{
+    if (!readings->course) return;
+    ProgramSums sums = program_readings_sum(readings);
+    summary->velocity_steps = sums.steps;
+    summary->holds = sums.holds;
+    memcpy(summary->direct_effect, &sums.direct, sizeof summary->direct_effect);
+    memcpy(summary->level_change, &sums.change, sizeof summary->level_change);
+    memcpy(summary->slip_distance, &sums.distance, sizeof summary->slip_distance);
+    memcpy(summary->healing, &sums.healing, sizeof summary->healing);
+}
+
 // counters, answers: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary)
@@ -197,8 +209,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     note_slip(simulation, answers->first, summary);
-    if (simulation->readings.course)
-        program_readings_sum(&simulation->readings, &summary->program);
+    note_program(&simulation->readings, summary);
     const ErrorParts *mu_M = &answers->mu_M_parts, *mu_hold = &answers->mu_hold_parts;
     memcpy(summary->mu_M_parts, (double[]){mu_M->mesh, mu_M->branches, mu_M->drops},
            sizeof summary->mu_M_parts);

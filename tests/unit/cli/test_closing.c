@@ -50,23 +50,25 @@ TEST(test_program)
     const char *said = closing("", &summary);
     assert_null(strstr(said, "velocity steps"));
     assert_null(strstr(said, "holds   "));
-    summary.program = (ProgramSummary){
-        .steps = 2, .holds = 1, .direct = NAN, .change = NAN, .distance = NAN, .healing = NAN};
+    summary.velocity_steps = 2;
+    summary.holds = 1;
+    summary.direct_effect[0] = summary.level_change[0] = NAN;
+    summary.slip_distance[0] = summary.healing[0] = NAN;
     said = closing("", &summary);
     assert_says(said, "velocity steps  2: mu was not steady before\n");
     assert_says(said, "holds           1: no line of healing: it takes two of other lengths");
-    summary.program.direct = 0.01;
-    summary.program.direct_error = 0.0002;
+    summary.direct_effect[0] = 0.01;
+    summary.direct_effect[1] = 0.0002;
     assert_says(closing("", &summary), "2: direct effect 0.0100 +- 0.0002 per ln(V2/V1)\n");
-    summary.program.change = -0.005;
-    summary.program.change_error = 0.0001;
-    summary.program.distance = 0.05;
-    summary.program.distance_error = 0.001;
+    summary.level_change[0] = -0.005;
+    summary.level_change[1] = 0.0001;
+    summary.slip_distance[0] = 0.05;
+    summary.slip_distance[1] = 0.001;
     said = closing("", &summary);
     assert_says(said,
                 "0.0002, change -0.0050 +- 0.0001 per ln(V2/V1); slip distance 0.05 +- 0.001");
-    summary.program.healing = 0.0345;
-    summary.program.healing_error = 0.0003;
+    summary.healing[0] = 0.0345;
+    summary.healing[1] = 0.0003;
     assert_says(closing("", &summary), "1: healing 0.0345 +- 0.0003 per decade of time\n");
 }
 
