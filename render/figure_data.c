@@ -2,7 +2,6 @@
 // What is written is what `--compare` reads: one run may be drawn beside another.
 #include "render/figure_data.h"
 
-#include "base/memory.h"
 #include "io/text/csv_writer.h"
 
 #include <limits.h>
@@ -61,8 +60,7 @@ static bool write_lengths(const char *path, ResultView *view, Error *err)
     const DataColumn columns[] = {{"F_T/F_N", NULL, curve.at, 1},
                                   {"l/L", NULL, curve.value, 1 / view->number[NUMBER_LENGTH]}};
     done = done && write_columns(path, columns, 2, curve.count, view->si, err);
-    memory_free(curve.at);
-    memory_free(curve.value);
+    figure_curve_destroy(&curve);
     return done;
 }
 
@@ -74,8 +72,7 @@ static bool write_speeds(const char *path, ResultView *view, Error *err)
         {"x/L", NULL, curve.at, 1 / view->number[NUMBER_LENGTH]},
         {"v/c_R", NULL, curve.value, 1 / view->number[NUMBER_C_RAYLEIGH]}};
     done = done && write_columns(path, columns, 2, curve.count, view->si, err);
-    memory_free(curve.at);
-    memory_free(curve.value);
+    figure_curve_destroy(&curve);
     return done;
 }
 

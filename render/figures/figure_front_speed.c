@@ -82,23 +82,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void curve_destroy(FigureCurve *curve)
-{
-    memory_free(curve->at);
-    memory_free(curve->value);
-}
-
 bool figure_front_speed_measured(ResultView *view, const char *path, Measured *measured, Error *err)
 {
-    FigureCurve curve = {0};
-    TRY(measured_read(path, MEASURED_SPEED, view, measured, err));
-    if (measured->count == 0) return true;
-    TRY(front_speed_curve(view, &curve, err));
-    const ComputedCurve computed = {curve.count, curve.at, curve.value};
-    measured_compare(measured, view, computed_on_curve, &computed);
-cleanup:
-    curve_destroy(&curve);
-    return error_is_clean(err);
+    return figure_curve_measured(view, path, MEASURED_SPEED, front_speed_curve, measured, err);
 }
 
 static Axes axes_layout(const Page *page, const ResultView *view, const FigureCurve *curve,
@@ -189,7 +175,7 @@ bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
     measured_draw(&page, &measured, &axes);
     axes_draw(&page, &axes);
 cleanup:
-    curve_destroy(&curve);
+    figure_curve_destroy(&curve);
     measured_destroy(&measured);
     return error_is_clean(err);
 }

@@ -54,23 +54,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void curve_destroy(FigureCurve *curve)
-{
-    memory_free(curve->at);
-    memory_free(curve->value);
-}
-
 bool figure_precursors_measured(ResultView *view, const char *path, Measured *measured, Error *err)
 {
-    FigureCurve curve = {0};
-    TRY(measured_read(path, MEASURED_LENGTH, view, measured, err));
-    if (measured->count == 0) return true;
-    TRY(precursors_curve(view, &curve, err));
-    const ComputedCurve computed = {curve.count, curve.at, curve.value};
-    measured_compare(measured, view, computed_on_curve, &computed);
-cleanup:
-    curve_destroy(&curve);
-    return error_is_clean(err);
+    return figure_curve_measured(view, path, MEASURED_LENGTH, precursors_curve, measured, err);
 }
 
 // F_T/F_N when the rod was at U.
@@ -169,7 +155,7 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
     measured_draw(&page, &measured, &axes);
     axes_draw(&page, &axes);
 cleanup:
-    curve_destroy(&curve);
+    figure_curve_destroy(&curve);
     measured_destroy(&measured);
     return error_is_clean(err);
 }

@@ -60,6 +60,10 @@ typedef struct FigureCurve {
     int64_t count;
     double *at, *value;   // [count] owned
 } FigureCurve;
+typedef bool (*CurveFunction)(ResultView *view, FigureCurve *curve, Error *err);
+void figure_curve_destroy(FigureCurve *curve);   // zeroed is fine
+bool figure_curve_measured(ResultView *view, const char *path, MeasuredKind kind,
+                           CurveFunction compute, Measured *measured, Error *err);
 bool precursors_curve(ResultView *view, FigureCurve *curve, Error *err);
 bool front_speed_curve(ResultView *view, FigureCurve *curve, Error *err);
 
