@@ -209,6 +209,14 @@ bool formula_append(const char *text, const FormulaNames *names, Formula *formul
     return error_is_clean(err);
 }
 
+bool formula_has(const Formula *formula, int32_t variable)
+{
+    for (int32_t k = 0; k < formula->count; k++)
+        if (formula->step[k].operation == STEP_VARIABLE && formula->step[k].number == variable)
+            return true;
+    return false;
+}
+
 // --- evaluating ---------------------------------------------------------------------------------
 
 // What an operation makes of a and b, and its derivatives by them.

@@ -49,6 +49,9 @@ bool formula_read(const char *text, const FormulaNames *names, Formula *formula,
 // Puts the steps of `text` behind those that are there: several formulas may share a list.
 bool formula_append(const char *text, const FormulaNames *names, Formula *formula, Error *err);
 
+// The formula depends on this variable, or seems to.
+bool formula_has(const Formula *formula, int32_t variable);
+
 // Of the steps part[0] to part[1] - 1, which are a formula: the value at the variables x [count],
 // and its derivatives by them, slope [count].
 double formula_partials(const Formula *formula, const int32_t part[2], const double *x,

@@ -204,7 +204,7 @@ static void creep(ContactNewton *newton)
         if (i < 0 || !friction_creeps(friction_at(problem->law, i))) continue;
         const FrictionLaw *law = friction_at(problem->law, i);
         double v = at->velocity[k], step = newton->step[a], speed = fabs(v);
-        double gain = friction_rates(law, speed, friction_state(law, speed)).mu_speed;
+        double gain = friction_direct_slope(law, speed);
         bool steep = gain * at->reaction[newton->row[a].normal] >
                      problem->matrix->schur[k * (count + 1)];
         if (!steep && (v + step) * v > 0) continue;

@@ -21,8 +21,7 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     *history = (History){.contact = contact,
                          .flushed_at = clock_seconds(),
                          .pad_count = interface->pad_count,
-                         .rod_on_spring = head->rod_on_spring,
-                         .remembers = head->remembers};
+                         .rod_on_spring = head->rod_on_spring};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     if (interface->line) history->line = NEW_ARRAY(double, count, err);
@@ -170,7 +169,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
     pad_sums(seen, history->pad_sums);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
         if (series == SERIES_ROD_WAY && !history->rod_on_spring) continue;
-        if (series == SERIES_STATE && !history->remembers) continue;
+        if (series == SERIES_STATE && history->contact->states == 0) continue;
         TRY(append(history, seen, series, err));
     }
     history->end.rows++;

@@ -19,7 +19,6 @@ typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
     HistoryEnd end;
     bool rod_on_spring;   // its own way is recorded
-    bool remembers;   // so are the states of friction
     double seconds;   // wall time spent
     double flushed_at;   // wall time of the last flush, s
     double *row;   // [contact_count] work; owned

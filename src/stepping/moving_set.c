@@ -18,6 +18,8 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
     set->friction = NEW_ARRAY(double, count, err);
     set->turned = NEW_ARRAY(int32_t, count, err);
     set->direction = NEW_ARRAY(double, count, err);
+    if (friction_states(block->law, block->interface->contact_count) > 1)
+        set->rates = NEW_ARRAY(FrictionRates, block->interface->contact_count, err);
     return error_is_clean(err);
 }
 
@@ -29,6 +31,7 @@ void moving_set_destroy(MovingSet *set)
     memory_free(set->friction);
     memory_free(set->turned);
     memory_free(set->direction);
+    memory_free(set->rates);
     *set = (MovingSet){0};
 }
 
@@ -36,7 +39,7 @@ void moving_set_destroy(MovingSet *set)
 static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
 {
     MovingUnknown *moving = &set->list[set->count++];
-    *moving = (MovingUnknown){.unknown = unknown, .normal = -1};
+    *moving = (MovingUnknown){.unknown = unknown, .normal = -1, .node = -1};
     return moving;
 }
 
@@ -63,12 +66,28 @@ static void add_across(MovingSet *set, int32_t t, int32_t n, double friction, do
     if (speed > 0) across->damper = friction / speed;
 }
 
+static void keep_memory(MovingSet *set, const FrictionRates *rates, int32_t i, double pressing,
+                        MovingUnknown *moving)
+{
+    if (rates->states == 1) {
+        moving->memory = -rates->mu_state[0] * rates->rate_speed[0] * pressing;
+        moving->fading = -rates->rate_state[0][0];
+        set->remembers = set->remembers || moving->memory != 0;
+    } else if (rates->states > 1) {
+        moving->node = i;
+        set->remembers = true;
+        set->rates[i] = *rates;
+        for (int32_t k = 0; k < rates->states; k++) set->rates[i].mu_state[k] *= pressing;
+    }
+}
+
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
 {
     int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
     const FrictionLaw *law = friction_at(set->law, i);
     double speed = slip_size(set->interface, i, state->slip_rate);
-    FrictionRates rates = friction_rates(law, speed, state->theta[i]);
+    FrictionRates rates;
+    friction_rates(law, speed, state->theta + (int64_t)i * STATES_MAX, &rates);
     double mu = rates.mu, d[TANGENTS_MAX];
     MovingUnknown *moving = add_unknown(set, t);
     find_direction(set, state, i, d);
@@ -81,10 +100,8 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     }
     double slope = rates.mu_speed;
     *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
-    moving->memory = -rates.mu_state * rates.rate_speed * state->reaction[n];
-    moving->fading = -rates.rate_state;
+    keep_memory(set, &rates, i, state->reaction[n], moving);
     set->weakens = set->weakens || moving->weakening > 0;
-    set->remembers = set->remembers || moving->memory != 0;
 }
 
 void moving_set_find(MovingSet *set, const State *state, bool with_open)
@@ -210,6 +227,8 @@ void moving_set_subtract_weakening(const MovingSet *set, double reach, double *m
     for (int64_t a = 0; a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
         double remembered = moving->memory * reach / (1 + reach * moving->fading);
+        if (moving->node >= 0)
+            remembered = friction_weakens_at(&set->rates[moving->node], reach);
         matrix[a * set->count + a] -= moving->weakening + remembered;
     }
 }
@@ -218,8 +237,10 @@ void moving_set_subtract_memory(const MovingSet *set, double reach, double *matr
 {
     for (int64_t a = 0; set->remembers && a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
+        double *diagonal = &matrix[a * (set->count + 1)];
         if (moving->memory > 0)
-            matrix[a * (set->count + 1)] -= moving->memory * reach /
-                                            hypot(1, reach * moving->fading);
+            *diagonal -= moving->memory * reach / hypot(1, reach * moving->fading);
+        if (moving->node >= 0)
+            *diagonal -= friction_weakens_most(&set->rates[moving->node], reach);
     }
 }

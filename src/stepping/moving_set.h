@@ -49,6 +49,8 @@ typedef struct MovingUnknown {
     double spring;   // of the same: 1 / softness, force / length
     double memory;   // of a slipping tangent: -mu_theta g_v r_n, force / length; 0: no memory
     double fading;   // -g_theta, 1/time
+    int32_t node;   // of a slipping tangent where there are several states, which `memory` and
+        // `fading` do not say; else -1
 } MovingUnknown;
 
 typedef struct MovingSet {
@@ -63,6 +65,7 @@ typedef struct MovingSet {
     int32_t count;   // |F|
     bool weakens;   // some weakening is above 0
     bool remembers;   // some memory is not 0
+    FrictionRates *rates;   // [contact_count] of nodes with several states; NULL: no law has; owned
     int32_t turned_count;   // slipping nodes in space
     int32_t *turned;   // [turned_count] which of F is their first unknown; owned, like the next
     double *direction;   // [turned_count * 2] d

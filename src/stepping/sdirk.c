@@ -261,7 +261,7 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     friction_states_start_stage(&scheme->memory, tableau, trial->step, i, trial->from);
     TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
     if (!trial->outcome->solved) goto cleanup;
-    friction_states_end_stage(&scheme->memory, i, to->slip_rate, to->theta);
+    friction_states_end_stage(&scheme->memory, i, to->slip_rate, to);
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
     find_viscous(scheme, momentum, elastic, &contact, trial->scaled);

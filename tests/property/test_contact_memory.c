@@ -21,6 +21,9 @@ static void set_law(Random *random, FrictionKind kind, FrictionLaw *law)
                                        [FRICTION_SLIP_WEAKENING] = MEMORY_SLIP_WEAKENING,
                                        [FRICTION_RATE_STATE] = MEMORY_RATE_STATE};
     FrictionMemory memory = {.kind = kinds[kind],
+                             .states = 1,
+                             .creeps = kind == FRICTION_RATE_STATE,
+                             .factor = 1,
                              .mu_static = random_between(random, 0.2, 0.5),
                              .mu_kinetic = 0.1,
                              .critical_velocity = random_between(random, 1, 3),
@@ -34,8 +37,8 @@ static void set_law(Random *random, FrictionKind kind, FrictionLaw *law)
     *law = (FrictionLaw){.kind = kind};
     friction_make_memory(&memory, law);
     bool creeps = kind == FRICTION_RATE_STATE;
-    friction_set_stage(law, creeps ? random_between(random, -5, 5) : random_between(random, 0, 1),
-                       log_between(random, 1e-6, 0.3));
+    double from = creeps ? random_between(random, -5, 5) : random_between(random, 0, 1);
+    friction_set_stage(law, &from, log_between(random, 1e-6, 0.3));
 }
 
 static void random_loads(Random *random)

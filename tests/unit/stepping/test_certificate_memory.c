@@ -32,6 +32,9 @@ static FrictionLaw random_law(Random *random)
     int32_t k = random_index(random, 4);
     FrictionLaw law = {.kind = kinds[k]};
     FrictionMemory memory = {.kind = k < 2 ? (MemoryKind)k : MEMORY_RATE_STATE,
+                             .states = 1,
+                             .creeps = k > 1,
+                             .factor = 1,
                              .mu_static = 0.38,
                              .mu_kinetic = 0.1,
                              .critical_velocity = log_between(random, 1e-4, 1e-2),
@@ -62,7 +65,7 @@ static void randomise(Fixture *fixture)
                           : forward                    ? CONTACT_SLIP_FORWARD
                                                        : CONTACT_SLIP_BACKWARD;
         seen->slip_rate[t] = seen->status[i] == CONTACT_STICK ? 0 : forward ? speed : -speed;
-        seen->theta[i] = fixture->laws[i].kind == FRICTION_RATE_STATE
+        seen->theta[i * STATES_MAX] = fixture->laws[i].kind == FRICTION_RATE_STATE
                              ? steady + random_between(random, -2, 2)
                              : steady * random_between(random, 0.3, 1);
         seen->reaction[t + 1] = log_between(random, 1e-4, 3e-3);
@@ -98,21 +101,27 @@ static double slope_of(double (*f)(const FrictionLaw *, double, double), const F
 {
     return (f(law, x + h, other) - f(law, x - h, other)) / (2 * h);
 }
+static FrictionRates rates_at(const FrictionLaw *law, double speed, double theta)
+{
+    FrictionRates rates;
+    friction_rates(law, speed, &theta, &rates);
+    return rates;
+}
 static double mu_by_speed(const FrictionLaw *law, double speed, double theta)
 {
-    return friction_rates(law, speed, theta).mu;
+    return rates_at(law, speed, theta).mu;
 }
 static double mu_by_state(const FrictionLaw *law, double theta, double speed)
 {
-    return friction_rates(law, speed, theta).mu;
+    return rates_at(law, speed, theta).mu;
 }
 static double rate_by_speed(const FrictionLaw *law, double speed, double theta)
 {
-    return friction_rates(law, speed, theta).rate;
+    return rates_at(law, speed, theta).rate[0];
 }
 static double rate_by_state(const FrictionLaw *law, double theta, double speed)
 {
-    return friction_rates(law, speed, theta).rate;
+    return rates_at(law, speed, theta).rate[0];
 }
 
 // y' = A y, y = (u, v, theta): the largest |lambda| with Re lambda >= 0; 0: all decays.
@@ -141,13 +150,13 @@ static double fastest_growth(Fixture *fixture, const double *stiffness, const do
         int32_t t = interface_tangent(&rig->interface, i), k = rig->interface.dofs[t];
         double speed = fabs(seen->slip_rate[t]), d = status_direction(seen->status[i]);
         double force = seen->reaction[t + 1] / rig->bulk.mass[k], h = 1e-4 * speed;
-        double by_state = 1e-4 * fmax(fabs(seen->theta[i]), 1e-2);
+        double by_state = 1e-4 * fmax(fabs(seen->theta[i * STATES_MAX]), 1e-2);
         int64_t v = n + fixture->place[k];
-        a[v * size + v] -= force * slope_of(mu_by_speed, law, speed, seen->theta[i], h);
+        a[v * size + v] -= force * slope_of(mu_by_speed, law, speed, seen->theta[i * STATES_MAX], h);
         a[theta * size + v] = -d * force *
-                              slope_of(mu_by_state, law, seen->theta[i], speed, by_state);
-        a[v * size + theta] = d * slope_of(rate_by_speed, law, speed, seen->theta[i], h);
-        a[theta * size + theta] = slope_of(rate_by_state, law, seen->theta[i], speed, by_state);
+                              slope_of(mu_by_state, law, seen->theta[i * STATES_MAX], speed, by_state);
+        a[v * size + theta] = d * slope_of(rate_by_speed, law, speed, seen->theta[i * STATES_MAX], h);
+        a[theta * size + theta] = slope_of(rate_by_state, law, seen->theta[i * STATES_MAX], speed, by_state);
     }
     assert_true(dense_eigen_general(a, size, re, im, vectors, work));
     for (int32_t k = 0; k < size; k++)
