@@ -294,18 +294,38 @@ static double argument_of(double ratio)
     return x;
 }
 
-double memory_follow(const FrictionMemory *memory, double velocity, double step)
+// v_s; INFINITY: friction is as good as linear.
+static double creep_scale(const FrictionMemory *memory, double speed)
 {
-    double state[STATES_MAX], speed = fabs(velocity);
+    double state[STATES_MAX];
     FrictionRates rates;
     memory_state(memory, speed, state);
     if (speed == 0) speed = memory->critical_velocity;
     find_mu(memory, speed, state, &rates);
     double ratio = rates.mu / (rates.mu_speed * speed);
-    if (!(ratio > 1)) return velocity + step;
-    double scale = speed / sinh(argument_of(ratio));
-    double way = asinh(velocity / scale) + step / hypot(velocity, scale);
-    return scale * sinh(fmin(fmax(way, -EXPONENT_MAX), EXPONENT_MAX));
+    return ratio > 1 ? speed / sinh(argument_of(ratio)) : INFINITY;
+}
+
+// y = asinh(|v|/v_s) v/|v| answers to a step along v by 1/hypot(v, v_s), across it by |y|/|v|.
+void memory_follow(const FrictionMemory *memory, int32_t count, const double *velocity,
+                   const double *step, double *next)
+{
+    double speed = count == 1 ? fabs(velocity[0]) : hypot(velocity[0], velocity[1]);
+    double scale = creep_scale(memory, speed), y[2] = {0}, along = 0;
+    double root = hypot(speed, scale), part = asinh(speed / scale);
+    for (int32_t c = 0; c < count; c++) {
+        next[c] = velocity[c] + step[c];
+        if (speed > 0) along += step[c] * (velocity[c] / speed);
+    }
+    if (!isfinite(scale)) return;
+    for (int32_t c = 0; c < count; c++) {
+        double d = speed > 0 ? velocity[c] / speed : 0;
+        double across = speed > 0 ? (step[c] - along * d) * (part / speed) : step[c] / scale;
+        y[c] = part * d + along * d / root + across;
+    }
+    double size = count == 1 ? fabs(y[0]) : hypot(y[0], y[1]);
+    double way = scale * sinh(fmin(size, EXPONENT_MAX));
+    for (int32_t c = 0; c < count; c++) next[c] = size > 0 ? way * (y[c] / size) : 0;
 }
 
 double memory_rested(const FrictionMemory *memory, double rest)

@@ -79,10 +79,11 @@ double memory_coefficient(const FrictionMemory *memory, double speed, double *sl
 // What is added to mu_v there.
 double memory_feedback(const FrictionRates *rates, double reach);
 
-// Of a law that creeps: the velocity to which a step of Newton's method leads that is taken in mu
-// instead of in v: in asinh(v/v_s), v_s that of an asinh with mu and mu_v of the law at its present
-// state, so that friction is nearly linear along it.
-double memory_follow(const FrictionMemory *memory, double velocity, double step);
+// Of a law that creeps: the velocity [count] to which a step of Newton's method leads that is taken
+// in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v of the
+// law at its present states, so that friction is nearly linear along it. count: 1, in space 2.
+void memory_follow(const FrictionMemory *memory, int32_t count, const double *velocity,
+                   const double *step, double *next);
 
 // The state of contacts that rested for `rest` > 0 since they were made, and of steady slip; of the
 // laws that are built in.

@@ -30,10 +30,12 @@ static void write_place(const FrictionSource *source, const FrictionMemory *memo
 
 // What mu and the rates are at memory->from, and whether they may be that.
 static bool look_at(const FrictionSource *source, const FrictionMemory *memory, double speed,
-                    FrictionRates *rates, Error *err)
+                    FrictionRates *rates, const char **key, Error *err)
 {
     char place[300];
     double finite = 0;
+    bool formula = memory->kind == MEMORY_FORMULAS;
+    *key = formula ? "state" : "file";
     memory_rates(memory, speed, memory->from, rates);
     write_place(source, memory, speed, place, sizeof place);
     for (int32_t k = 0; k < memory->states; k++) {
@@ -43,8 +45,10 @@ static bool look_at(const FrictionSource *source, const FrictionMemory *memory, 
         finite += rates->mu_state[k] + rates->rate_speed[k];
         for (int32_t j = 0; j < memory->states; j++) finite += rates->rate_state[k][j];
     }
+    if (formula) *key = "formula";
     if (!isfinite(rates->mu))
-        FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: not a finite number", place, rates->mu);
+        FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: not a finite number", place,
+             rates->mu);
     if (!isfinite(finite + rates->mu_speed))
         FAIL(err, ERROR_INPUT, "at %s a derivative of the coefficient or of a rate is not finite",
              place);
@@ -58,17 +62,23 @@ cleanup:
 // memory->from becomes that of steady slip. false: none is found from there; it is as it was.
 static bool find_steady(FrictionMemory *memory, double speed)
 {
+    static const double STAYS = 1e-6;   // of a state: what the last, longest stage may change
     double state[STATES_MAX], began[STATES_MAX];
+    bool found = true;
     memcpy(began, memory->from, sizeof began);
     for (memory->reach = 1e-12; memory->reach < 1e30; memory->reach *= 10) {
         memory_state(memory, speed, state);
-        bool finite = true;
-        for (int32_t k = 0; k < memory->states; k++) finite = finite && isfinite(state[k]);
-        memcpy(memory->from, finite ? state : began, sizeof state);
-        if (!finite) return memory->reach = 0, false;
+        found = true;
+        for (int32_t k = 0; k < memory->states; k++) {
+            double change = fabs(state[k] - memory->from[k]);
+            found = found && change <= STAYS * fmax(fabs(state[k]), STAYS);
+            if (!isfinite(state[k])) memory->reach = INFINITY;
+        }
+        memcpy(memory->from, state, sizeof state);
     }
     memory->reach = 0;
-    return true;
+    if (!found) memcpy(memory->from, began, sizeof began);
+    return found;
 }
 
 static void rest_for(FrictionMemory *memory, double rest)
@@ -89,11 +99,13 @@ static void rest_for(FrictionMemory *memory, double rest)
 static bool find_start(const FrictionSource *source, FrictionMemory *memory, const char **key,
                        Error *err)
 {
+    FrictionRates rates;
     bool all = true;
     *key = "state";
     if (memory->kind == MEMORY_PLUGIN) {
         *key = "file";
-        memory->plugin.start(&memory->plugin.given, source->rod_velocity, source->rest, memory->from);
+        memory->plugin.start(&memory->plugin.given, source->rod_velocity, source->rest,
+                             memory->from);
         return true;
     }
     for (int32_t k = 0; k < memory->states; k++) {
@@ -107,6 +119,8 @@ static bool find_start(const FrictionSource *source, FrictionMemory *memory, con
         FAIL(err, ERROR_INPUT,
              "a state needs its `start`: without a rod that moves nothing says what the contacts "
              "remember");
+    if (!all) TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
+    *key = "state";
     if (!all && !find_steady(memory, source->rod_velocity))
         FAIL(err, ERROR_INPUT,
              "no state of steady slip is found at velocity %g: a `start` is needed",
@@ -119,7 +133,7 @@ cleanup:
 // Steady slip at all speeds, each from the state at the speed before: its mu [count], NaN where none
 // is found.
 static bool look_along(const FrictionSource *source, FrictionMemory *memory, double *steady,
-                       double *steepest, Error *err)
+                       double *steepest, const char **key, Error *err)
 {
     FrictionRates rates;
     double lost = 0;
@@ -127,7 +141,7 @@ static bool look_along(const FrictionSource *source, FrictionMemory *memory, dou
     for (int32_t k = 0; k <= DECADES * DECADE; k++) {
         double speed = look_speed(source, k);
         memcpy(memory->from, memory->start, sizeof memory->from);
-        TRY(look_at(source, memory, speed, &rates, err));
+        TRY(look_at(source, memory, speed, &rates, key, err));
         *steepest = fmax(*steepest, -rates.mu_speed);
         double now = 0;
         for (int32_t j = 0; j < memory->states; j++)
@@ -138,7 +152,7 @@ static bool look_along(const FrictionSource *source, FrictionMemory *memory, dou
         found = find_steady(memory, speed);
         steady[k] = NAN;
         if (!found) continue;
-        TRY(look_at(source, memory, speed, &rates, err));
+        TRY(look_at(source, memory, speed, &rates, key, err));
         steady[k] = rates.mu;
         *steepest = fmax(*steepest, -rates.mu_speed);
     }
@@ -154,8 +168,8 @@ static void set_scales(const FrictionSource *source, FrictionMemory *memory, con
     double lowest = INFINITY, highest = 0;
     memory_rates(memory, 0, memory->start, &rates);
     double rests = rates.mu, rises = rates.mu_speed;
-    memory_rates(memory, source->rod_velocity > 0 ? source->rod_velocity : source->end, memory->start,
-                 &rates);
+    memory_rates(memory, source->rod_velocity > 0 ? source->rod_velocity : source->end,
+                 memory->start, &rates);
     memory->creeps = rests <= CALM * rates.mu && rises > 0;
     memory->reference = rates.mu;
     for (int32_t k = 1; k <= DECADES * DECADE; k++) {
@@ -179,8 +193,8 @@ bool friction_start(const FrictionSource *source, FrictionMemory *memory, Fricti
     memory->pressure = source->pressure;
     TRY(find_start(source, memory, key, err));
     memcpy(memory->start, memory->from, sizeof memory->start);
-    TRY(look_at(source, memory, source->rod_velocity, &rates, err));
-    TRY(look_along(source, memory, steady, &law->steepest, err));
+    TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
+    TRY(look_along(source, memory, steady, &law->steepest, key, err));
     set_scales(source, memory, steady);
 cleanup:
     return error_is_clean(err);

@@ -58,9 +58,10 @@ double friction_direct_slope(const FrictionLaw *law, double speed)
     return rates.mu_speed;
 }
 
-double friction_follow(const FrictionLaw *law, double velocity, double step)
+void friction_follow(const FrictionLaw *law, int32_t count, const double *velocity,
+                     const double *step, double *next)
 {
-    return memory_follow(&law->own.memory, velocity, step);
+    memory_follow(&law->own.memory, count, velocity, step, next);
 }
 
 double friction_weakens_at(const FrictionRates *rates, double reach)

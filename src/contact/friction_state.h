@@ -18,8 +18,10 @@ static inline bool friction_creeps(const FrictionLaw *law)
     return law->remembers && law->own.memory.creeps;
 }
 
-// Of a law that creeps (contact/friction_memory): where a step of Newton's method leads in mu.
-double friction_follow(const FrictionLaw *law, double velocity, double step);
+// Of a law that creeps (contact/friction_memory): where a step of Newton's method [count] leads in
+// friction.
+void friction_follow(const FrictionLaw *law, int32_t count, const double *velocity,
+                     const double *step, double *next);
 
 // The law of a node in a stage: its states obey state = from + reach g(v, state). Does nothing to a
 // law without memory.

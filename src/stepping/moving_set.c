@@ -58,12 +58,12 @@ static void find_direction(const MovingSet *set, const State *state, int32_t i, 
 }
 
 // Across: friction mu r_n against a slip of that speed, which turns with it.
-static void add_across(MovingSet *set, int32_t t, int32_t n, double friction, double speed)
+static void add_across(MovingSet *set, int32_t t, int32_t n, double damper)
 {
     set->turned[set->turned_count++] = set->count - 1;
     MovingUnknown *across = add_unknown(set, t + 1);
     across->normal = n;
-    if (speed > 0) across->damper = friction / speed;
+    across->damper = damper;
 }
 
 static void keep_memory(MovingSet *set, const FrictionRates *rates, int32_t i, double pressing,
@@ -95,7 +95,9 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     moving->friction = d[0] * mu;
     if (slip_tangents(set->interface) > 1) {
         memcpy(set->direction + 2 * (size_t)set->turned_count, d, sizeof d);
-        add_across(set, t, n, mu * state->reaction[n], speed);
+        double pressing = state->reaction[n];
+        double damper = speed > 0 ? mu * pressing / speed : fmax(rates.mu_speed, 0) * pressing;
+        add_across(set, t, n, damper);
         moving[1].friction = d[1] * mu;
     }
     double slope = rates.mu_speed;
