@@ -21,7 +21,7 @@ static void ageing_mu(const FrictionMemory *memory, double speed, const double *
                       FrictionRates *rates)
 {
     double drop = memory->mu_static - memory->mu_kinetic, base = memory->mu_kinetic, slope = 0;
-    bool weakens = speed < memory->critical_velocity, aged = *state > 0;
+    bool weakens = speed<memory->critical_velocity, aged = *state> 0;
     if (weakens) {
         base = memory->mu_static - drop * speed / memory->critical_velocity;
         slope = -drop / memory->critical_velocity;
@@ -78,8 +78,8 @@ static void rate_state_rate(const FrictionMemory *memory, double speed, const do
 {
     double slips = 1 / memory->slip_distance;
     if (memory->slip_law) {
-        double off =
-            *state + log(fmax(speed, LEAST_SPEED) / memory->reference_velocity);   // ln(v theta/
+        double off = *state +
+                     log(fmax(speed, LEAST_SPEED) / memory->reference_velocity);   // ln(v theta/
         // D_c)
         rates->rate[0] = -speed * slips * off;
         rates->rate_speed[0] = -slips * (off + 1);
@@ -134,14 +134,15 @@ static void plugin_rates(const FrictionMemory *memory, double speed, const doubl
 typedef void (*MemoryPart)(const FrictionMemory *memory, double speed, const double *state,
                            FrictionRates *rates);
 
-// mu and g, each with its derivatives.
+// mu and g, each with its derivatives. straight: g is linear in the state.
 static const struct {
     MemoryPart mu, rate;
-} LAWS[] = {[MEMORY_AGEING] = {ageing_mu, ageing_rate},
-            [MEMORY_SLIP_WEAKENING] = {weakening_mu, weakening_rate},
-            [MEMORY_RATE_STATE] = {rate_state_mu, rate_state_rate},
-            [MEMORY_FORMULAS] = {formula_mu, formula_rate},
-            [MEMORY_PLUGIN] = {plugin_rates, plugin_rates}};
+    bool straight;
+} LAWS[] = {[MEMORY_AGEING] = {ageing_mu, ageing_rate, true},
+            [MEMORY_SLIP_WEAKENING] = {weakening_mu, weakening_rate, true},
+            [MEMORY_RATE_STATE] = {rate_state_mu, rate_state_rate, false},
+            [MEMORY_FORMULAS] = {formula_mu, formula_rate, false},
+            [MEMORY_PLUGIN] = {plugin_rates, plugin_rates, false}};
 
 static void find_mu(const FrictionMemory *memory, double speed, const double *state,
                     FrictionRates *rates)
@@ -165,11 +166,14 @@ void memory_rates(const FrictionMemory *memory, double speed, const double *stat
 
 // --- a stage ------------------------------------------------------------------------------------
 
+// What is inlined is compiled a second time for the one state that most laws have (n = 1).
+#define INLINED static inline __attribute__((always_inline))
+
 // x becomes (1 - reach g_theta)^-1 x. false: singular.
-static bool solve_states(const FrictionRates *rates, double reach, double *x)
+INLINED bool solve_states(const FrictionRates *rates, double reach, int32_t n, double *x)
 {
     double matrix[STATES_MAX * STATES_MAX];
-    int32_t pivots[STATES_MAX], n = rates->states;
+    int32_t pivots[STATES_MAX];
     if (n == 1) {
         x[0] /= 1 - reach * rates->rate_state[0][0];
         return true;
@@ -191,77 +195,97 @@ typedef struct Elimination {
 } Elimination;
 
 // Fills what each state is off, state - from - reach g.
-static void find_off(Elimination *at, const double *state)
+INLINED void find_off(Elimination *at, int32_t n, const double *state)
 {
     const FrictionMemory *memory = at->memory;
     LAWS[memory->kind].rate(memory, at->speed, state, &at->rates);
-    for (int32_t k = 0; k < memory->states; k++)
+    for (int32_t k = 0; k < n; k++)
         at->off[k] = state[k] - memory->from[k] - memory->reach * at->rates.rate[k];
 }
 
 // The largest of them; NaN where one is.
-static double largest_off(const Elimination *at)
+INLINED double largest_off(const Elimination *at, int32_t n)
 {
     double largest = 0;
-    for (int32_t k = 0; k < at->memory->states; k++) {
+    for (int32_t k = 0; k < n; k++) {
         double part = fabs(at->off[k]);
-        if (part == 0) continue;
-        if (!(part <= largest * at->scale[k])) largest = part / at->scale[k];
+        if (part != 0 && !(part <= largest * at->scale[k])) largest = part / at->scale[k];
     }
     return largest;
 }
 
 static const double NEAR = 1e-9;   // of a state: what is left after such a step of Newton's method
     // is its square
-static const double ROUNDING = 1e-14;   // of what slip alone would do to a state: such a step is noise
+static const double ROUNDING =
+    1e-14;   // of what slip alone would do to a state: such a step is noise
 
-static bool is_near(const Elimination *at, const double *state, const double *step)
+INLINED bool is_near(const Elimination *at, int32_t n, const double *state, const double *step)
 {
     const FrictionMemory *memory = at->memory;
-    for (int32_t k = 0; k < memory->states; k++) {
-        double slips = memory->reach * fabs(at->rates.rate_speed[k]) * at->speed /
-                       (1 + memory->reach * fabs(at->rates.rate_state[k][k]));
-        double size = fabs(state[k]) + fabs(memory->from[k]);
-        if (!(fabs(step[k]) <= NEAR * size + ROUNDING * slips)) return false;
+    for (int32_t k = 0; k < n; k++) {
+        double size = fabs(step[k]), slips = memory->reach * at->rates.rate_speed[k] * at->speed;
+        if (size <= NEAR * (fabs(state[k]) + fabs(memory->from[k]))) continue;
+        double yields = 1 + memory->reach * fabs(at->rates.rate_state[k][k]);
+        if (!(size * yields <= ROUNDING * fabs(slips))) return false;
     }
     return true;
 }
 
-// Newton's method from `from`; a step that leaves more than there was is halved.
+// One step of Newton's method, halved while it leaves more than there was; `step` comes in whole.
+// false: it cannot leave less.
+INLINED bool take_step(Elimination *at, int32_t n, const double *step, double *left, double *state)
+{
+    enum { HALVINGS = 60 };
+    double from[STATES_MAX], before = *left, part = 1;
+    for (int32_t k = 0; k < n; k++) from[k] = state[k];
+    for (int32_t halved = 0; halved < HALVINGS; halved++, part *= 0.5) {
+        for (int32_t k = 0; k < n; k++) state[k] = from[k] - part * step[k];
+        find_off(at, n, state);
+        *left = largest_off(at, n);
+        if (*left < before) return true;
+    }
+    return false;
+}
+
+// Newton's method from `from`.
+INLINED void eliminate(const FrictionMemory *memory, double speed, int32_t n, double *state)
+{
+    enum { STEPS = 60 };
+    Elimination at;
+    double step[STATES_MAX];
+    for (int32_t k = 0; k < n; k++) state[k] = memory->from[k];
+    if (memory->reach == 0) return;
+    at.memory = memory;
+    at.speed = speed;
+    at.rates.states = n;
+    find_off(&at, n, state);
+    for (int32_t k = 0; k < n; k++) at.scale[k] = fabs(state[k]) + fabs(at.off[k]);
+    double left = largest_off(&at, n);
+    for (int32_t trial = 0; trial < STEPS && left != 0; trial++) {
+        for (int32_t k = 0; k < n; k++) step[k] = at.off[k];
+        if (!solve_states(&at.rates, memory->reach, n, step)) break;
+        if (LAWS[memory->kind].straight || is_near(&at, n, state, step)) {
+            for (int32_t k = 0; k < n; k++) state[k] -= step[k];
+            return;
+        }
+        if (!take_step(&at, n, step, &left, state)) break;
+    }
+    for (int32_t k = 0; k < n && left != 0; k++) state[k] = NAN;
+}
+
 void memory_state(const FrictionMemory *memory, double speed, double *state)
 {
-    enum { STEPS = 60, HALVINGS = 60 };
-    Elimination at = {.memory = memory, .speed = speed};
-    int32_t n = at.rates.states = memory->states;
-    memcpy(state, memory->from, (size_t)n * sizeof(double));
-    if (memory->reach == 0) return;
-    find_off(&at, state);
-    for (int32_t k = 0; k < n; k++) at.scale[k] = fabs(state[k]) + fabs(at.off[k]);
-    double left = largest_off(&at);
-    bool near = left == 0;
-    for (int32_t trial = 0; trial < STEPS && !near; trial++) {
-        double step[STATES_MAX], before = left, part = 1, from[STATES_MAX];
-        memcpy(step, at.off, (size_t)n * sizeof(double));
-        memcpy(from, state, (size_t)n * sizeof(double));
-        if (!solve_states(&at.rates, memory->reach, step)) break;
-        near = is_near(&at, state, step);
-        for (int32_t halved = 0; halved < HALVINGS; halved++, part *= 0.5) {
-            for (int32_t k = 0; k < n; k++) state[k] = from[k] - part * step[k];
-            if (near) break;
-            find_off(&at, state);
-            left = largest_off(&at);
-            if (left < before) break;
-        }
-        if (!near && !(left < before)) break;
-    }
-    for (int32_t k = 0; k < n && !near; k++) state[k] = NAN;
+    if (memory->states == 1)
+        eliminate(memory, speed, 1, state);
+    else
+        eliminate(memory, speed, memory->states, state);
 }
 
 double memory_feedback(const FrictionRates *rates, double reach)
 {
     double x[STATES_MAX], sum = 0;
     for (int32_t k = 0; k < rates->states; k++) x[k] = reach * rates->rate_speed[k];
-    if (!solve_states(rates, reach, x)) return NAN;
+    if (!solve_states(rates, reach, rates->states, x)) return NAN;
     for (int32_t k = 0; k < rates->states; k++) sum += rates->mu_state[k] * x[k];
     return sum;
 }
