@@ -110,7 +110,8 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
         memory.ends[k + 1] = memory.formula.count;
     }
     *key = "formula";
-    if (memory.states == 0 && !formula_has(&memory.formula, 1)) {
+    memory.feels_pressure = formula_has(&memory.formula, 1);
+    if (memory.states == 0 && !memory.feels_pressure) {
         law->own.formula = memory.formula;
         return true;
     }
@@ -122,7 +123,7 @@ cleanup:
 static bool read_plugin(const FrictionSource *source, FrictionLaw *law, const char **key,
                         Error *err)
 {
-    FrictionMemory memory = {.kind = MEMORY_PLUGIN, .factor = 1};
+    FrictionMemory memory = {.kind = MEMORY_PLUGIN, .factor = 1, .feels_pressure = true};
     FrictionPlugin *plugin = &memory.plugin;
     AmontonsFriction *given = &plugin->given;
     *key = "file";

@@ -60,6 +60,7 @@ typedef struct FrictionMemory {
     double from[STATES_MAX], reach;   // of the stage under way: see above; reach: time; 0: the
         // states are `from`
     double pressure;   // p of the stage, stress; of formulas and plug-ins
+    bool feels_pressure;   // mu or a rate depends on it
     union {
         struct {
             Formula formula;   // of v, p and the states: mu, then the rates, one behind the other

@@ -32,6 +32,16 @@ void friction_set_stage(FrictionLaw *law, const double *from, double reach)
     law->mu_static = memory_coefficient(memory, 0, NULL);
 }
 
+double friction_set_pressure(FrictionLaw *law, double pressure, double speed)
+{
+    if (!friction_has_memory(law) || !law->own.memory.feels_pressure) return 0;
+    FrictionMemory *memory = &law->own.memory;
+    double before = memory_coefficient(memory, speed, NULL);
+    memory->pressure = pressure;
+    law->mu_static = memory_coefficient(memory, 0, NULL);
+    return memory_coefficient(memory, speed, NULL) - before;
+}
+
 void friction_state(const FrictionLaw *law, double speed, double *state)
 {
     if (friction_has_memory(law)) memory_state(&law->own.memory, speed, state);

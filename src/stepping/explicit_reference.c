@@ -158,6 +158,9 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         for (int32_t d = 0; d <= last; d++) reaction[d] = 0;
     } else {
         double strength = bound - v[last];   // (dt/m) r_n
+        if (scheme->def.stage_laws)
+            friction_set_pressure(&scheme->def.stage_laws[i],
+                                  strength / kick / interface->weight[i], 0);
         resolve_slip(scheme, i, strength, v, state);
         reaction[last] = strength / kick;
         for (int32_t c = 0; c < last; c++) u[c] = start[c] + step * v[c];

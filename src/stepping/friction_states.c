@@ -87,6 +87,21 @@ void friction_states_start_stage(FrictionStates *states, const Tableau *tableau,
     }
 }
 
+static const double PRESSED = 1e-11;   // of mu, 1
+
+bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction)
+{
+    bool changed = false;
+    for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
+        double pressing = fmax(reaction[interface_normal(states->interface, i)], 0);
+        double change = friction_set_pressure(&states->laws[i],
+                                              pressing / states->interface->weight[i],
+                                              slip_size(states->interface, i, velocity));
+        changed = changed || !(fabs(change) <= PRESSED);
+    }
+    return changed;
+}
+
 void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
                                State *to)
 {
@@ -128,6 +143,7 @@ void friction_states_archive(FrictionStates *states, Archive *archive)
         if (!friction_has_memory(&states->laws[i])) continue;
         memcpy(from, memory->from, sizeof from);
         archive_numbers(archive, from, memory->states);
+        archive_number(archive, &memory->pressure);
         archive_number(archive, &reach);
         if (archive_reads(archive)) friction_set_stage(&states->laws[i], from, reach);
     }

@@ -33,6 +33,9 @@ void friction_states_reset(FrictionStates *states, State *state);
 void friction_states_begin(FrictionStates *states, const State *from);
 void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
                                  int32_t stage, const State *from);
+// Laws that ask for pressure are handed that of the reactions at hand. true: mu has changed by more
+// than rounding, and the contact problem has to be solved once more.
+bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction);
 // velocity: v of the stage on the interface. Its states go into `to`.
 void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
                                State *to);

@@ -92,13 +92,16 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     MovingUnknown *moving = add_unknown(set, t);
     find_direction(set, state, i, d);
     moving->normal = n;
-    moving->friction = d[0] * mu;
+    double follows = mu;   // friction where pressure grows
+    if (rates.mu_pressure != 0)
+        follows += rates.mu_pressure * state->reaction[n] / set->interface->weight[i];
+    moving->friction = d[0] * follows;
     if (slip_tangents(set->interface) > 1) {
         memcpy(set->direction + 2 * (size_t)set->turned_count, d, sizeof d);
         double pressing = state->reaction[n];
         double damper = speed > 0 ? mu * pressing / speed : fmax(rates.mu_speed, 0) * pressing;
         add_across(set, t, n, damper);
-        moving[1].friction = d[1] * mu;
+        moving[1].friction = d[1] * follows;
     }
     double slope = rates.mu_speed;
     *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];

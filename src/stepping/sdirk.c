@@ -103,6 +103,9 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
     return own;
 }
 
+// Of a law that asks for pressure: problems in a row, each with the pressures of the one before.
+enum { PRESSURES_MAX = 40 };
+
 // Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
 // settled.
 static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSolution *contact,
@@ -123,6 +126,9 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .g = scheme->g,
                               .bound = scheme->bound};
     *solved = contact_solve(&scheme->solver, &problem, contact);
+    int32_t again = PRESSURES_MAX;
+    while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
+        *solved = again-- > 0 && contact_solve(&scheme->solver, &problem, contact);
     if (!*solved) goto cleanup;
     scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
