@@ -60,7 +60,7 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// part S + (1 - part) S_C - W - M(reach) on F, part < 1, is positive definite; S that of `rung`.
+// part S + (1 - part) S_C - W - N(reach) on F, part < 1, is positive definite; S that of `rung`.
 // Parts of condensed operators are less than their parts condensed: with open nodes the test is a
 // little stricter between its ends.
 static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *rung,
@@ -79,7 +79,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
-    moving_set_subtract_memory(moving, reach, certificate->matrix);
+    moving_set_subtract_memory(moving, reach, part, certificate->matrix);
     certificate->checks++;
     return dense_cholesky(certificate->matrix, moving->count);
 }
@@ -92,16 +92,18 @@ bool certificate_holds(Certificate *certificate, const State *state, double reac
     return holds;
 }
 
-// a = cos(arctan(pi/log g)) of the header is ratio/sqrt(1 + ratio^2), ratio = log g/pi.
+// a = cos(arctan(pi/log g)) of the header is ratio/sqrt(1 + ratio^2), ratio = log g/pi. A rung
+// speaks for all s that are within sqrt(2) of its own: memory is taken at the least of them.
 bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
-                                 double growth)
+                                 RungRange range, double growth)
 {
     double started = clock_seconds(), ratio = log(growth) / M_PI;
     double part = ratio / sqrt(1 + ratio * ratio) / BETWEEN_RUNGS;
     bool less = ladder_fill(ladder);   // BETWEEN_RUNGS is that of neighbours
-    for (int32_t k = 0; less && k < ladder->rung_count; k++) {
+    for (int32_t k = range.first; less && k < range.end; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) less = is_definite(certificate, state, rung, part, 0);
+        double reach = M_SQRT2 * ladder_reach(ladder, k);
+        if (rung) less = is_definite(certificate, state, rung, part, reach);
     }
     certificate->seconds += clock_seconds() - started;
     return less;
@@ -168,13 +170,15 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
     return found;
 }
 
-double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung)
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
+                         double reach)
 {
     double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
     const double *closed = close_matrix(certificate, state, rung);
     if (closed) {
         moving_set_find(&certificate->moving, state, false);
+        moving_set_settle(&certificate->moving, reach);
         fill_coupled(certificate, closed);
         certificate->checks++;
         if (dense_lu(certificate->matrix, certificate->moving.count, pivots))
@@ -185,15 +189,16 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
     return ratio;
 }
 
-bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder)
+bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+                                  RungRange range)
 {
     double ratio[3] = {0}, octaves;
     if (!ladder_fill(ladder)) return false;   // so is the parabola
-    for (int32_t k = 0; k < ladder->rung_count; k++) {
+    for (int32_t k = range.first; k < range.end; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
         ratio[0] = ratio[1];
         ratio[1] = ratio[2];
-        ratio[2] = rung ? certificate_ratio(certificate, state, rung) : 0;
+        ratio[2] = rung ? certificate_ratio(certificate, state, rung, ladder_reach(ladder, k)) : 0;
         // Each by itself: fmax would lose a ratio that is not a number.
         if (!(ratio[2] < 1) || !(weakening_ratio_top(ratio, &octaves) < 1)) return false;
     }

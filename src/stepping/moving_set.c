@@ -214,12 +214,29 @@ void moving_set_subtract_weakening(const MovingSet *set, double reach, double *m
     }
 }
 
-void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix)
+// With s = |s| exp(i phi) Re 1/(s + k) falls as |s| grows; in cos phi it rises for |s| > k and
+// falls below. So it is largest at |s| = 1/reach, at cos phi = 1 or at `narrow`.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double *matrix)
 {
     for (int64_t a = 0; set->remembers && a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
-        if (moving->memory > 0)
-            matrix[a * (set->count + 1)] -= moving->memory * reach /
-                                            hypot(1, reach * moving->fading);
+        double fades = reach * moving->fading, cosine = fades > 1 ? narrow : 1;
+        double part = (cosine + fades) / (1 + 2 * cosine * fades + fades * fades);
+        if (moving->memory > 0) matrix[a * (set->count + 1)] -= moving->memory * reach * part;
     }
+}
+
+void moving_set_settle(MovingSet *set, double reach)
+{
+    for (int32_t a = 0; set->remembers && a < set->count; a++) {
+        MovingUnknown *moving = &set->list[a];
+        if (moving->memory == 0) continue;
+        double weakening = moving->weakening - moving->damper +
+                           moving->memory * reach / (1 + reach * moving->fading);
+        moving->weakening = fmax(weakening, 0);
+        moving->damper = fmax(-weakening, 0);
+        moving->memory = 0;
+        set->weakens = set->weakens || weakening > 0;
+    }
+    set->remembers = false;
 }

@@ -94,8 +94,10 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
 // That at s = 1/reach, time; 0: at once, whatever is remembered.
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix);
-// The most that what is remembered weakens at any s with |s| >= 1/reach and Re s >= 0: memory
-// |1/(s + fading)|.
-void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix);
+// The most that what is remembered weakens, memory Re 1/(s + fading), at any s with |s| >= 1/reach
+// and Re s >= narrow |s|, 0 <= narrow < 1.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double *matrix);
+// W(s) at s = 1/reach as weakening or damper, in place of what is remembered.
+void moving_set_settle(MovingSet *set, double reach);
 
 #endif
