@@ -150,9 +150,9 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
     bool remembers = control->scheme.memory.act;
     if (watched == 0) return false;
     RungRange all = {remembers ? k : 0, ladder->rung_count}, unseen = {all.first, all.first};
-    if (remembers) unseen.end = ladder_find(ladder, watched / ladder->gamma);
+    if (remembers) unseen.end = ladder_find(ladder, watched / ladder->gamma) + 1;
     bool seen = oscillation_record_covers(&control->oscillations, state);
-    bool small = seen && unseen.end <= unseen.first;
+    bool small = seen && unseen.end <= unseen.first + 1;
     return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
            certificate_excludes_runaway(&control->certificate, state, &control->ladder, all);
 }
