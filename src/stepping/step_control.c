@@ -141,18 +141,21 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
 
 // May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates
 // on is small, as certified or as seen so far, and nothing grows without oscillating. Where
-// friction remembers, what grows more slowly than the step is resolved by it, and what is slower
-// than the time that was watched has not been seen.
+// friction remembers, what grows more slowly than the step and than anything that could be seen is
+// resolved by it; what is slower than the time that was watched has not been seen.
 static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
 {
     const Ladder *ladder = &control->ladder;
     double watched = control->oscillations.duration;
-    bool remembers = control->scheme.memory.act;
     if (watched == 0) return false;
-    RungRange all = {remembers ? k : 0, ladder->rung_count}, unseen = {all.first, all.first};
-    if (remembers) unseen.end = ladder_find(ladder, watched / ladder->gamma) + 1;
-    bool seen = oscillation_record_covers(&control->oscillations, state);
-    bool small = seen && unseen.end <= unseen.first + 1;
+    int32_t slowest = ladder_find(ladder, watched / ladder->gamma);   // that was seen
+    RungRange all = {k < slowest ? k : slowest, ladder->rung_count};
+    RungRange unseen = {all.first, slowest + 1};
+    bool seen = oscillation_record_covers(&control->oscillations, state), small = seen;
+    if (control->scheme.memory.act)
+        small = seen && k >= slowest;
+    else
+        all.first = 0;
     return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
            certificate_excludes_runaway(&control->certificate, state, &control->ladder, all);
 }
