@@ -2,7 +2,7 @@
 // The certificate of friction that remembers against all growth rates of a block, its states
 // included, from dense matrices and differences of the laws: where it holds, all that does not
 // decay has |lambda| < 1/h; where oscillations are narrow Re lambda < a |lambda|; where runaway is
-// excluded no rate is real. Pressure follows slip in the last of these alone.
+// excluded no rate is real; growth_rates finds what there is. Pressure follows slip in the last two.
 #include "base/memory.h"
 #include "contact/friction_make.h"
 #include "contact/friction_state.h"
@@ -10,6 +10,7 @@
 #include "certificate_rig.h"
 #include "dense_by_hand.h"
 #include "random_numbers.h"
+#include "stepping/growth.h"
 
 enum { CONTACTS = 5, TRIALS = 400 };
 
@@ -274,5 +275,51 @@ TEST(test_what_oscillates_is_narrow)
                   excluded, slower, real);
     assert_true(cleared > TRIALS / 5 && growing > 5 && rightly > TRIALS / 20);
     assert_true(excluded > TRIALS / 5 && slower > 10 && real > TRIALS / 20);
+    fixture_destroy(&fixture);
+}
+
+// How far the nearest rate is, relative.
+static double distance_to(const Fixture *fixture, int32_t count, GrowthRate rate)
+{
+    double nearest = INFINITY, size = hypot(rate.re, rate.im);
+    for (int32_t k = 0; k < count; k++)
+        nearest = fmin(nearest, hypot(fixture->re[k] - rate.re, fixture->im[k] - rate.im));
+    return nearest / size;
+}
+
+// Slow ones of the states and fast ones of waves. 3e-4: derivatives of laws are differences here
+// (one of 800 is 1.3e-4 off).
+TEST(test_rates_with_memory)
+{
+    static Fixture fixture;
+    Error err = {0};
+    fixture_build(1, 0.1, &fixture);
+    GrowthDef def = {.slowest = 1e-5, .fastest = 20};
+    randomise(&fixture);   // so that the laws are ones with memory
+    Growth *growth = growth_create(&fixture.built.rig.block, &def, &err);
+    assert_non_null(growth);
+    int32_t compared = 0, grows = 0, real = 0;
+    for (int32_t trial = 0; trial < TRIALS / 4; trial++) {
+        randomise(&fixture);
+        list_free(&fixture);
+        GrowthRates found;
+        int32_t count = find_rates(&fixture, true), rightmost = 0;
+        assert_true(growth_rates(growth, &fixture.built.seen, &found, &err));
+        for (int32_t k = 0; k < found.count; k++)
+            if (!(distance_to(&fixture, count, found.rate[k]) < 3e-4))
+                fail_msg("trial %d: %g + %g i", trial, found.rate[k].re, found.rate[k].im);
+        for (int32_t k = 0; k < count; k++)
+            if (fixture.re[k] > fixture.re[rightmost] || k == 0) rightmost = k;
+        double re = fixture.re[rightmost], size = hypot(re, fixture.im[rightmost]);
+        compared += found.count;
+        if (!(re > 0) || size > def.fastest || size < def.slowest) continue;
+        assert_true(found.count > 0);
+        assert_near("the fastest", found.rate[0].re, re, 1e-4 * size);
+        grows++;
+        real += fixture.im[rightmost] == 0;
+    }
+    print_message("%d rates compared; %d states grow, %d of them real\n", compared, grows, real);
+    assert_true(compared > TRIALS / 4 && grows > 20 && real > 5);
+    growth_destroy(growth);
     fixture_destroy(&fixture);
 }
