@@ -2,17 +2,21 @@
 // Where on the path stability is lost first: l, U and mu of each way to lose it, into the summary.
 #include "study/stability/stability.h"
 
+#include "contact/friction_state.h"
+
 #include <math.h>
 
 // Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
 // size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip
-// then runs away although the pair is still complex.
+// then runs away although the pair is still complex. Friction that is 0 at rest has no such end: an
+// oscillation that grows becomes a sliding.
 double stability_half_period(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
     double ratio = path->model->law.critical_velocity / path->model->scene->rod.velocity;
     if (!(point->rate_re > 0)) return -INFINITY;
     if (!(point->rate_im > 0)) return INFINITY;
+    if (friction_creeps(&path->model->law) || ratio < 1) ratio = 1;
     return M_PI * point->rate_re / point->rate_im - log(ratio);
 }
 
