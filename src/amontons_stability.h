@@ -24,7 +24,7 @@ typedef struct StabilityPoint {
     double area;   // how much of the contact slips, over all of it
 } StabilityPoint;
 
-enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 6, STABILITY_WHY_SIZE = 400 };
+enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 7, STABILITY_WHY_SIZE = 400 };
 
 // Resistance of a contact curve (pad) to slip in the state where slip runs away at the scene's V;
 // l, drag and stiffness of the pad alone, everything else held.

@@ -194,7 +194,7 @@ cleanup:
 static bool measure_lengths(PadWork *work, double length, StabilitySummary *summary, Error *err)
 {
     double nodes = 0, elements = fmax(work->count - 1, 1);
-    if (work->path->grows) {
+    if (work->path->grows && !work->path->options->at_end) {
         TRY(steady_nodes(work, true, &nodes, err));
         summary->steady_contact = length * (nodes - 1) / elements;
     }
@@ -321,7 +321,7 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         summary->pad_count = p + 1;
     }
     for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;
-    if (!path->options->at_end && interface->dim == 2) {
+    if (interface->dim == 2) {
         take_pad(&work, summary->pad);
         work.pressure = summary->pads[summary->pad].pressure;
         TRY(measure_lengths(&work, summary->pads[summary->pad].length, summary, err));

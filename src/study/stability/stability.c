@@ -281,6 +281,7 @@ static bool take_end(StabilityPath *path, Error *err)
     Observation seen = simulation->seen;
     TRY(open_path(path, err));
     state_copy(&simulation->control.now, &path->last);
+    seen.creep = 0;   // what creeps may grow
     if (count_slipping(&seen) == 0)
         FAIL(err, ERROR_INPUT, "%s: nothing slips at the scene's end, t = %g: nothing can grow",
              simulation->scene.path, seen.t);
