@@ -134,9 +134,8 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    return growth > 1 &&
-           certificate_oscillates_less(&control->certificate, state, &control->ladder, range,
-                                       growth);
+    return growth > 1 && certificate_oscillates_less(&control->certificate, state, &control->ladder,
+                                                     range, growth);
 }
 
 // May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates

@@ -238,19 +238,18 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     // With memory: nothing grows that is as fast as the slowest rate that is looked for.
     double reach = path->laws ? 1 / path->slowest : 0, started = clock_seconds();
     TRY(growth_rates(path->growth, &path->last, &rates, err));
-    *point =
-        (StabilityPoint){.front = seen->front - seen->trailing,
-                         .slipping = count_slipping(&last),
-                         .U = path->U_start + seen->U,
-                         .mu = seen->mu,
-                         .mu_at_V = mu_at_V(path, &path->last, seen->mu),
-                         .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
-                         .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
-                         .real_rate = rates.real.re,
-                         .load = growth_scan(path->growth, &path->last).ratio,
-                         .certified =
-                             certificate_holds(&path->control.certificate, &path->last, reach),
-                         .area = slipping_area(interface, &last)};
+    *point = (StabilityPoint){
+        .front = seen->front - seen->trailing,
+        .slipping = count_slipping(&last),
+        .U = path->U_start + seen->U,
+        .mu = seen->mu,
+        .mu_at_V = mu_at_V(path, &path->last, seen->mu),
+        .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
+        .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
+        .real_rate = rates.real.re,
+        .load = growth_scan(path->growth, &path->last).ratio,
+        .certified = certificate_holds(&path->control.certificate, &path->last, reach),
+        .area = slipping_area(interface, &last)};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);
     keep_slip(interface, rates.mode_im, mode + interface->contact_count);

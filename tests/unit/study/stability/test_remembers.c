@@ -44,8 +44,8 @@ TEST(test_critical_spring)
                           .healing_time = 40,
                           .slip_distance = 2e-3},
          laws);
-    assert_near("drop phi N/D_c", stability_critical_spring(&rig.path, 0, 4),
-                0.3 / 3 * 4 / 2e-3, 1e-4);
+    assert_near("drop phi N/D_c", stability_critical_spring(&rig.path, 0, 4), 0.3 / 3 * 4 / 2e-3,
+                1e-4);
     assert_near("1/t_h + V/D_c", stability_forgets(&rig.path, 0), 1.0 / 40 + V / 2e-3, 1e-7);
     take(&rig, FRICTION_AGEING,
          (FrictionMemory){.kind = MEMORY_AGEING,

@@ -82,7 +82,8 @@ TEST(test_what_else_is_said)
     rig.summary.pads[1].critical_stiffness = 1.25;
     rig.summary.pads[1].stiffness = 0.5;
     rig.summary.nucleation_length = NAN;
-    expect(&rig, 6, "steady on a stiffness above 1.25 (critical); that of right, all else held, is 0.5.");
+    expect(&rig, 6,
+           "steady on a stiffness above 1.25 (critical); that of right, all else held, is 0.5.");
     rig.summary.nucleation_length = 0.75;
     expect(&rig, 6, "grows on a part longer than 0.75 (nucleation length)");
     rig.summary.pads[1].critical_stiffness = NAN;
