@@ -109,13 +109,16 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 }
 
 // The same, or the end of the block: there it slides, whether or not anything grows, at the largest
-// mu of the path (that of the end itself is what is left while it slides).
+// mu of the path (that of the end itself is what is left while it slides). What creeps gives way
+// before it runs away: of it that is the largest mu so far.
 static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = first_loss(path, margin);
-    if (!isnan(lost.front) || !path->at_end) return lost;
-    lost = path->points[path->count - 1];
-    for (int32_t k = 0; k < path->count - 1; k++) {
+    bool creeps = friction_creeps(&path->model->law), ends = isnan(lost.front);
+    if (!creeps && (!ends || !path->at_end)) return lost;
+    if (ends && !path->at_end) return lost;
+    if (ends) lost = path->points[path->count - 1];
+    for (int32_t k = 0; k < path->count - 1 && path->points[k].front <= lost.front; k++) {
         if (path->points[k].mu < lost.mu) continue;
         lost.mu = path->points[k].mu;
         lost.mu_at_V = path->points[k].mu_at_V;

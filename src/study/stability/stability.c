@@ -149,7 +149,7 @@ static bool open_path(StabilityPath *path, Error *err)
     double mean = material_slip_speed(&model->materials.mean);   // with soft regions it is slower
     GrowthDef growth = growth_def(model->length, speed, (int32_t)elements);
     growth.slowest = fmin(growth.slowest * (mean / speed), mean / (4 * model->height));   // if tall
-    if (path->laws) growth.slowest = fmin(growth.slowest, slowest_memory(path));
+    while (path->laws && growth.slowest > slowest_memory(path)) growth.slowest /= 2;
     path->slowest = growth.slowest;
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
