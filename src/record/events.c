@@ -62,10 +62,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 
 void events_destroy(Events *events)
 {
-    memory_free(events->list);
-    memory_free(events->slipped);
-    memory_free(events->pads);
-    memory_free(events->pads_before);
+    memory_free_all(events->list, events->slipped, events->pads, events->pads_before);
     front_path_destroy(&events->path);
     *events = (Events){0};
 }

@@ -173,8 +173,7 @@ cleanup:
 
 void scene_profile_destroy(SceneProfile *profile)
 {
-    memory_free(profile->x);
-    memory_free(profile->gap);
+    memory_free_all(profile->x, profile->gap);
     *profile = (SceneProfile){0};
 }
 

@@ -49,11 +49,10 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
     if (friction_remembers(&scene->friction, 0))
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: friction.law: growth rates are those of friction that depends on slip rate alone; "
-            "`%s` remembers (`amontons run` takes it)",
-            scene->path, friction_law_name(&scene->friction));
+        FAIL(err, ERROR_INPUT,
+             "%s: friction.law: growth rates are those of friction that depends on slip rate "
+             "alone; `%s` remembers (`amontons run` takes it)",
+             scene->path, friction_law_name(&scene->friction));
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
@@ -68,8 +67,7 @@ static bool stop_wanted(const StabilityPath *path, Error *err)
     if (options->stop && *options->stop)
         FAIL(err, ERROR_INTERRUPT,
              "stopped: the path is one answer, which is written when it has been followed to its "
-             "end; "
-             "nothing was written, and the same command begins anew");
+             "end; nothing was written, and the same command begins anew");
     return false;
 cleanup:
     return true;
@@ -324,9 +322,7 @@ static void path_destroy(StabilityPath *path)
     state_destroy(&path->runaway);
     rod_destroy(&path->rod);
     amontons_simulation_destroy(path->simulation);
-    memory_free(path->points);
-    memory_free(path->modes);
-    memory_free(path->critical_mode);
+    memory_free_all(path->points, path->modes, path->critical_mode);
 }
 
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per
