@@ -195,6 +195,29 @@ class Space(OwnCache):
         left, right = (moved[ahead & (numpy.abs(place[:, 1] - y) < 1e-9), 0].mean() for y in (0, 0.5))
         self.assertGreater(left, right + 1e-6)
 
+    def test_height_map(self):
+        """A measured z(x, y), its points in any order: between them bilinear, as this formula is."""
+        wanted = self.call("static", "rod.displacement=2e-3", "contact.gap=2e-3*(x + 0.1)*(y + 0.2)")["results"]
+        points = [(x, y, 2e-3 * (x + 0.1) * (y + 0.2)) for x in (-0.1, 0.13, 0.5) for y in (0, 0.31, 0.4, 0.7)]
+        numpy.random.default_rng(3).shuffle(points)
+        path = self.folder / "map.csv"
+        for head, unit, more in (("# measured", 1, []), ("x [mm], y/mm, gap_um", 1e3, ["units=si", "material={poisson: 0.34, young: 1, density: 1, eta1: 1, eta2: 1}"])):
+            path.write_text(f"{head}\n" + "".join(f"{unit * x!r}, {unit * y!r}, {unit * gap * (1000 if unit > 1 else 1)!r}\n" for x, y, gap in points))
+            found = self.call("static", "rod.displacement=2e-3", "contact.profile=map.csv", *more)["results"]
+            for key in ("rod_force", "normal_force", "elastic_energy", "pressure_moment"):
+                self.assertAlmostEqual(found[key] / wanted[key], 1, delta=1e-9, msg=key)
+            self.assertEqual([found[key] for key in ("sticking", "slipping", "open")], [wanted[key] for key in ("sticking", "slipping", "open")])
+        self.assertGreater(wanted["open"], 0)
+        flat = "mesh={file: %s/meshes/block.geo}" % SOURCE
+        for text, says, more in (("0 0 0\n0 1 0\n1 0 0\n", "3 points at 2 different x and 2 different y: a height map is a grid", []),
+                                 ("0 0 0\n0 1 0\n1 0 0\n0 1 1\n", "has two points at x = 0, y = 1", []),
+                                 ("0 0 0\n0 1 0\n", "has 1 point along x; two or more", []),
+                                 ("0 0 0\n0 1\n", ":2:4: found `0 1`; wanted: three numbers, x, y and gap", []),
+                                 ("0 0 0\n0 0.2 0\n1 0 0\n1 0.2 0\n", "from y = 0 to 0.2, the contact from 0 to 0.5", []),
+                                 ("0 0 0\n0 1 0\n1 0 0\n1 1 0\n", "the mesh is in the plane: there is no y", [flat])):
+            path.write_text(text)
+            self.assertIn(says, self.call("static", "rod.displacement=2e-3", "contact.profile=map.csv", *more, fails=True))
+
     def test_refused(self):
         for words, says in ((["material.poisson=0.5"], "Poisson's ratios below 0.5"),
                             (["friction.along=z"], "is no number here: x and y alone"),
