@@ -313,6 +313,11 @@ TEST_BETWEEN(test_history, setup, teardown)
     expect_values(file, SERIES_SLIP, 2 * NODES, slip);
     expect_values(file, SERIES_SHEAR, 2 * NODES, shear);
     expect_values(file, SERIES_STATUS, NODES, status);
+    // Of nine nodes: sum of 1 - i below 0; slip by weights, whose mean of i is 4.
+    expect_values(file, SERIES_PAD_SHEAR, 1, (const double[]){36});
+    expect_values(file, SERIES_PAD_SHEAR_ACROSS, 1, (const double[]){36 - NODES});
+    expect_values(file, SERIES_PAD_SLIP, 1, (const double[]){4});
+    expect_values(file, SERIES_PAD_SLIP_ACROSS, 1, (const double[]){4.25});
     assert_near("format", result_file_number(file, NUMBER_FORMAT), 2, 0);
     double *y = NULL;
     int32_t count = 0;
