@@ -218,6 +218,34 @@ class Space(OwnCache):
             path.write_text(text)
             self.assertIn(says, self.call("static", "rod.displacement=2e-3", "contact.profile=map.csv", *more, fails=True))
 
+    def test_step_file(self):
+        """A bridge on two feet out of a STEP file in mm, somewhere in its space: its sizes, names and load; another file of the same name is another block."""
+        mesh = f"mesh={{file: {SOURCE}/meshes/step3d.geo, set: {{file: {self.folder}/part.step, unit: 0.01, size_contact: 0.4, size_bulk: 0.4}}}}"
+        found = []
+        for length in (100, 120):
+            (self.folder / "part.geo").write_text(f"""SetFactory("OpenCASCADE");
+Box(1) = {{-7, 5, 3, {length}, 40, 50}};
+Box(2) = {{23, 5, 3, {length - 60}, 40, 10}};
+BooleanDifference(3) = {{ Volume{{1}}; Delete; }}{{ Volume{{2}}; Delete; }};
+""")
+            subprocess.run(["gmsh", "-0", "part.geo", "-o", "part.step"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            results = self.call("static", mesh, "rod={velocity: 2e-5, height: 0.3, displacement: 1e-3}")["results"]
+            with h5py.File(self.folder / "result/static.h5") as file:
+                place, touching = file["nodes/position"][:], file["contact/node"][:]
+            numpy.testing.assert_allclose(place.max(axis=0), [length / 100, 0.4, 0.5], atol=1e-7)
+            numpy.testing.assert_allclose(place.min(axis=0), 0, atol=1e-7)
+            self.assertEqual(abs(place[touching, 2]).max(), 0)
+            x = place[touching, 0]
+            self.assertFalse(((x > 0.31) & (x < length / 100 - 0.31)).any())
+            self.assertAlmostEqual(results["normal_force"], 0.003 * 0.4 * length / 100, delta=1e-8)
+            found.append(results["rod_force"])
+        self.assertNotEqual(*found)
+        said = subprocess.run([PROGRAM, "info", SOURCE / "meshes/step3d.geo", "--set", f"file={self.folder}/part.step"], capture_output=True, text=True, check=True).stdout
+        for name in ("contact_1", "contact_2", "top", "rod", "leading", "left", "right"):
+            self.assertRegex(said, rf"{name} +surface")
+        said = self.call("static", f"mesh={{file: {SOURCE}/meshes/step3d.geo, set: {{file: none.step}}}}", fails=True)
+        self.assertIn("none.step", said)
+
     def test_refused(self):
         for words, says in ((["material.poisson=0.5"], "Poisson's ratios below 0.5"),
                             (["friction.along=z"], "is no number here: x and y alone"),
