@@ -6,6 +6,7 @@
 #include "cli/point_table.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
+#include "cli_help.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,15 +19,7 @@ static const CommandText text = {
     .argument = "SCENE",
     .what = "scene",
     .example = "amontons stability validation/paper/fig1.yaml",
-    .help =
-        "Follows the quasi-static slip of the scene file SCENE and prints, for each position "
-        "l of the slip front, how fast small disturbances of that state grow. l_sc is where "
-        "the first oscillation grows, l_c where the first disturbance grows without "
-        "oscillating: there slow slip turns into sliding, and mu is mu_M."
-        "\vThe instability itself is not simulated in time. With -o it also writes stability.json "
-        "and stability.h5. Example:\n\n"
-        "  amontons stability validation/paper/fig1.yaml --set mesh.set.nx=40 "
-        "mesh.set.nz=40 -o stable"};
+    .help = stability_txt};
 
 typedef struct StabilityWords {
     SceneWords common;

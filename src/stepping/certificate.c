@@ -48,9 +48,7 @@ void certificate_destroy(Certificate *certificate)
     contact_matrix_destroy(&certificate->damping_contact);
     interface_operator_destroy(certificate->damping);
     moving_set_destroy(&certificate->moving);
-    memory_free(certificate->matrix);
-    memory_free(certificate->vector);
-    memory_free(certificate->pivots);
+    memory_free_all(certificate->matrix, certificate->vector, certificate->pivots);
     *certificate = (Certificate){0};
 }
 

@@ -104,8 +104,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
         int32_t k = growth->shift_count++;
         growth->shift[k] = s;
         OperatorTerms terms = {.mass = s, .damping = 1, .stiffness = 1 / s};
-        growth->at[k] = interface_operator_create(block->system, terms, err);
-        if (!growth->at[k]) goto cleanup;
+        TRY((growth->at[k] = interface_operator_create(block->system, terms, err)));
         if (s >= def->fastest) break;
     }
 cleanup:
@@ -123,8 +122,7 @@ void growth_destroy(Growth *growth)
                         growth->mode_re, growth->mode_im, growth->real_mode};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
     moving_set_destroy(&growth->moving);
-    memory_free(growth->pivots);
-    memory_free(growth);
+    memory_free_all(growth->pivots, growth);
 }
 
 // --- the scan -----------------------------------------------------------------------------------

@@ -23,12 +23,8 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
 
 void moving_set_destroy(MovingSet *set)
 {
-    memory_free(set->list);
-    memory_free(set->unknown);
-    memory_free(set->normal);
-    memory_free(set->friction);
-    memory_free(set->turned);
-    memory_free(set->direction);
+    memory_free_all(set->list, set->unknown, set->normal, set->friction, set->turned,
+                    set->direction);
     *set = (MovingSet){0};
 }
 

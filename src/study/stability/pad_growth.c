@@ -50,8 +50,7 @@ static bool work_create(StabilityPath *path, PadWork *work, Error *err)
     int64_t count = model->interface.contact_count;
     *work = (PadWork){.path = path, .interface = &model->interface};
     OperatorTerms terms = {.stiffness = 1, .lift = true};
-    work->stiffness = interface_operator_create(&model->system, terms, err);
-    if (!work->stiffness) goto cleanup;
+    TRY((work->stiffness = interface_operator_create(&model->system, terms, err)));
     TRY(state_create(&model->system, work->interface, &work->trial, err));
     work->nodes = NEW_ARRAY(int32_t, count, err);
     work->pivots = NEW_ARRAY(int32_t, count, err);
@@ -67,11 +66,7 @@ static void work_destroy(PadWork *work)
 {
     interface_operator_destroy(work->stiffness);
     state_destroy(&work->trial);
-    memory_free(work->nodes);
-    memory_free(work->pivots);
-    memory_free(work->matrix);
-    memory_free(work->values);
-    memory_free(work->work);
+    memory_free_all(work->nodes, work->pivots, work->matrix, work->values, work->work);
 }
 
 // The smallest eigenvalue of w^-1/2 S[T,T] w^-1/2 over the whole pad. condensed: NULL where the

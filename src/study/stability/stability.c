@@ -63,8 +63,7 @@ static bool stop_wanted(const StabilityPath *path, Error *err)
     if (options->stop && *options->stop)
         FAIL(err, ERROR_INTERRUPT,
              "stopped: the path is one answer, which is written when it has been followed to its "
-             "end; "
-             "nothing was written, and the same command begins anew");
+             "end; nothing was written, and the same command begins anew");
     return false;
 cleanup:
     return true;
@@ -349,10 +348,7 @@ static void path_destroy(StabilityPath *path)
     state_destroy(&path->runaway);
     rod_destroy(&path->rod);
     amontons_simulation_destroy(path->simulation);
-    memory_free(path->laws);
-    memory_free(path->points);
-    memory_free(path->modes);
-    memory_free(path->critical_mode);
+    memory_free_all(path->laws, path->points, path->modes, path->critical_mode);
 }
 
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per

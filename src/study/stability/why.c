@@ -118,8 +118,7 @@ static void say_what_comes_before(const StabilityPath *path, StabilitySummary *s
     if (summary->mu_sc < same)
         say(summary,
             "From mu %.4f on (l_sc) oscillations grow, at first too slowly for this V: precursors "
-            "may "
-            "come in bursts, and a run may slide somewhat earlier.",
+            "may come in bursts, and a run may slide somewhat earlier.",
             summary->mu_sc);
     if (summary->mu_snap < summary->mu_rod * (1 + EARLIER)) {
         int32_t pad = interface->pad[path->snap_node];
@@ -138,8 +137,7 @@ static void say_what_follows(StabilitySummary *summary)
     if (!alone || !(fall < LEAST_DROP * summary->mu_rod)) return;
     say(summary,
         "If the other pads hold, mu falls by %.1f %% at most, less than the %.0f %% of a load "
-        "drop: "
-        "then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
+        "drop: then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
         100 * fall / summary->mu_rod, 100 * LEAST_DROP);
 }
 
@@ -160,6 +158,5 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
     if (path->grows) say_what_follows(summary);
     if (summary->l_c_scan < summary->l_sc - summary->element)
         say(summary, "l_c (scan) is shorter than l_sc as it leaves out that slip shifts pressure, "
-                     "which here "
-                     "steadies it.");
+                     "which here steadies it.");
 }
