@@ -79,18 +79,15 @@ static void print_mu_M(const RunSummary *summary)
                  : summary->mu_M_is);
         return;
     }
-    if (strcmp(summary->mu_M_is, STEADY) == 0) {
-        print_estimate("mu_M", summary->mu_M, NAN, summary->mu_M_known_to);
+    bool bar = summary->bar_runs > 0, steady = strcmp(summary->mu_M_is, STEADY) == 0;
+    print_estimate("mu_M", summary->mu_M, bar ? summary->mu_M_error : (double)NAN,
+                   summary->mu_M_known_to);
+    if (bar) print_parts(summary->mu_M_error, summary->mu_M_parts);
+    if (steady)
         say(": F_T/F_N of %s; the block slides slowly as a whole, no sliding was fast\n", STEADY);
-        return;
-    }
-    if (summary->bar_runs > 0) {
-        print_estimate("mu_M", summary->mu_M, summary->mu_M_error, summary->mu_M_known_to);
-        print_parts(summary->mu_M_error, summary->mu_M_parts);
+    else if (bar)
         say(": static friction\n");
-        return;
-    }
-    print_estimate("mu_M", summary->mu_M, NAN, summary->mu_M_known_to);
+    if (steady || bar) return;
     say(": static friction, mean of the last %d of %d peaks, each before the whole block slid\n",
         summary->peaks_counted, summary->peaks);
     print_known_to(summary->mu_M_known_to);

@@ -130,6 +130,13 @@ static void print_answers(const StabilitySummary *summary)
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     point_table_answer("mu_M at V", summary->mu_rod,
                        "mu at l_c at V, less what slow slip at V weakens friction");
+    double critical = summary->pads[summary->pad].critical_stiffness;
+    if (!isnan(critical)) {
+        point_table_answer("critical stiffness", critical,
+                           "of a body below it slip at V is not steady; memory of friction");
+        point_table_answer("nucleation length", summary->nucleation_length,
+                           "slip on a longer part grows, all else held");
+    }
     say("  (the front moves from node to node, %.4f L apart)\n", summary->element);
     print_pads(summary);
     say("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",

@@ -165,7 +165,8 @@ static const SceneKey keys[] = {
     {"contact.profile", KEY_TEXT, offsetof(Scene, contact.profile), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "The same as a file, relative to the scene's folder: a line for each point, x and "
-                 "gap, over all of the contact. A first line may give units, `x [mm], gap [um]`."},
+                 "gap, in space also x, y and gap (a height map), over all of the contact. A first "
+                 "line may give units, `x [mm], gap [um]`."},
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",

@@ -3,6 +3,7 @@
 // so alone, what would hold it, and why a run of the same scene may differ.
 #include "study/stability/stability.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -93,6 +94,22 @@ static void say_whether_alone(StabilitySummary *summary)
             pad->load);
 }
 
+// Of friction that remembers: how stiff a body must be, and on what length slip sets out.
+static void say_what_memory_asks(const StabilityPath *path, StabilitySummary *summary)
+{
+    const StabilityPad *pad = &summary->pads[summary->pad];
+    char length[120] = "";
+    if (!path->laws || isnan(pad->critical_stiffness)) return;
+    if (!isnan(summary->nucleation_length))
+        snprintf(length, sizeof length,
+                 " Slip that all else holds grows on a part longer than %.3g (nucleation length).",
+                 summary->nucleation_length);
+    say(summary,
+        "Slip of a massless body at V is steady on a stiffness above %.3g (critical); that of %s, "
+        "all else held, is %.3g.%s",
+        pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
+}
+
 // What a run may show before: oscillations, and jumps.
 static void say_what_comes_before(const StabilityPath *path, StabilitySummary *summary)
 {
@@ -135,7 +152,8 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
         say(summary, "The path ended before anything ran away.");
     else
         say_what_decides(path, summary);
-    if (path->grows) say_whether_alone(summary);
+    if (path->grows && !path->laws) say_whether_alone(summary);
+    say_what_memory_asks(path, summary);
     say_what_comes_before(path, summary);
     if (path->grows) say_what_follows(summary);
     if (summary->l_c_scan < summary->l_sc - summary->element)
