@@ -88,8 +88,7 @@ static void print_mu_M(const RunSummary *summary)
     else if (bar)
         say(": static friction\n");
     if (steady || bar) return;
-    say(": static friction, mean of the last %d of %d peaks, each before the whole block "
-        "slid\n",
+    say(": static friction, mean of the last %d of %d peaks, each before the whole block slid\n",
         summary->peaks_counted, summary->peaks);
     print_known_to(summary->mu_M_known_to);
     print_on_this_mesh(summary->mu_M, summary->mu_M_error);
@@ -237,8 +236,8 @@ static void print_answers(const RunSummary *summary)
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;
-    say("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip "
-        "could have grown, %lld: no solution)\n",
+    say("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip could "
+        "have grown, %lld: no solution)\n",
         (long long)counters->accepted,
         (long long)counters->rejected + (long long)counters->unsolved_retries,
         (long long)counters->rejected - (long long)counters->rejected_uncertified,
