@@ -136,6 +136,34 @@ best: {over: front, designs: 9}
         if "may be as good" in said:
             self.assertRegex(said, r"half the error of all takes some \d+ to \d+ s of one processor")
 
+    def test_bars_missed_by_far(self):
+        """Runs that end by their time, far from the 0.05 % asked for, are not asked for half of it: the search ends, and says why."""
+        text = HEAD.replace("by: mu_max", "by: mu_M, refine: 0.02%").replace("time.until.U: 0.02", "accuracy: {mu: 0.05%, within: 3}") + \
+            "search: {load.pressure: {log: [0.003, 0.0035]}}\nbest: {designs: 1}\n"
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        rows = [row for row in self.table("out") if row["mu_M"]]
+        missed = {row["load.pressure"] for row in rows if not float(row["mu_M_error"] or "inf") <= 0.001 * float(row["mu_M"])}
+        self.assertGreater(len(missed), 1)
+        self.assertFalse(missed & {row["load.pressure"] for row in rows if float(row["accuracy.mu"]) < 0.0005})
+        self.assertRegex(said, r"\d of them missed the error bar asked for by far, or have none: only more time for a run")
+
+    def test_search_in_parts(self):
+        """Behind each third of the designs come five along each key through the best of all so far, those known or not allowed left
+        out; in between no design lies nearer to another than 1/40 of a range. All of it from the table's rows."""
+        self.call("optimise", SEARCH.replace("SEED", "1"), "-q", "-j", "2", "-o", "out")
+        rows = [(float(row["mesh.set.length"]), float(row["load.pressure"]), float(row["mu_max"])) for row in self.table("out")]
+        steps = {float(f"{0.003 * 4**(k / 40):.3g}") for k in range(41)}
+        at = 0
+        for _ in range(3):
+            self.assertLessEqual({pressure for _, pressure, _ in rows[at:at + 10]}, steps)
+            at += 10
+            best = max(rows[:at], key=lambda row: row[2])
+            along = {(float(length), best[1]) for length in (1, 2, 3, 4)}      # of five, rounded to whole numbers
+            along |= {(best[0], float(f"{0.003 * 4**(k / 4):.3g}")) for k in range(5)}
+            along = {(length, pressure) for length, pressure in along - {row[:2] for row in rows[:at]} if length * pressure >= 0.008}
+            self.assertEqual({row[:2] for row in rows[at:at + len(along)]}, along)
+            at += len(along)
+
     def test_designs_without_a_scene(self):
         """mu_kinetic above mu_static is refused: such designs are passed over and counted. The base scene has no length, which a
         formula of `set` takes from a searched key: there is no start, and a search."""

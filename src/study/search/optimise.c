@@ -21,6 +21,10 @@ enum {
     BESTS_MAX = 3,   // times that deciding may come to another design
 };
 
+// Of the error asked for: a run whose bar came out longer ended by its time (accuracy.within), and
+// to be asked for half the error it would end with the same meshes.
+static const double MISSED_BY_FAR = 2;
+
 typedef struct Optimise {
     Search search;
     double accuracy;   // accuracy.mu of the study; 0: none
@@ -80,15 +84,15 @@ cleanup:
 // --- deciding -----------------------------------------------------------------------------------
 
 // Half the error that was asked for or, where that is smaller, of the one that came out. false: it
-// is as small as it may get.
+// is as small as it may get, or as the time for a run makes it.
 static bool next_accuracy(const Search *search, Design *design)
 {
     const Optimise *self = search->judge.context;
     double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
     double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
-    double next = fmax(fmin(asked, came_out) / 2, limit);
+    if (!design->has_bar || came_out > MISSED_BY_FAR * asked) design->settled = true;
     if (design->settled || !(limit > 0) || asked <= limit) return false;
-    design->accuracy = next;
+    design->accuracy = fmax(fmin(asked, came_out) / 2, limit);
     return true;
 }
 
