@@ -35,11 +35,14 @@ typedef struct Optimise {
 static bool take_value(Search *search, int32_t d, int32_t c, const char *report, Error *err)
 {
     (void)err;
-    const Study *study = search->study;
-    PointValue found = point_value(report, study->records[study->rank.record].path);
-    bool has_bar = !isnan(found.bar);
-    designs_points(&search->designs, d)[c] =
-        (DesignPoint){found.value, has_bar ? found.bar : found.known_to, has_bar};
+    const Designs *designs = &search->designs;
+    for (int32_t a = c; a < designs->aims; a += designs->conditions) {
+        int32_t record = designs_aim(designs, a).record;
+        PointValue found = point_value(report, search->study->records[record].path);
+        bool has_bar = !isnan(found.bar);
+        designs_points(designs, d)[a] =
+            (DesignPoint){found.value, has_bar ? found.bar : found.known_to, has_bar};
+    }
     return true;
 }
 
@@ -161,13 +164,14 @@ static bool has_front(const Search *search)
 static void set_aim(Search *search, int32_t aim)
 {
     search->designs.aim = aim;
+    search->designs.lowest = designs_aim(&search->designs, aim < 0 ? 0 : aim).lowest;
     for (int32_t d = 0; d < search->designs.count; d++) designs_judge(&search->designs, d);
 }
 
 // Of a front a part for the mean of its aims, and one for each alone.
 static int32_t count_parts(const Search *search)
 {
-    return has_front(search) ? 1 + search->designs.conditions : PARTS;
+    return has_front(search) ? 1 + search->designs.aims : PARTS;
 }
 
 static bool search_in_parts(Search *search, Error *err)
