@@ -91,8 +91,7 @@ static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
         pattern->start[dof + 1] = filled;
     }
 cleanup:
-    memory_free(graph.start);
-    memory_free(graph.neighbour);
+    memory_free_all(graph.start, graph.neighbour);
     return error_is_clean(err);
 }
 
@@ -194,11 +193,7 @@ bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *mate
 void bulk_destroy(Bulk *bulk)
 {
     sparse_pattern_destroy(&bulk->pattern);
-    memory_free(bulk->stiffness);
-    memory_free(bulk->damping);
-    memory_free(bulk->mass);
-    memory_free(bulk->load);
-    memory_free(bulk->held);
+    memory_free_all(bulk->stiffness, bulk->damping, bulk->mass, bulk->load, bulk->held);
     *bulk = (Bulk){0};
 }
 

@@ -64,11 +64,8 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 
 void events_destroy(Events *events)
 {
-    memory_free(events->list);
-    memory_free(events->slipped);
-    memory_free(events->slow_arrival);
-    memory_free(events->pads);
-    memory_free(events->pads_before);
+    memory_free_all(events->list, events->slipped, events->slow_arrival, events->pads,
+                    events->pads_before);
     front_path_destroy(&events->path);
     *events = (Events){0};
 }

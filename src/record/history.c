@@ -51,12 +51,8 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
 // A file that was not finished stays as history.h5.part, which render and info can read.
 void history_destroy(History *history)
 {
-    memory_free(history->row);
-    memory_free(history->pad);
-    memory_free(history->line);
-    memory_free(history->pad_sums);
-    memory_free(history->pad_row);
-    memory_free(history->pad_length);
+    memory_free_all(history->row, history->pad, history->line, history->pad_sums, history->pad_row,
+                    history->pad_length);
     array_file_abandon(history->file);
     *history = (History){0};
 }

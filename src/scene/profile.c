@@ -266,9 +266,7 @@ cleanup:
 
 void scene_profile_destroy(SceneProfile *profile)
 {
-    memory_free(profile->x);
-    memory_free(profile->y);
-    memory_free(profile->gap);
+    memory_free_all(profile->x, profile->y, profile->gap);
     *profile = (SceneProfile){0};
 }
 

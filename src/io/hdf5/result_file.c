@@ -170,8 +170,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     if (head->contact_count < 1)
         FAIL(err, ERROR_INPUT, "a result needs contact nodes, not %d of them", head->contact_count);
     TRY(history_path(folder, path, err));
-    file = array_file_create(path, err);
-    if (!file) goto cleanup;
+    TRY((file = array_file_create(path, err)));
     TRY(write_attributes(file, head, err));
     for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
         if (!head->nodes[k]) continue;
@@ -202,8 +201,7 @@ ArrayFile *result_file_reopen(const char *folder, Error *err)
     char path[PATH_MAX];
     ArrayFile *file = NULL;
     TRY(history_path(folder, path, err));
-    file = array_file_reopen(path, err);
-    if (!file) goto cleanup;
+    TRY((file = array_file_reopen(path, err)));
     for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
         TRY(array_file_remove(file, table_rows[k].name, err));
     TRY(array_file_remove(file, number_rows[NUMBER_MU_M].name, err));
