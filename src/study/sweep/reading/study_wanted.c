@@ -143,8 +143,7 @@ static bool read_records(Study *study, Error *err)
     int32_t count = yaml_count(study->file, list);
     if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
         return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
-    for (YamlNode item = yaml_first(study->file, list); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
+    YAML_EACH (item, study->file, list)
         if (!is_always_there(yaml_text(study->file, item)))
             TRY(read_record(study, item, "record", &ignored, err));
 cleanup:
@@ -169,8 +168,7 @@ static bool read_against(Study *study, const WantedKey *key, Error *err)
                            "first, best, or a map of varied keys, as in {mesh.set.n: 1}", err);
     study->rank.against = AGAINST_KEYS;
     study->rank.baseline = key->node;
-    for (YamlNode item = yaml_first(study->file, key->node); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
+    YAML_EACH (item, study->file, key->node) {
         if (study_is_chosen(study, yaml_key(study->file, item))) continue;
         yaml_key_error(study->file, item, err,
                        "against: neither `vary` nor `cases` has the key `%.60s`",
@@ -304,9 +302,7 @@ static bool read_plots(Study *study, Error *err)
     YamlNode plots = yaml_look_up(study->file, "plot");
     if (plots == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, plots) != YAML_LIST) return read_plot(study, plots, err);
-    for (YamlNode node = yaml_first(study->file, plots); node != YAML_NO_NODE;
-         node = yaml_next(study->file, node))
-        TRY(read_plot(study, node, err));
+    YAML_EACH (node, study->file, plots) TRY(read_plot(study, node, err));
 cleanup:
     return error_is_clean(err);
 }
