@@ -99,8 +99,7 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
                           .unknown = "is no number here: v, p, the states, and numbers that "
                                      "friction gives, such as mu_static or slip_distance"};
     *key = "state";
-    if (source->state_count > STATES_MAX)
-        FAIL(err, ERROR_INPUT, "at most %d states", STATES_MAX);
+    if (source->state_count > STATES_MAX) FAIL(err, ERROR_INPUT, "at most %d states", STATES_MAX);
     for (int32_t k = 0; k < source->state_count; k++) more[k + 1] = source->state[k].name;
     for (int32_t k = 0; k <= source->state_count; k++) {
         if (k == 0) *key = "formula";
@@ -173,10 +172,16 @@ bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char
 
 void friction_make_memory(const FrictionMemory *memory, FrictionLaw *law)
 {
-    law->own.memory = *memory;
+    FrictionMemory *own = &law->own.memory;
+    *own = *memory;
+    if (own->factor == 0) own->factor = 1;
+    if (memory->kind < MEMORY_FORMULAS) {   // built in
+        own->states = 1;
+        own->creeps = memory->kind == MEMORY_RATE_STATE;
+    }
     law->remembers = true;
     law->mu_static = memory->mu_static;
     law->mu_kinetic = memory->mu_kinetic;
     law->critical_velocity = memory->critical_velocity;
-    law->strengthens = memory->creeps;
+    law->strengthens = own->creeps;
 }

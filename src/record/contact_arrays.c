@@ -19,21 +19,15 @@ bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
     arrays->shear = NEW_ARRAY(double, count *tangents, err);
     arrays->status = NEW_ARRAY(uint8_t, count, err);
     arrays->states = friction_states(law, count);
-    if (arrays->states > 0)
-        arrays->state = NEW_ARRAY(double, (int64_t)count * arrays->states, err);
+    if (arrays->states > 0) arrays->state = NEW_ARRAY(double, (int64_t)count * arrays->states, err);
     arrays->origin = NEW_ARRAY(double, count *tangents, err);
     return error_is_clean(err);
 }
 
 void contact_arrays_destroy(ContactArrays *arrays)
 {
-    memory_free(arrays->slip_rate);
-    memory_free(arrays->slip);
-    memory_free(arrays->pressure);
-    memory_free(arrays->shear);
-    memory_free(arrays->status);
-    memory_free(arrays->state);
-    memory_free(arrays->origin);
+    memory_free_all(arrays->slip_rate, arrays->slip, arrays->pressure, arrays->shear,
+                    arrays->status, arrays->state, arrays->origin);
     *arrays = (ContactArrays){0};
 }
 

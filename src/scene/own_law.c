@@ -50,9 +50,6 @@ bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Erro
     const SceneOwnFriction *own = &scene->own_friction;
     bool creeps = law->kind == FRICTION_RATE_STATE;
     FrictionMemory memory = {.kind = memory_kind(law->kind),
-                             .states = 1,
-                             .creeps = creeps,
-                             .factor = 1,
                              .mu_static = law->mu_static,
                              .mu_kinetic = law->mu_kinetic,
                              .critical_velocity = law->critical_velocity,

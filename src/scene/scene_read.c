@@ -74,8 +74,7 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
     YamlKind kind = yaml_kind(document, value->node);
     if (kind != YAML_MAP && kind != YAML_NOTHING)
         return yaml_refuse(document, value->node, name, "a map of keys", err);
-    for (YamlNode item = yaml_first(document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, value->node) {
         char path[KEY_NAME_SIZE];
         SceneValue child = {.document = document, .node = item};
         snprintf(path, sizeof path, "%s%s%.60s", name, *name ? "." : "", yaml_key(document, item));
@@ -348,8 +347,7 @@ cleanup:
 static void destroy_reader(Reader *reader)
 {
     for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
-    memory_free(reader->overrides);
-    memory_free(reader->settings);
+    memory_free_all(reader->overrides, reader->settings);
     yaml_destroy(reader->file);
     yaml_destroy(reader->defaults);
 }

@@ -25,13 +25,8 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
 
 void moving_set_destroy(MovingSet *set)
 {
-    memory_free(set->list);
-    memory_free(set->unknown);
-    memory_free(set->normal);
-    memory_free(set->friction);
-    memory_free(set->turned);
-    memory_free(set->direction);
-    memory_free(set->rates);
+    memory_free_all(set->list, set->unknown, set->normal, set->friction, set->turned,
+                    set->direction, set->rates);
     *set = (MovingSet){0};
 }
 
@@ -227,25 +222,49 @@ void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix)
         matrix[a * set->count + a] += set->list[a].damper + reach * set->list[a].spring;
 }
 
+// W(s) - W of unknown a at s = 1/reach.
+static double remembered_at(const MovingSet *set, int32_t a, double reach)
+{
+    const MovingUnknown *moving = &set->list[a];
+    if (moving->node >= 0) return friction_weakens_at(&set->rates[moving->node], reach);
+    return moving->memory * reach / (1 + reach * moving->fading);
+}
+
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix)
 {
     for (int64_t a = 0; a < set->count; a++) {
-        const MovingUnknown *moving = &set->list[a];
-        double remembered = moving->memory * reach / (1 + reach * moving->fading);
-        if (moving->node >= 0)
-            remembered = friction_weakens_at(&set->rates[moving->node], reach);
-        matrix[a * set->count + a] -= moving->weakening + remembered;
+        double remembered = remembered_at(set, (int32_t)a, reach);
+        matrix[a * set->count + a] -= set->list[a].weakening + remembered;
     }
 }
 
-void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix)
+// With s = |s| exp(i phi) Re 1/(s + k) falls as |s| grows; in cos phi it rises for |s| > k and
+// falls below. So it is largest at |s| = 1/reach, at cos phi = 1 or at `narrow`.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
+                                double *matrix)
 {
     for (int64_t a = 0; set->remembers && a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
         double *diagonal = &matrix[a * (set->count + 1)];
-        if (moving->memory > 0)
-            *diagonal -= moving->memory * reach / hypot(1, reach * moving->fading);
+        double fades = reach * moving->fading, cosine = fades > 1 ? narrow : 1;
+        double part = factor * (cosine + fades) / (1 + 2 * cosine * fades + fades * fades);
+        if (moving->memory > 0) *diagonal -= moving->memory * reach * part;
         if (moving->node >= 0)
-            *diagonal -= friction_weakens_most(&set->rates[moving->node], reach);
+            *diagonal -= factor * friction_weakens_most(&set->rates[moving->node], reach);
     }
+}
+
+void moving_set_settle(MovingSet *set, double reach)
+{
+    for (int32_t a = 0; set->remembers && a < set->count; a++) {
+        MovingUnknown *moving = &set->list[a];
+        if (moving->memory == 0 && moving->node < 0) continue;
+        double weakening = moving->weakening - moving->damper + remembered_at(set, a, reach);
+        moving->weakening = fmax(weakening, 0);
+        moving->damper = fmax(-weakening, 0);
+        moving->memory = 0;
+        moving->node = -1;
+        set->weakens = set->weakens || weakening > 0;
+    }
+    set->remembers = false;
 }

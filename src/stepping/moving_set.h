@@ -29,7 +29,7 @@
 //     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
 //
 // a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
-// `fading`.
+// `fading`. Of several states w(s) - w is that of a small system (contact/friction_state).
 //
 // A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).
@@ -97,8 +97,11 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
 // That at s = 1/reach, time; 0: at once, whatever is remembered.
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix);
-// The most that what is remembered weakens at any s with |s| >= 1/reach and Re s >= 0: memory
-// |1/(s + fading)|.
-void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix);
+// `factor` times the most that what is remembered weakens, memory Re 1/(s + fading), at any s with
+// |s| >= 1/reach and Re s >= narrow |s|, 0 <= narrow < 1.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
+                                double *matrix);
+// W(s) at s = 1/reach as weakening or damper, in place of what is remembered.
+void moving_set_settle(MovingSet *set, double reach);
 
 #endif

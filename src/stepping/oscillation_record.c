@@ -2,6 +2,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 
 // Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at
@@ -35,8 +36,8 @@ void oscillation_record_clear(OscillationRecord *record)
     record->seen_for = 0;
 }
 
-// Weakening of contact node k (rod node k - contact_count) where it moves; -1, less than any, where
-// it is held.
+// Weakening, with what is remembered at s = 1/duration, of contact node k (rod node k -
+// contact_count) where it moves; -1, less than any, where it is held.
 static double weakening_of(const OscillationRecord *record, const State *state, int32_t k)
 {
     int32_t contacts = record->interface->contact_count;
@@ -44,7 +45,10 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
     double speed = slip_size(record->interface, k, state->slip_rate);
-    double slope = friction_slope(friction_at(record->law, k), speed);
+    FrictionRates rates;
+    friction_rates(friction_at(record->law, k), speed, state->theta + (int64_t)k * STATES_MAX,
+                   &rates);
+    double slope = rates.mu_speed - friction_weakens_at(&rates, record->duration);
     return slope < 0 ? -slope * state->reaction[interface_normal(record->interface, k)]
                      : 0;   // 0: it strengthens
 }

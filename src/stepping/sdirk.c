@@ -37,16 +37,9 @@ void sdirk_destroy(Sdirk *scheme)
 {
     contact_solver_destroy(&scheme->solver);
     friction_states_destroy(&scheme->memory);
-    memory_free(scheme->rhs);
-    memory_free(scheme->force);
-    memory_free(scheme->viscous);
-    memory_free(scheme->predictor);
-    memory_free(scheme->g);
-    memory_free(scheme->bound);
-    memory_free(scheme->stage_velocity);
-    memory_free(scheme->stage_impulse);
-    memory_free(scheme->stage_elastic);
-    memory_free(scheme->stage_reaction);
+    memory_free_all(scheme->rhs, scheme->force, scheme->viscous, scheme->predictor, scheme->g,
+                    scheme->bound, scheme->stage_velocity, scheme->stage_impulse,
+                    scheme->stage_elastic, scheme->stage_reaction);
     *scheme = (Sdirk){0};
 }
 
@@ -129,7 +122,7 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
     int32_t again = PRESSURES_MAX;
     while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
         *solved = again-- > 0 && contact_solve(&scheme->solver, &problem, contact);
-    if (!*solved) goto cleanup;
+    TRY(*solved);
     scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
     // What is held is held exactly, not to the rounding of the substitution.

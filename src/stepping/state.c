@@ -21,7 +21,7 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
     state->inertia = NEW_ARRAY(double, state->dof_count, err);
     state->slip_rate = NEW_ARRAY(double, state->interface_count, err);
     state->reaction = NEW_ARRAY(double, state->interface_count, err);
-    state->theta = NEW_ARRAY(double, (int64_t)state->contact_count * STATES_MAX, err);
+    state->theta = NEW_ARRAY(double, (int64_t)state->contact_count *STATES_MAX, err);
     state->status = NEW_ARRAY(uint8_t, state->contact_count, err);
     state->rod_touches = NEW_ARRAY(uint8_t, state->rod_count, err);
     if (!error_is_clean(err)) return false;
@@ -31,16 +31,9 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
 
 void state_destroy(State *state)
 {
-    memory_free(state->displacement);
-    memory_free(state->velocity);
-    memory_free(state->elastic_force);
-    memory_free(state->momentum);
-    memory_free(state->inertia);
-    memory_free(state->slip_rate);
-    memory_free(state->reaction);
-    memory_free(state->theta);
-    memory_free(state->status);
-    memory_free(state->rod_touches);
+    memory_free_all(state->displacement, state->velocity, state->elastic_force, state->momentum,
+                    state->inertia, state->slip_rate, state->reaction, state->theta, state->status,
+                    state->rod_touches);
     *state = (State){0};
 }
 

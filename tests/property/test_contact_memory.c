@@ -21,9 +21,6 @@ static void set_law(Random *random, FrictionKind kind, FrictionLaw *law)
                                        [FRICTION_SLIP_WEAKENING] = MEMORY_SLIP_WEAKENING,
                                        [FRICTION_RATE_STATE] = MEMORY_RATE_STATE};
     FrictionMemory memory = {.kind = kinds[kind],
-                             .states = 1,
-                             .creeps = kind == FRICTION_RATE_STATE,
-                             .factor = 1,
                              .mu_static = random_between(random, 0.2, 0.5),
                              .mu_kinetic = 0.1,
                              .critical_velocity = random_between(random, 1, 3),

@@ -5,6 +5,7 @@
 
 #include "reduction/machine.h"
 #include "fem/mesh.h"
+#include "contact/friction_pace.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
@@ -15,6 +16,7 @@
 #include "scene/materials.h"
 #include "scene/profile.h"
 #include "stepping/load_course.h"
+#include "stepping/moving_set.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,7 +32,7 @@ REPLACED(bool, shape_key, const Scene *scene, double tolerance, char key[HASH_TE
 REPLACED(bool, model_lay_laws, Model *model, Error *err);
 REPLACED(bool, model_lay_gaps, Model *model, Error *err);
 REPLACED(double, mesh_gap, const Mesh *mesh, int32_t node);
-REPLACED(double, scene_profile_at, const SceneProfile *profile, double x);
+REPLACED(double, scene_profile_at, const SceneProfile *profile, double x, double y);
 REPLACED(bool, scene_hash, const Scene *scene, bool (*counts)(const char *key), Hash *hash,
          Error *err);
 REPLACED(double, load_factor, const LoadCourse *course, double time);
@@ -46,6 +48,8 @@ REPLACED(bool, saved_state_take_back, Simulation *simulation, const SavedState *
 REPLACED(double, memory_coefficient, const FrictionMemory *memory, double speed, double *slope);
 REPLACED(double, memory_state, const FrictionMemory *memory, double speed);
 REPLACED(double, memory_rested, const FrictionMemory *memory, double rest);
+REPLACED(void, moving_set_find, MovingSet *set, const State *state, bool with_open);
+REPLACED(FrictionLaw, friction_paced, const FrictionLaw *law, double pace);
 
 static bool made(Mistake mistake)
 {
@@ -86,10 +90,11 @@ double __wrap_mesh_gap(const Mesh *mesh, int32_t node)
     return made(MISTAKE_FLAT_MESH) ? 0 : __real_mesh_gap(mesh, node);
 }
 
-// Of the point before it.
-double __wrap_scene_profile_at(const SceneProfile *profile, double x)
+// Of the point before it; of a map with x and y in each other's place.
+double __wrap_scene_profile_at(const SceneProfile *profile, double x, double y)
 {
-    if (!made(MISTAKE_PROFILE_STEPS)) return __real_scene_profile_at(profile, x);
+    if (made(MISTAKE_MAP_TURNED) && profile->y) return __real_scene_profile_at(profile, y, x);
+    if (!made(MISTAKE_PROFILE_STEPS)) return __real_scene_profile_at(profile, x, y);
     int32_t k = 0;
     while (k + 1 < profile->count && profile->x[k + 1] <= x) k++;
     return profile->gap[k];
@@ -193,4 +198,20 @@ double __wrap_memory_state(const FrictionMemory *memory, double speed)
 double __wrap_memory_rested(const FrictionMemory *memory, double rest)
 {
     return __real_memory_rested(memory, made(MISTAKE_MEMORY_FRESH) ? 1e-9 * rest : rest);
+}
+
+// g_theta of the other sign, or no memory at all, in what is linearised.
+void __wrap_moving_set_find(MovingSet *set, const State *state, bool with_open)
+{
+    __real_moving_set_find(set, state, with_open);
+    for (int32_t a = 0; a < set->count; a++) {
+        if (made(MISTAKE_MEMORY_GROWS)) set->list[a].fading *= -1;
+        if (made(MISTAKE_MEMORY_BLIND)) set->list[a].memory = 0;
+    }
+}
+
+// The quasi-static path remembers as its own slow rod would.
+FrictionLaw __wrap_friction_paced(const FrictionLaw *law, double pace)
+{
+    return __real_friction_paced(law, made(MISTAKE_MEMORY_CLOCK) ? 1 : pace);
 }

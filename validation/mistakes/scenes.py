@@ -25,6 +25,7 @@ TABLE = (
     ("flat-mesh", "the gaps that the mesh itself leaves are", "test_gaps.Gaps.test_hertz"),
     ("profile-steps", "a profile is level between its points", "test_gaps.Gaps.test_profile"),
     ("profile-name", "results know a profile by its name, not by its content", "test_gaps.Gaps.test_profile"),
+    ("map-turned", "a height map is read with x and y exchanged", "test_space.Space.test_height_map"),
     ("load-stairs", "the load jumps where it should rise", "test_programs.Programs.test_rigid_block"),
     ("load-points", "steps pass over the points of a load's program", "test_programs.Programs.test_schemes_agree"),
     ("rod-way", "U is the velocity of the moment times t", "test_programs.Programs.test_rigid_block"),
@@ -37,6 +38,9 @@ TABLE = (
     ("memory-lagged", "friction takes the state that a stage began with", "test_memory.Memory.test_velocity_steps"),
     ("memory-kept", "slip takes nothing away from what is remembered", "test_memory.Memory.test_rigid_block_that_sticks"),
     ("memory-fresh", "contacts have rested for no time when the rod begins", "test_memory.Memory.test_rigid_block_that_sticks"),
+    ("memory-grows", "g_theta has the wrong sign in growth rates and certificate", "test_stability.Memory.test_nucleation_length"),
+    ("memory-blind", "both leave the states out", "test_stability.Memory.test_nucleation_length"),
+    ("memory-clock", "contacts remember on the slow path of `stability` as if it were the drive", "test_stability.Memory.test_runs_agree"),
     ("memory-evolution", "the slip law evolves as the ageing law does", "test_memory.Memory.test_velocity_steps"),
     ("state-rounded", "a run that is taken back is off by one rounding", "test_windows.Windows.test_around"),
 )

@@ -10,8 +10,8 @@ typedef enum ResultColumns {
     COLUMNS_PADS   // one a contact curve: nodes/pad numbers them
 } ResultColumns;
 
-// Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start. In
-// space slip_rate, slip and shear have a last axis: along x, along y.
+// Rows are accepted steps: the state at the END of the step, row 0 the start. In space slip_rate,
+// slip and shear have a last axis: along x, along y.
 // X(symbol, name, stored type, columns, unit, description)
 #define RESULT_SERIES(X)                                                                           \
     X(SERIES_TIME, "series/time", ARRAY_FLOAT64, ONE, "time", "t, 0 when the rod starts")          \
@@ -44,15 +44,18 @@ typedef enum ResultColumns {
     X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
       "theta of friction that remembers (`slip-weakening`: the part of strength that is there, "   \
       "1; one's own: in its own units, several along a last axis); absent where nothing is "       \
-      "remembered")                                                    \
+      "remembered")                                                                                \
     X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
       "friction on each pad, positive against the drive")                                          \
+    X(SERIES_PAD_SHEAR_ACROSS, "pads/shear_across", ARRAY_FLOAT64, PADS, "force/width",            \
+      "the same across the drive, towards -y; in space only")                                      \
     X(SERIES_PAD_SLIP, "pads/slip", ARRAY_FLOAT64, PADS, "length",                                 \
-      "interface/slip, mean over each pad")                                                        \
-    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length",                         \
-      "how much of each pad slips")
+      "mean of interface/slip along the drive")                                                    \
+    X(SERIES_PAD_SLIP_ACROSS, "pads/slip_across", ARRAY_FLOAT64, PADS, "length",                   \
+      "the same across the drive; in space only")                                                  \
+    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length", "how much of it slips")
 
 // Fixed arrays over contact nodes, ordered by x. X(symbol, name, stored type, unit, description)
 #define RESULT_NODES(X)                                                                            \

@@ -208,9 +208,7 @@ bool measured_read(const Study *study, Measured *measured, Error *err)
     YamlNode node = study->search.measured;
     *measured = (Measured){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
-    for (YamlNode one = yaml_first(study->file, node); one != YAML_NO_NODE;
-         one = yaml_next(study->file, one))
-        TRY(read_named(study, one, measured, err));
+    YAML_EACH (one, study->file, node) TRY(read_named(study, one, measured, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -218,8 +216,7 @@ cleanup:
 void measured_destroy(Measured *measured)
 {
     for (int32_t k = 0; k < measured->condition_count; k++) memory_free(measured->conditions[k]);
-    memory_free(measured->conditions);
-    memory_free(measured->list);
+    memory_free_all(measured->conditions, measured->list);
     *measured = (Measured){0};
 }
 
@@ -256,8 +253,7 @@ static bool find_on_curve(const Datum *datum, const char *history, double *value
     *value = read_along(x, y, rows, datum->at);
 cleanup:
     array_file_close(file, &ignored);
-    memory_free(x);
-    memory_free(y);
+    memory_free_all(x, y);
     return error_is_clean(err);
 }
 

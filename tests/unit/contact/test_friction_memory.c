@@ -9,8 +9,6 @@
 enum { LAWS = 4 };
 
 static const FrictionMemory MEMORIES[LAWS] = {{.kind = MEMORY_AGEING,
-                                               .states = 1,
-                                               .factor = 1,
                                                .mu_static = 0.4,
                                                .mu_kinetic = 0.1,
                                                .critical_velocity = 0.05,
@@ -18,25 +16,17 @@ static const FrictionMemory MEMORIES[LAWS] = {{.kind = MEMORY_AGEING,
                                                .healing_time = 3,
                                                .healing = 0.2},
                                               {.kind = MEMORY_SLIP_WEAKENING,
-                                               .states = 1,
-                                               .factor = 1,
                                                .mu_static = 0.4,
                                                .mu_kinetic = 0.1,
                                                .slip_distance = 0.02,
                                                .healing_time = 3},
                                               {.kind = MEMORY_RATE_STATE,
-                                               .states = 1,
-                                               .factor = 1,
-                                               .creeps = true,
                                                .slip_distance = 0.02,
                                                .healing = 0.03,
                                                .direct = 0.02,
                                                .reference = 0.5,
                                                .reference_velocity = 0.01},
                                               {.kind = MEMORY_RATE_STATE,
-                                               .states = 1,
-                                               .factor = 1,
-                                               .creeps = true,
                                                .slip_distance = 0.02,
                                                .healing = 0.03,
                                                .direct = 0.02,
@@ -110,8 +100,8 @@ TEST(test_derivatives)
             double scale = 0.1 / v;   // mu over its speed
             assert_near("mu_v", rates.mu_speed, difference(mu_of_speed, &law, v, theta, h),
                         1e-8 * scale);
-            assert_near("mu_theta", rates.mu_state[0], difference(mu_of_state, &law, theta, v, 1e-3),
-                        1e-9);
+            assert_near("mu_theta", rates.mu_state[0],
+                        difference(mu_of_state, &law, theta, v, 1e-3), 1e-9);
             assert_near("g_v", rates.rate_speed[0], difference(rate_of_speed, &law, v, theta, h),
                         1e-8 * fabs(rates.rate_speed[0]) + 1e-9 / v);
             assert_near("g_theta", rates.rate_state[0][0],
