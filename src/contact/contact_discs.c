@@ -7,6 +7,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "contact/contact_sweeps.h"
+#include "contact/friction_state.h"
 
 #include <string.h>
 
@@ -83,7 +84,8 @@ static bool judge_node(const Settling *settling, int32_t i)
     double z[] = {at->reaction[t] - rho * at->velocity[t],
                   at->reaction[t + 1] - rho * at->velocity[t + 1]};
     double size = hypot(z[0], z[1]);
-    if (size <= limit + (was == CONTACT_STICK ? slack : 0)) {
+    bool creeps = friction_creeps(law) && size > 0;
+    if (!creeps && size <= limit + (was == CONTACT_STICK ? slack : 0)) {
         at->status[i] = CONTACT_STICK;
         return was != CONTACT_STICK;
     }
@@ -213,7 +215,7 @@ static bool may_reuse(const Settling *settling)
 {
     const ContactNewton *newton = settling->newton;
     int64_t factored = settling->problem->matrix->factored;
-    return newton->factors_gain && !settling->factors_anew && factored > 0 &&
+    return newton->factors_gain && !newton->creeps && !settling->factors_anew && factored > 0 &&
            factored == newton->factorisations &&
            contact_has_statuses(&newton->equations, newton->factors.status);
 }
@@ -268,6 +270,7 @@ static bool take_step(Settling *settling)
     for (int32_t a = 0; a < equations->free_count; a++) newton->step[a] = -newton->step[a];
     if (newton->open_count > 0) add_pull(settling);
     dense_lu_solve(newton->factors.lu, equations->free_count, newton->factors.pivots, newton->step);
+    contact_newton_creep(newton);
     memcpy(settling->discs->taken, newton->step, (size_t)equations->free_count * sizeof(double));
     contact_newton_take(newton);
     settling->discs->iterations++;

@@ -21,7 +21,8 @@ static ContactView contact_view(const Interface *interface, const ContactArrays 
                          .pressure = contact->pressure,
                          .shear = contact->shear,
                          .status = contact->status,
-                         .state = contact->state};
+                         .state = contact->state,
+                         .states = contact->states};
 }
 
 StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,

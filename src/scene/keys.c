@@ -97,9 +97,14 @@ static const SceneKey keys[] = {
      .choices = interpolation_choices},
     {"friction.formula", KEY_TEXT, offsetof(Scene, own_friction.formula), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
-                 "log, tanh, abs, round, min, max, points, and mu_static, mu_kinetic, "
-                 "critical_velocity where they are given."},
+     .sentence =
+         "Law `formula`: mu of the slip rate v >= 0, the pressure p and the states, with + "
+         "- * / ^, brackets, sqrt, exp, log, tanh, asinh, abs, round, min, max, points, and "
+         "numbers of this map where they are given: mu_static, slip_distance or D_c, ..."},
+    {"friction.state", KEY_STATES, offsetof(Scene, own_friction.states), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "Law `formula`: what a contact remembers, each state by the formula of its rate "
+                 "and what it is at first (if not given, as in steady slip at rod.velocity)."},
     {"friction.file", KEY_TEXT, offsetof(Scene, own_friction.file), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "Law `plugin`: a shared object with the functions of amontons_friction.h, "

@@ -5,6 +5,7 @@
 #include "scene/value.h"
 
 #include "base/text.h"
+#include "scene/states.h"
 #include "scene/units.h"
 
 #include <math.h>
@@ -386,6 +387,7 @@ void scene_value_clear(const SceneKey *key, Scene *scene)
     size_t size = key->type == KEY_NUMBER         ? sizeof(double)
                   : key->type == KEY_NUMBERS      ? sizeof(SceneNumbers)
                   : key->type == KEY_CONTACT_LAWS ? sizeof(SceneContactLaws)
+                  : key->type == KEY_STATES       ? sizeof(SceneStates)
                   : key->type == KEY_MATERIALS    ? sizeof(SceneMaterials)
                   : key->type == KEY_CHOICE       ? sizeof(int32_t)
                   : key->type == KEY_FLAG         ? sizeof(bool)
@@ -418,6 +420,8 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
     case KEY_CONTACT_LAWS:   // read when all that they may leave out is (scene/contact_laws)
         if (yaml_kind(value->document, value->node) != YAML_LIST) report_wrong(key, value, err);
         return error_is_clean(err);
+    case KEY_STATES:
+        return scene_states_set(key, value, scene, err);
     case KEY_MATERIALS:   // scene/materials
         return true;
     case KEY_FIELDS:

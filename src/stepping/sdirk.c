@@ -96,6 +96,9 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
     return own;
 }
 
+// Of a law that asks for pressure: problems in a row, each with the pressures of the one before.
+enum { PRESSURES_MAX = 40 };
+
 // Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
 // settled.
 static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSolution *contact,
@@ -115,7 +118,11 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .matrix = ladder_contact(scheme->ladder, rung),
                               .g = scheme->g,
                               .bound = scheme->bound};
-    TRY((*solved = contact_solve(&scheme->solver, &problem, contact)));
+    *solved = contact_solve(&scheme->solver, &problem, contact);
+    int32_t again = PRESSURES_MAX;
+    while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
+        *solved = again-- > 0 && contact_solve(&scheme->solver, &problem, contact);
+    TRY(*solved);
     scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
     // What is held is held exactly, not to the rounding of the substitution.
@@ -253,7 +260,7 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     friction_states_start_stage(&scheme->memory, tableau, trial->step, i, trial->from);
     TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
     if (!trial->outcome->solved) goto cleanup;
-    friction_states_end_stage(&scheme->memory, i, to->slip_rate, to->theta);
+    friction_states_end_stage(&scheme->memory, i, to->slip_rate, to);
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
     find_viscous(scheme, momentum, elastic, &contact, trial->scaled);
