@@ -49,7 +49,8 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
     if (driven) {
         Schedule program = scene_schedule(&scene->rod.program);
         double fastest = scene->rod.velocity * schedule_largest(&program);
-        double longest = STEP_MAX_SLIP * (sizes->slip + sizes->yield) / fastest;
+        double slip = fmax(sizes->slip, sizes->memory);   // a stiff block slips on to lose memory
+        double longest = STEP_MAX_SLIP * (slip + sizes->yield) / fastest;
         def.step_max = def.wave_step * exp2(ceil(log2(longest / def.wave_step)));
     }
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
