@@ -281,7 +281,8 @@ static const SceneKey keys[] = {
                  "drop of friction drives, (mu_S - mu_K) P H / E; 0: by time.accuracy."},
     {"time.step_max", KEY_NUMBER, offsetof(Scene, time.step_max), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Longest step; 0: the rod moves 0.2 of the slip that the drop of friction drives "
-                 "(see time.tolerance) in it, up to twice that; without a rod a 50th of the run."},
+                 "(see time.tolerance), or of friction.slip_distance if that is more, in it, up to "
+                 "twice that; without a rod a 50th of the run."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Shortest step; 0: 1e-10 of the smaller of longest step and wave step."},
     {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
