@@ -103,6 +103,15 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
     return own;
 }
 
+static bool solve_half(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
+                       bool *lopsided)
+{
+    bool alike, solved = half_step_solve(scheme->half, problem, contact, &alike);
+    contact_solver_take_counts(&scheme->solver, &scheme->half->solver);
+    *lopsided = !alike;
+    return solved;
+}
+
 // Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
 // settled.
 static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSolution *contact,
@@ -122,7 +131,10 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .matrix = ladder_contact(scheme->ladder, rung),
                               .g = scheme->g,
                               .bound = scheme->bound};
-    *solved = contact_solve(&scheme->solver, &problem, contact);
+    if (scheme->ladder->halved)
+        *solved = solve_half(scheme, &problem, contact, &trial->outcome->lopsided);
+    else
+        *solved = contact_solve(&scheme->solver, &problem, contact);
     if (!*solved) goto cleanup;
     scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
@@ -321,20 +333,6 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
     ledger->load_work += outcome->load_work;
 }
 
-// Counters (whose factors are used again depends on one of them) and what is kept.
-static void solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive)
-{
-    archive_section(archive, "contact solver");
-    contact_newton_archive(&solver->newton, archive);
-    archive_count(archive, &solver->solves);
-    archive_count(archive, &solver->iterations);
-    archive_count(archive, &solver->fallbacks);
-    archive_count(archive, &solver->rescued);
-    archive_count(archive, &solver->unsolved);
-    archive_count(archive, &solver->path.steps);
-    if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
-}
-
 void sdirk_archive(Sdirk *scheme, Archive *archive)
 {
     archive_section(archive, "scheme");
@@ -342,5 +340,5 @@ void sdirk_archive(Sdirk *scheme, Archive *archive)
     archive_number(archive, &scheme->reach);
     archive_count(archive, &scheme->steps);
     friction_states_archive(&scheme->memory, archive);
-    solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
+    contact_solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
 }

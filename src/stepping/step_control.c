@@ -37,12 +37,16 @@ static const double STEPS_LEFT_MAX = 1e8;
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
-    *control = (StepControl){.def = *def, .certified = true};
+    *control = (StepControl){.def = *def, .certified = true, .even = true};
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
+    if (def->use_certificate && !control->scheme.memory.laws)
+        TRY(half_step_create(block, &control->certificate, &control->half, err));
+    if (control->half.exists) control->ladder.half = &control->half.half;
+    control->scheme.half = &control->half;
     TRY(oscillation_record_create(block, def->watch_time, &control->oscillations, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
     TRY(state_create(block->system, block->interface, &control->next, err));
@@ -58,6 +62,7 @@ void step_control_destroy(StepControl *control)
     ladder_destroy(&control->ladder);
     sdirk_destroy(&control->scheme);
     certificate_destroy(&control->certificate);
+    half_step_destroy(&control->half);
     oscillation_record_destroy(&control->oscillations);
     state_destroy(&control->now);
     state_destroy(&control->next);
@@ -84,6 +89,33 @@ void step_control_restart(StepControl *control)
     int32_t first =
         ladder_find(&control->ladder, fmin(control->def.wave_step, control->def.step_max));
     control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
+}
+
+// --- one side or both -----------------------------------------------------------------------------
+
+// The next step from `now`.
+static void choose_sides(StepControl *control)
+{
+    control->ladder.halved = control->even && !control->lopsided && control->ladder.half &&
+                             half_step_take_law(&control->half, control->scheme.law);
+}
+
+// What is odd in `next` cannot gain energy. Where it might, what follows is asked as a whole.
+static bool is_even(StepControl *control, double reach)
+{
+    HalfStep *half = &control->half;
+    bool even = control->ladder.half && !control->lopsided &&
+                certificate_holds(&half->odd, half_step_fold(half, &control->next), reach);
+    control->ladder.halved = control->ladder.halved && even;
+    return even;
+}
+
+// Whom to ask about `state`, and how it is handed over.
+static Certificate *certificate_of(StepControl *control, const State **state)
+{
+    if (!control->ladder.halved) return &control->certificate;
+    *state = half_step_fold(&control->half, *state);
+    return &control->half.even;
 }
 
 typedef enum Verdict {
@@ -133,8 +165,8 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    return growth > 1 &&
-           certificate_oscillates_less(&control->certificate, state, &control->ladder, growth);
+    Certificate *certificate = certificate_of(control, &state);
+    return growth > 1 && certificate_oscillates_less(certificate, state, &control->ladder, growth);
 }
 
 // May `state` be left or reached by a step that does not resolve waves? What oscillates on is
@@ -142,18 +174,20 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
 // that where friction remembers.
 static bool may_skip_waves(StepControl *control, const State *state)
 {
-    return control->oscillations.duration > 0 && !control->scheme.memory.act &&
-           (oscillation_record_covers(&control->oscillations, state) ||
-            oscillations_stay_small(control, state)) &&
-           certificate_excludes_runaway(&control->certificate, state, &control->ladder);
+    bool small = control->oscillations.duration > 0 && !control->scheme.memory.act &&
+                 (oscillation_record_covers(&control->oscillations, state) ||
+                  oscillations_stay_small(control, state));
+    Certificate *certificate = certificate_of(control, &state);
+    return small && certificate_excludes_runaway(certificate, state, &control->ladder);
 }
 
-// Cheapest first. *certified: of the state the step leads to; true, without a look, where the
-// certificate is switched off.
+// Cheapest first. *certified and *even: of the state the step leads to; where the certificate is
+// switched off true and false, without a look.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
-                          bool *certified)
+                          bool *certified, bool *even)
 {
     *certified = true;
+    *even = false;
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
     // Where no shorter step is left the run's own ledger decides (run/simulation).
@@ -161,12 +195,15 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
     if (!control->def.use_certificate) return STEP_ACCEPTED;
     double reach = ladder_reach(&control->ladder, k);
-    *certified = certificate_holds(&control->certificate, &control->next, reach);
+    *even = is_even(control, reach);
+    const State *next = &control->next;
+    Certificate *certificate = certificate_of(control, &next);
+    *certified = certificate_holds(certificate, next, reach);
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
         return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    bool resolved = certificate_step_resolves(&control->certificate, &control->next,
-                                              ladder_contact(&control->ladder, k), reach);
+    bool resolved =
+        certificate_step_resolves(certificate, next, ladder_contact(&control->ladder, k), reach);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
@@ -270,8 +307,10 @@ static void scan_growth(StepControl *control, int32_t k)
     }
     if (control->certified || slipping <= control->scanned) return;
     control->scanned = slipping;
-    control->grows = certificate_finds_runaway(&control->certificate, &control->now,
-                                               &control->ladder, k < wave_rung(control) ? -1 : k);
+    const State *now = &control->now;
+    Certificate *certificate = certificate_of(control, &now);
+    control->grows = certificate_finds_runaway(certificate, now, &control->ladder,
+                                               k < wave_rung(control) ? -1 : k);
 }
 
 // `now` and `next` exchange their arrays.
@@ -290,6 +329,8 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
     else
         control->counters.stepped_over_oscillations += !control->certified;
     control->ladder.accepted[k]++;
+    certificate_take_counts(&control->certificate, &control->half.even);
+    certificate_take_counts(&control->certificate, &control->half.odd);
 }
 
 // A step that was shortened only to end where the run ends does not choose the next rung.
@@ -303,16 +344,22 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
     StepCounters *counters = &control->counters;
     int32_t k = fit_rung(control, control->rung, remaining);
-    bool shortened = k != control->rung, retried = false, certified = true;
+    bool shortened = k != control->rung, retried = false, certified = true, even = false;
     for (;;) {
         StepOutcome outcome;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
         control->scheme.solver.follows_path = k == control->ladder.rung_count - 1;
+        choose_sides(control);
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
-        Verdict verdict = judge_step(control, k, &outcome, &certified);
+        if (outcome.lopsided) {
+            control->lopsided = true;
+            continue;
+        }
+        Verdict verdict = judge_step(control, k, &outcome, &certified, &even);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
+            control->even = even;
             accept_step(control, k, &outcome);
             scan_growth(control, k);
             if (!shortened || retried)
@@ -379,10 +426,13 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     sdirk_archive(&control->scheme, archive);
     oscillation_record_archive(&control->oscillations, archive);
     certificate_archive(&control->certificate, archive);
+    half_step_archive(&control->half, archive);
     archive_section(archive, "step control");
     archive_number(archive, &control->outcome.residual);
     archive_number(archive, &control->last_step);
     archive_flag(archive, &control->certified);
+    archive_flag(archive, &control->even);
+    archive_flag(archive, &control->lopsided);
     archive_flag(archive, &control->grows);
     archive_flag(archive, &control->settles);
     archive_integer(archive, &control->scanned);
@@ -391,6 +441,7 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
     counters_archive(&control->counters, archive);
-    return ladder_archive(&control->ladder, control->scheme.solver.newton.factorisations, archive,
-                          err);
+    int64_t last = control->scheme.solver.newton.factorisations;
+    int64_t last_halved = control->half.solver.newton.factorisations;
+    return ladder_archive(&control->ladder, last, last_halved, archive, err);
 }

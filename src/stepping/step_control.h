@@ -43,7 +43,8 @@ typedef struct StepControl {
     StepControlDef def;
     Ladder ladder;   // owned, like all that follows
     Sdirk scheme;
-    Certificate certificate;
+    Certificate certificate;   // of both sides
+    HalfStep half;   // of one, where they are alike
     OscillationRecord oscillations;
     State now;   // the last accepted state
     State next;   // work
@@ -51,6 +52,8 @@ typedef struct StepControl {
     StepOutcome outcome;   // of the last accepted step
     double last_step;   // its length, time
     bool certified;   // `now` is dissipative
+    bool even;   // what is odd in it cannot gain energy: the next step may be halved
+    bool lopsided;   // a problem was not its own mirror image: no step is halved any more
     bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some rung's
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then
