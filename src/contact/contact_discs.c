@@ -396,6 +396,28 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
     return solved;
 }
 
+// At a solution e.r_t = 0, and the across row does not turn either: rows are its derivative with
+// their directions held.
+bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
+                          ContactSolution *solution)
+{
+    Settling settling = {.discs = discs, .newton = newton, .problem = problem, .at = solution};
+    memset(solution->velocity, 0, (size_t)problem->interface->count * sizeof(double));
+    contact_newton_begin(newton, problem, solution, 0);
+    newton->reused = false;
+    if (!contact_newton_close(newton)) return false;
+    int32_t size = newton->equations.free_count;
+    fill_derivative(&settling, newton->factors.lu);
+    if (!dense_lu(newton->factors.lu, size, newton->factors.pivots)) return false;
+    find_residual(&settling, false);
+    for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
+    if (newton->open_count > 0) add_pull(&settling);
+    dense_lu_solve(newton->factors.lu, size, newton->factors.pivots, newton->step);
+    contact_newton_take(newton);
+    contact_newton_react(newton);
+    return true;
+}
+
 // Factors are archived by contact/contact_newton; these are the directions they are in.
 void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive)
 {

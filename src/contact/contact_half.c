@@ -177,55 +177,43 @@ bool contact_half_matrix(const ContactHalf *half, const double *schur, bool odd,
 
 // --- motions, forces, statuses ------------------------------------------------------------------
 
-double contact_half_fold(const ContactHalf *half, const double *motion, double *out)
+void contact_half_fold(const ContactHalf *half, bool odd, const double *motion, double *out)
 {
-    double odd = 0;
-    for (int32_t k = 0; k < half->interface.count; k++) {
-        double own = motion[half->unknown[k]], across = half->sign[k] * motion[half->image[k]];
-        out[k] = 0.5 * (own + across);
-        odd = fmax(odd, 0.5 * fabs(own - across));
-    }
-    return odd;
+    for (int32_t k = 0; k < half->interface.count; k++)
+        out[k] = 0.5 * (motion[half->unknown[k]] + sign_of(half, k, odd) * motion[half->image[k]]);
 }
 
-double contact_half_fold_forces(const ContactHalf *half, const double *force, double *out)
+void contact_half_fold_forces(const ContactHalf *half, bool odd, const double *force, double *out)
 {
-    double odd = contact_half_fold(half, force, out);
+    contact_half_fold(half, odd, force, out);
     for (int32_t k = 0; k < half->interface.count; k++)
         if (!in_middle(half, k)) out[k] *= 2;
-    return odd;
 }
 
-void contact_half_unfold(const ContactHalf *half, const double *motion, double *out)
+void contact_half_add(const ContactHalf *half, bool odd, const double *motion, double *out)
 {
     for (int32_t k = 0; k < half->interface.count; k++) {
-        out[half->unknown[k]] = motion[k];
-        if (!in_middle(half, k)) out[half->image[k]] = half->sign[k] * motion[k];
+        out[half->unknown[k]] += motion[k];
+        if (!in_middle(half, k)) out[half->image[k]] += sign_of(half, k, odd) * motion[k];
     }
 }
 
-void contact_half_unfold_forces(const ContactHalf *half, const double *force, double *out)
+void contact_half_add_forces(const ContactHalf *half, bool odd, const double *force, double *out)
 {
     for (int32_t k = 0; k < half->interface.count; k++) {
         double share = in_middle(half, k) ? force[k] : 0.5 * force[k];
-        out[half->unknown[k]] = share;
-        if (!in_middle(half, k)) out[half->image[k]] = half->sign[k] * share;
+        out[half->unknown[k]] += share;
+        if (!in_middle(half, k)) out[half->image[k]] += sign_of(half, k, odd) * share;
     }
 }
 
-bool contact_half_fold_statuses(const ContactHalf *half, const uint8_t *status,
+void contact_half_fold_statuses(const ContactHalf *half, const uint8_t *status,
                                 const uint8_t *touches, const ContactSolution *out)
 {
-    bool alike = true;
-    for (int32_t i = 0; i < half->interface.contact_count; i++) {
+    for (int32_t i = 0; i < half->interface.contact_count; i++)
         out->status[i] = status[half->node[i]];
-        alike = alike && out->status[i] == status[half->node_image[i]];
-    }
-    for (int32_t j = 0; j < half->interface.rod_count; j++) {
+    for (int32_t j = 0; j < half->interface.rod_count; j++)
         out->rod_touches[j] = touches[half->rod[j]];
-        alike = alike && out->rod_touches[j] == touches[half->rod_image[j]];
-    }
-    return alike;
 }
 
 void contact_half_unfold_statuses(const ContactHalf *half, const ContactSolution *from,

@@ -35,15 +35,14 @@ void contact_half_destroy(ContactHalf *half);
 // image.
 bool contact_half_matrix(const ContactHalf *half, const double *schur, bool odd, double *out);
 
-// The part of both sides that is even, on one side: motions, and forces. Returns the largest entry
-// of what is odd.
-double contact_half_fold(const ContactHalf *half, const double *motion, double *out);
-double contact_half_fold_forces(const ContactHalf *half, const double *force, double *out);
-// And both sides from one.
-void contact_half_unfold(const ContactHalf *half, const double *motion, double *out);
-void contact_half_unfold_forces(const ContactHalf *half, const double *force, double *out);
-// Likewise of statuses and of which rod nodes touch. false: they are not alike.
-bool contact_half_fold_statuses(const ContactHalf *half, const uint8_t *status,
+// What is even or odd of both sides, on one: motions, and forces.
+void contact_half_fold(const ContactHalf *half, bool odd, const double *motion, double *out);
+void contact_half_fold_forces(const ContactHalf *half, bool odd, const double *force, double *out);
+// Added to what both sides have.
+void contact_half_add(const ContactHalf *half, bool odd, const double *motion, double *out);
+void contact_half_add_forces(const ContactHalf *half, bool odd, const double *force, double *out);
+// Statuses and which rod nodes touch: of one side, and the same of both.
+void contact_half_fold_statuses(const ContactHalf *half, const uint8_t *status,
                                 const uint8_t *touches, const ContactSolution *out);
 void contact_half_unfold_statuses(const ContactHalf *half, const ContactSolution *from,
                                   uint8_t *status, uint8_t *touches);

@@ -54,6 +54,11 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
+    half->odd_g = NEW_ARRAY(double, side->count, err);
+    half->odd_bound = NEW_ARRAY(double, side->count, err);
+    half->odd_velocity = NEW_ARRAY(double, side->count, err);
+    half->odd_reaction = NEW_ARRAY(double, side->count, err);
+    TRY(contact_newton_create(side, &half->newton, err));
     Block one = {.interface = side, .law = &half->law, .rod = &half->rod};
     for (int32_t odd = 0; alike && odd < 2; odd++) {
         Certificate *certificate = odd ? &half->odd : &half->even;
@@ -77,6 +82,11 @@ void half_step_destroy(HalfStep *half)
     memory_free(half->laws);
     memory_free(half->g);
     memory_free(half->bound);
+    memory_free(half->odd_g);
+    memory_free(half->odd_bound);
+    memory_free(half->odd_velocity);
+    memory_free(half->odd_reaction);
+    contact_newton_destroy(&half->newton);
     *half = (HalfStep){0};
 }
 
@@ -94,32 +104,64 @@ bool half_step_take_law(HalfStep *half, const FrictionLaw *law)
     return alike;
 }
 
+// What of a solution is even, on one side.
+static void fold_solution(const ContactHalf *half, const ContactSolution *from,
+                          const ContactSolution *to)
+{
+    contact_half_fold(half, false, from->velocity, to->velocity);
+    contact_half_fold_forces(half, false, from->reaction, to->reaction);
+    contact_half_fold_statuses(half, from->status, from->rod_touches, to);
+}
+
 const State *half_step_fold(HalfStep *half, const State *state)
 {
     State *one = &half->state;
-    ContactSolution at = {one->slip_rate, one->reaction, one->status, one->rod_touches};
-    contact_half_fold(&half->half, state->slip_rate, one->slip_rate);
-    contact_half_fold_forces(&half->half, state->reaction, one->reaction);
-    contact_half_fold_statuses(&half->half, state->status, state->rod_touches, &at);
+    ContactSolution from = {state->slip_rate, state->reaction, state->status, state->rod_touches};
+    ContactSolution to = {one->slip_rate, one->reaction, one->status, one->rod_touches};
+    fold_solution(&half->half, &from, &to);
     return one;
 }
 
-bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactSolution *solution,
-                     bool *alike)
+// `one` has what is even, as it is for one side.
+static bool follow_odd(HalfStep *half, const ContactProblem *one, ContactMatrix *matrix,
+                       const ContactSolution *even, ContactSolution *solution)
+{
+    ContactProblem problem = *one;
+    problem.matrix = matrix;
+    problem.g = half->odd_g;
+    problem.bound = half->odd_bound;
+    ContactSolution odd = {half->odd_velocity, half->odd_reaction, even->status, even->rod_touches};
+    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &odd)) return false;
+    contact_half_add(&half->half, true, odd.velocity, solution->velocity);
+    contact_half_add_forces(&half->half, true, odd.reaction, solution->reaction);
+    return true;
+}
+
+// Folds what pushes. Whether it is its own image.
+static bool fold_problem(HalfStep *half, const ContactProblem *problem)
+{
+    const ContactHalf *side = &half->half;
+    int32_t count = side->interface.count;
+    contact_half_fold_forces(side, false, problem->g, half->g);
+    contact_half_fold_forces(side, true, problem->g, half->odd_g);
+    contact_half_fold(side, false, problem->bound, half->bound);
+    contact_half_fold(side, true, problem->bound, half->odd_bound);
+    double force = dense_max_abs(half->g, count);
+    double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
+    return dense_max_abs(half->odd_g, count) <= ALIKE * force &&
+           dense_max_abs(half->odd_bound, count) <= ALIKE * speed;
+}
+
+bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *odd,
+                     ContactSolution *solution, bool *alike)
 {
     const ContactHalf *side = &half->half;
     State *one = &half->state;
+    size_t bytes = (size_t)side->whole * sizeof(double);
     ContactSolution at = {one->slip_rate, one->reaction, one->status, one->rod_touches};
-    double odd_g = contact_half_fold_forces(side, problem->g, half->g);
-    double odd_bound = contact_half_fold(side, problem->bound, half->bound);
-    double force = dense_max_abs(half->g, side->interface.count);
-    double speed =
-        fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, side->interface.count));
-    *alike = odd_g <= ALIKE * force && odd_bound <= ALIKE * speed;
+    *alike = fold_problem(half, problem);
     if (!*alike) return false;
-    contact_half_fold(side, solution->velocity, at.velocity);
-    contact_half_fold_forces(side, solution->reaction, at.reaction);
-    contact_half_fold_statuses(side, solution->status, solution->rod_touches, &at);
+    fold_solution(side, solution, &at);
     ContactProblem one_side = *problem;
     one_side.interface = &side->interface;
     one_side.law = &half->law;
@@ -128,10 +170,12 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactSolut
     one_side.g = half->g;
     one_side.bound = half->bound;
     if (!contact_solve(&half->solver, &one_side, &at)) return false;
-    contact_half_unfold(side, at.velocity, solution->velocity);
-    contact_half_unfold_forces(side, at.reaction, solution->reaction);
+    memset(solution->velocity, 0, bytes);
+    memset(solution->reaction, 0, bytes);
+    contact_half_add(side, false, at.velocity, solution->velocity);
+    contact_half_add_forces(side, false, at.reaction, solution->reaction);
     contact_half_unfold_statuses(side, &at, solution->status, solution->rod_touches);
-    return true;
+    return !odd || follow_odd(half, &one_side, odd, &at, solution);
 }
 
 void half_step_archive(HalfStep *half, Archive *archive)

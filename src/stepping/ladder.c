@@ -16,22 +16,20 @@ void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder 
     ladder->rung_count = (int32_t)fmin(fmax(rungs, 1), LADDER_RUNGS_MAX);
 }
 
-// Whole or halved, as it is asked for now.
+// That which is asked for now.
 static void drop_contact(Ladder *ladder, int32_t k)
 {
-    contact_matrix_destroy(ladder->halved ? &ladder->half_contact[k] : &ladder->contact[k]);
-    if (!ladder->halved) return;
-    memory_free(ladder->half_schur[k]);
-    ladder->half_schur[k] = NULL;
+    contact_matrix_destroy(&ladder->contact[ladder->side][k]);
+    memory_free(ladder->half_schur[ladder->side][k]);
+    ladder->half_schur[ladder->side][k] = NULL;
 }
 
 static void drop_rung(Ladder *ladder, int32_t k)
 {
-    contact_matrix_destroy(&ladder->contact[k]);
-    contact_matrix_destroy(&ladder->half_contact[k]);
-    memory_free(ladder->half_schur[k]);
+    LadderSide side = ladder->side;
+    for (ladder->side = 0; ladder->side < LADDER_SIDES; ladder->side++) drop_contact(ladder, k);
+    ladder->side = side;
     interface_operator_destroy(ladder->rung[k]);
-    ladder->half_schur[k] = NULL;
     ladder->rung[k] = NULL;
 }
 
@@ -64,29 +62,29 @@ static OperatorTerms rung_terms(const Ladder *ladder, int32_t k)
     return (OperatorTerms){.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
 }
 
-// What the contact sees of a rung that is built with its S.
+// What the contact sees of a rung that is built with its S, which goes where nobody else has it.
 static bool make_half(Ladder *ladder, int32_t k, Error *err)
 {
     int64_t count = ladder->half->interface.count;
-    double *schur = ladder->half_schur[k] = NEW_ARRAY(double, count *count, err);
+    double *schur = ladder->half_schur[ladder->side][k] = NEW_ARRAY(double, count *count, err);
     if (!schur) return false;
-    if (!contact_half_matrix(ladder->half, interface_operator_schur(ladder->rung[k]), false,
-                             schur)) {
-        ladder->halved = false;
+    if (!contact_half_matrix(ladder->half, interface_operator_schur(ladder->rung[k]),
+                             ladder->side == LADDER_ODD, schur)) {
+        ladder->side = LADDER_WHOLE;
         ladder->half = NULL;
         return true;
     }
-    if (!ladder->contact[k].schur) interface_operator_drop_schur(ladder->rung[k]);
-    return contact_matrix_create(schur, (int32_t)count, &ladder->half_contact[k], err);
+    if (!ladder->contact[LADDER_WHOLE][k].schur) interface_operator_drop_schur(ladder->rung[k]);
+    return contact_matrix_create(schur, (int32_t)count, &ladder->contact[ladder->side][k], err);
 }
 
 static ContactMatrix *contact_of(Ladder *ladder, int32_t k)
 {
-    ContactMatrix *matrix = ladder->halved ? &ladder->half_contact[k] : &ladder->contact[k];
+    ContactMatrix *matrix = &ladder->contact[ladder->side][k];
     return matrix->schur ? matrix : NULL;
 }
 
-// The operator is made anew where its S was dropped: that it is kept whole is seldom asked for.
+// The operator is made anew where its S was dropped: seldom is more than one side asked for.
 static bool build_rung(Ladder *ladder, int32_t k, Error *err)
 {
     InterfaceOperator *rung = ladder->rung[k];
@@ -95,10 +93,11 @@ static bool build_rung(Ladder *ladder, int32_t k, Error *err)
         ladder->rung[k] = interface_operator_create(ladder->system, rung_terms(ladder, k), err);
         if (!ladder->rung[k]) return false;
     }
-    if (ladder->halved && !make_half(ladder, k, err)) return false;
-    return ladder->halved ||
+    if (ladder->side != LADDER_WHOLE && !make_half(ladder, k, err)) return false;
+    return ladder->side != LADDER_WHOLE ||
            contact_matrix_create(interface_operator_schur(ladder->rung[k]),
-                                 ladder->system->interface_count, &ladder->contact[k], err);
+                                 ladder->system->interface_count, &ladder->contact[LADDER_WHOLE][k],
+                                 err);
 }
 
 // The time of a factorisation is counted here, not in the step's.
@@ -132,6 +131,15 @@ ContactMatrix *ladder_contact(Ladder *ladder, int32_t k)
     return ladder->rung[k] && ladder_rung(ladder, k, &err) ? contact_of(ladder, k) : NULL;
 }
 
+ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side)
+{
+    LadderSide asked = ladder->side;
+    ladder->side = side;
+    ContactMatrix *matrix = ladder_contact(ladder, k);
+    ladder->side = ladder->half ? asked : LADDER_WHOLE;
+    return matrix;
+}
+
 // By the errors that were measured when the basis was made; the full mesh is not asked again.
 double ladder_reduction_error(const Ladder *ladder)
 {
@@ -144,31 +152,30 @@ double ladder_reduction_error(const Ladder *ladder)
 }
 
 // Those matrices that are there, what the contact sees first of all.
-static bool archive_contact(Ladder *ladder, int32_t k, const int64_t last[2], Archive *archive,
+static bool archive_contact(Ladder *ladder, int32_t k, const int64_t *last, Archive *archive,
                             Error *err)
 {
-    bool halved = ladder->halved;
-    for (int32_t half = 0; half < 2; half++) {
-        ladder->halved = half == 1;
+    LadderSide asked = ladder->side;
+    for (ladder->side = 0; ladder->side < LADDER_SIDES; ladder->side++) {
         bool kept = contact_of(ladder, k) != NULL;
         archive_flag(archive, &kept);
-        if (kept && ladder->halved && !ladder->half) archive->failed = true;
+        if (kept && ladder->side != LADDER_WHOLE && !ladder->half) archive->failed = true;
         TRY(archive_check(archive, false, err));
         if (!kept) {
             drop_contact(ladder, k);
             continue;
         }
         TRY(ladder_rung(ladder, k, err));
-        contact_matrix_archive(contact_of(ladder, k), last[half], archive);
+        contact_matrix_archive(contact_of(ladder, k), last[ladder->side], archive);
     }
 cleanup:
-    ladder->halved = halved;
+    ladder->side = asked;
     return error_is_clean(err);
 }
 
 bool ladder_archive(Ladder *ladder, int64_t last, int64_t last_halved, Archive *archive, Error *err)
 {
-    const int64_t each[] = {last, last_halved};
+    const int64_t each[LADDER_SIDES] = {last, last_halved, 0};   // that of what is odd is not kept
     double longest = ladder->step_max;
     int32_t count = ladder->rung_count;
     archive_section(archive, "ladder");

@@ -11,18 +11,21 @@
 
 enum { LADDER_RUNGS_MAX = 128 };
 
+// What of the contact is asked for.
+typedef enum LadderSide { LADDER_WHOLE, LADDER_EVEN, LADDER_ODD, LADDER_SIDES } LadderSide;
+
 typedef struct Ladder {
     BulkOperator *system;   // not owned
     double step_max;   // of rung 0, time
     double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
-    // Of the rungs that are built, S, or what is even of it on one side, when first asked for. Where
-    // it is halved S itself is kept only if it was asked for, too. Owned.
-    ContactMatrix contact[LADDER_RUNGS_MAX], half_contact[LADDER_RUNGS_MAX];
-    double *half_schur[LADDER_RUNGS_MAX];
+    // Of the rungs that are built, S, or what is even or odd of it on one side, when first asked for.
+    // S itself is kept only where it was. Owned.
+    ContactMatrix contact[LADDER_SIDES][LADDER_RUNGS_MAX];
+    double *half_schur[LADDER_SIDES][LADDER_RUNGS_MAX];   // that of `contact`, but for both sides
     const ContactHalf *half;   // by which it is halved; NULL: never; not owned
-    bool halved;   // that is what is asked for now
+    LadderSide side;   // asked for now
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
     double seconds;   // wall time spent on building rungs
 } Ladder;
@@ -39,9 +42,10 @@ int32_t ladder_find(const Ladder *ladder, double step);
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
 // Builds what lies between rungs that are built; false: one cannot be factored.
 bool ladder_fill(Ladder *ladder);
-// What the contact sees of rung k, whole or halved; NULL: it is not built. From here on it is whole
-// where a S turns out not to be its own image.
+// What the contact sees of rung k; NULL: it is not built. From here on it is whole where a S turns
+// out not to be its own image.
 ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
+ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side);
 
 // The largest error that the reduction of the bulk left in a rung that steps were accepted on.
 double ladder_reduction_error(const Ladder *ladder);

@@ -106,7 +106,7 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
 static bool solve_half(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
                        bool *lopsided)
 {
-    bool alike, solved = half_step_solve(scheme->half, problem, contact, &alike);
+    bool alike, solved = half_step_solve(scheme->half, problem, scheme->odd, contact, &alike);
     contact_solver_take_counts(&scheme->solver, &scheme->half->solver);
     *lopsided = !alike;
     return solved;
@@ -131,7 +131,7 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .matrix = ladder_contact(scheme->ladder, rung),
                               .g = scheme->g,
                               .bound = scheme->bound};
-    if (scheme->ladder->halved)
+    if (scheme->ladder->side != LADDER_WHOLE)
         *solved = solve_half(scheme, &problem, contact, &trial->outcome->lopsided);
     else
         *solved = contact_solve(&scheme->solver, &problem, contact);
@@ -294,6 +294,14 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Before the stages, as it may make the rung anew. false: it cannot be had.
+static bool find_odd(Sdirk *scheme, int32_t k)
+{
+    bool acts = scheme->odd_acts && scheme->ladder->side != LADDER_WHOLE;
+    scheme->odd = acts ? ladder_contact_of(scheme->ladder, k, LADDER_ODD) : NULL;
+    return !acts || scheme->odd || scheme->ladder->side == LADDER_WHOLE;
+}
+
 bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
                 Error *err)
 {
@@ -304,7 +312,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
                    .from = from,
                    .to = to,
                    .outcome = outcome};
-    if (!ladder_rung(scheme->ladder, k, err)) goto cleanup;
+    if (!ladder_rung(scheme->ladder, k, err) || !find_odd(scheme, k)) goto cleanup;
     guess_contact(from, to);
     friction_states_begin(&scheme->memory, from);
     for (int32_t i = 0; i < scheme->tableau.stages; i++) {

@@ -28,7 +28,9 @@ typedef struct Sdirk {
     const FrictionLaw *law;
     Rod *rod;
     const LoadCourse *course;   // set once the rod moves; NULL: the load stays; not owned
-    HalfStep *half;   // solves contact where the ladder is halved; not owned
+    HalfStep *half;   // solves contact where the ladder is asked for one side; not owned
+    bool odd_acts;   // there what is odd is stepped along
+    ContactMatrix *odd;   // by this; NULL: it is not; not owned
     ContactSolver solver;   // of both sides; its counters are of all; owned, like all that follows
     FrictionStates memory;   // of friction; nothing where none remembers
     double *rhs, *force, *viscous;   // [dof_count] work

@@ -37,7 +37,7 @@ static const double STEPS_LEFT_MAX = 1e8;
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
-    *control = (StepControl){.def = *def, .certified = true, .even = true};
+    *control = (StepControl){.def = *def, .certified = true, .odd_decays = true};
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
@@ -91,31 +91,18 @@ void step_control_restart(StepControl *control)
     control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
 }
 
-// --- one side or both -----------------------------------------------------------------------------
-
-// The next step from `now`.
-static void choose_sides(StepControl *control)
+// What the contact is asked for in the next step from `now`.
+static void choose_side(StepControl *control)
 {
-    control->ladder.halved = control->even && !control->lopsided && control->ladder.half &&
-                             half_step_take_law(&control->half, control->scheme.law);
+    bool halved = control->ladder.half && !control->lopsided &&
+                  half_step_take_law(&control->half, control->scheme.law);
+    control->ladder.side = halved ? LADDER_EVEN : LADDER_WHOLE;
+    control->scheme.odd_acts = !control->odd_decays;
 }
 
-// What is odd in `next` cannot gain energy. Where it might, what follows is asked as a whole.
-static bool is_even(StepControl *control, double reach)
+static BothSides sides_of(StepControl *control)
 {
-    HalfStep *half = &control->half;
-    bool even = control->ladder.half && !control->lopsided &&
-                certificate_holds(&half->odd, half_step_fold(half, &control->next), reach);
-    control->ladder.halved = control->ladder.halved && even;
-    return even;
-}
-
-// Whom to ask about `state`, and how it is handed over.
-static Certificate *certificate_of(StepControl *control, const State **state)
-{
-    if (!control->ladder.halved) return &control->certificate;
-    *state = half_step_fold(&control->half, *state);
-    return &control->half.even;
+    return (BothSides){&control->certificate, &control->half, &control->ladder};
 }
 
 typedef enum Verdict {
@@ -165,8 +152,7 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    Certificate *certificate = certificate_of(control, &state);
-    return growth > 1 && certificate_oscillates_less(certificate, state, &control->ladder, growth);
+    return growth > 1 && both_sides_oscillate_less(sides_of(control), state, growth);
 }
 
 // May `state` be left or reached by a step that does not resolve waves? What oscillates on is
@@ -174,20 +160,19 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
 // that where friction remembers.
 static bool may_skip_waves(StepControl *control, const State *state)
 {
-    bool small = control->oscillations.duration > 0 && !control->scheme.memory.act &&
-                 (oscillation_record_covers(&control->oscillations, state) ||
-                  oscillations_stay_small(control, state));
-    Certificate *certificate = certificate_of(control, &state);
-    return small && certificate_excludes_runaway(certificate, state, &control->ladder);
+    return control->oscillations.duration > 0 && !control->scheme.memory.act &&
+           (oscillation_record_covers(&control->oscillations, state) ||
+            oscillations_stay_small(control, state)) &&
+           both_sides_exclude_runaway(sides_of(control), state);
 }
 
-// Cheapest first. *certified and *even: of the state the step leads to; where the certificate is
-// switched off true and false, without a look.
+// Cheapest first. *certified and *odd_decays: of the state the step leads to; where the certificate
+// is switched off true and false, without a look.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
-                          bool *certified, bool *even)
+                          bool *certified, bool *odd_decays)
 {
     *certified = true;
-    *even = false;
+    *odd_decays = false;
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
     // Where no shorter step is left the run's own ledger decides (run/simulation).
@@ -195,15 +180,11 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
     if (!control->def.use_certificate) return STEP_ACCEPTED;
     double reach = ladder_reach(&control->ladder, k);
-    *even = is_even(control, reach);
-    const State *next = &control->next;
-    Certificate *certificate = certificate_of(control, &next);
-    *certified = certificate_holds(certificate, next, reach);
+    *certified = both_sides_hold(sides_of(control), &control->next, reach, odd_decays);
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
         return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    bool resolved =
-        certificate_step_resolves(certificate, next, ladder_contact(&control->ladder, k), reach);
+    bool resolved = both_sides_resolve(sides_of(control), &control->next, k);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
@@ -307,10 +288,8 @@ static void scan_growth(StepControl *control, int32_t k)
     }
     if (control->certified || slipping <= control->scanned) return;
     control->scanned = slipping;
-    const State *now = &control->now;
-    Certificate *certificate = certificate_of(control, &now);
-    control->grows = certificate_finds_runaway(certificate, now, &control->ladder,
-                                               k < wave_rung(control) ? -1 : k);
+    control->grows =
+        both_sides_run_away(sides_of(control), &control->now, k < wave_rung(control) ? -1 : k);
 }
 
 // `now` and `next` exchange their arrays.
@@ -329,8 +308,6 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
     else
         control->counters.stepped_over_oscillations += !control->certified;
     control->ladder.accepted[k]++;
-    certificate_take_counts(&control->certificate, &control->half.even);
-    certificate_take_counts(&control->certificate, &control->half.odd);
 }
 
 // A step that was shortened only to end where the run ends does not choose the next rung.
@@ -344,22 +321,22 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
     StepCounters *counters = &control->counters;
     int32_t k = fit_rung(control, control->rung, remaining);
-    bool shortened = k != control->rung, retried = false, certified = true, even = false;
+    bool shortened = k != control->rung, retried = false, certified = true, odd_decays;
     for (;;) {
         StepOutcome outcome;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
         control->scheme.solver.follows_path = k == control->ladder.rung_count - 1;
-        choose_sides(control);
+        choose_side(control);
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         if (outcome.lopsided) {
             control->lopsided = true;
             continue;
         }
-        Verdict verdict = judge_step(control, k, &outcome, &certified, &even);
+        Verdict verdict = judge_step(control, k, &outcome, &certified, &odd_decays);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
-            control->even = even;
+            control->odd_decays = odd_decays;
             accept_step(control, k, &outcome);
             scan_growth(control, k);
             if (!shortened || retried)
@@ -431,7 +408,7 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_number(archive, &control->outcome.residual);
     archive_number(archive, &control->last_step);
     archive_flag(archive, &control->certified);
-    archive_flag(archive, &control->even);
+    archive_flag(archive, &control->odd_decays);
     archive_flag(archive, &control->lopsided);
     archive_flag(archive, &control->grows);
     archive_flag(archive, &control->settles);

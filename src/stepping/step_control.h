@@ -12,7 +12,7 @@
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
 #define AMONTONS_STEPPING_STEP_CONTROL_H
 
-#include "stepping/certificate.h"
+#include "stepping/both_sides.h"
 #include "stepping/explicit_reference.h"
 #include "stepping/sdirk.h"
 #include "stepping/oscillation_record.h"
@@ -52,8 +52,8 @@ typedef struct StepControl {
     StepOutcome outcome;   // of the last accepted step
     double last_step;   // its length, time
     bool certified;   // `now` is dissipative
-    bool even;   // what is odd in it cannot gain energy: the next step may be halved
-    bool lopsided;   // a problem was not its own mirror image: no step is halved any more
+    bool odd_decays;   // what is odd in it cannot gain energy
+    bool lopsided;   // a problem was not its own mirror image: all are solved whole from then on
     bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some rung's
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then
