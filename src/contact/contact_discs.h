@@ -16,28 +16,20 @@
 // node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
 // does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is
 // condensed out as in the plane (contact/contact_newton).
-// A step that leaves more than there was is halved. Where steps do not settle, sweeps over the
+// Factors are in single precision, after sweeps in double. A step that leaves more than there was is halved. Where steps do not settle, sweeps over the
 // nodes come next (contact/contact_sweeps), then steps again, then more sweeps. Called by
 // contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
 #define AMONTONS_CONTACT_CONTACT_DISCS_H
 
-#include "contact/contact_newton.h"
-#include "contact/slip.h"
-
-// The two equations of a slipping node.
-typedef struct DiscRow {
-    double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
-    double mu;
-    double theta, rho;   // rho: force/width per velocity
-    double along[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
-} DiscRow;
+#include "contact/disc_factors.h"
 
 typedef struct ContactDiscs {
     ContactNewton *newton;   // lists, products with S and factors; not owned
     DiscRow *row;   // [contact_count] of slipping nodes, at the velocities as they are; owned
     DiscRow *kept;   // [contact_count] of the derivative that was factored; owned
     double *taken;   // [interface->count] work: the last step of what is free; owned
+    DiscFactors factors;   // of that derivative, where there were no sweeps; owned
     int64_t iterations;   // counted, Newton steps
     int64_t sweeps;   // counted
     int64_t swept;   // counted, solves that needed any

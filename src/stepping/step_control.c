@@ -28,6 +28,10 @@ enum { UNCERTIFIED_DROP = 3 };
 // in the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
 static const double SMALL_OSCILLATION = 0.01;
 
+// In space slip goes on by a node at a time among many: it is looked at anew where it has by a part
+// of them all.
+enum { SCANNED_PARTS = 200 };
+
 // Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,
 // and cost a minute.
 static const double STEPS_LEFT_MAX = 1e8;
@@ -286,7 +290,9 @@ static void scan_growth(StepControl *control, int32_t k)
         control->grows = false;
         control->scanned = 0;
     }
-    if (control->certified || slipping <= control->scanned) return;
+    int32_t more = control->scheme.interface->dim > 2 ? control->now.contact_count / SCANNED_PARTS
+                                                      : 0;
+    if (control->certified || slipping <= control->scanned + more) return;
     control->scanned = slipping;
     control->grows =
         both_sides_run_away(sides_of(control), &control->now, k < wave_rung(control) ? -1 : k);
