@@ -16,7 +16,8 @@
 // node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
 // does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is
 // condensed out as in the plane (contact/contact_newton).
-// Factors are in single precision, after sweeps in double. A step that leaves more than there was is halved. Where steps do not settle, sweeps over the
+// Factors are in single precision, after sweeps in double. A step that leaves more than there was
+// is halved. Where steps do not settle, sweeps over the
 // nodes come next (contact/contact_sweeps), then steps again, then more sweeps. Called by
 // contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H

@@ -27,8 +27,8 @@ typedef struct DiscFactors {
 bool disc_factors_create(const Interface *interface, DiscFactors *factors, Error *err);
 void disc_factors_destroy(DiscFactors *factors);
 
-// Column b of the derivative, out [free_count], of what `newton` lists as free. row: [contact_count]
-// of nodes that slip.
+// Column b of the derivative, out [free_count], of what `newton` lists as free. row:
+// [contact_count] of nodes that slip.
 void disc_column(const ContactNewton *newton, const DiscRow *row, int32_t b, double *out);
 
 // false: it is singular.

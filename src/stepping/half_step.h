@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Steps of a state that is its own mirror image across y: their contact problems on one side
-// (contact/contact_half), at a quarter of the matrices and an eighth of their factors. A disturbance
-// to one side is odd and would not show. So each state is asked, too, whether what is odd can gain
-// energy, S_C - W of the odd part positive definite (stepping/certificate): where it cannot, a
-// disturbance to one side decays whatever else happens, and the even part is enough. Where it may,
-// what is odd, if only rounding, is stepped along to first order. From the first problem on whose
-// odd part is above rounding contact is solved as a whole. Owned by stepping/step_control, which
-// decides that.
+// (contact/contact_half), at a quarter of the matrices and an eighth of their factors. A
+// disturbance to one side is odd and would not show. So each state is asked, too, whether what is
+// odd can gain energy, S_C - W of the odd part positive definite (stepping/certificate): where it
+// cannot, a disturbance to one side decays whatever else happens, and the even part is enough.
+// Where it may, what is odd, if only rounding, is stepped along to first order. From the first
+// problem on whose odd part is above rounding contact is solved as a whole. Owned by
+// stepping/step_control, which decides that.
 #ifndef AMONTONS_STEPPING_HALF_STEP_H
 #define AMONTONS_STEPPING_HALF_STEP_H
 

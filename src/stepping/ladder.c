@@ -105,11 +105,13 @@ InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
 {
     if (!contact_of(ladder, k)) {
         double started = clock_seconds();
+        int64_t before = memory_counters().allocations;
         if (!build_rung(ladder, k, err)) {
             drop_rung(ladder, k);
             error_context(err, "step %g", ladder_step(ladder, k));
         }
         ladder->seconds += clock_seconds() - started;
+        ladder->allocations += memory_counters().allocations - before;
     }
     return ladder->rung[k];
 }

@@ -20,14 +20,15 @@ typedef struct Ladder {
     double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
-    // Of the rungs that are built, S, or what is even or odd of it on one side, when first asked for.
-    // S itself is kept only where it was. Owned.
+    // Of the rungs that are built, S, or what is even or odd of it on one side, when first asked
+    // for. S itself is kept only where it was. Owned.
     ContactMatrix contact[LADDER_SIDES][LADDER_RUNGS_MAX];
     double *half_schur[LADDER_SIDES][LADDER_RUNGS_MAX];   // that of `contact`, but for both sides
     const ContactHalf *half;   // by which it is halved; NULL: never; not owned
     LadderSide side;   // asked for now
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
     double seconds;   // wall time spent on building rungs
+    int64_t allocations;   // counted, arrays that this took
 } Ladder;
 
 // Rungs from step_max down to the last that is not below step_min.

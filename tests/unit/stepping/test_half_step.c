@@ -151,7 +151,7 @@ TEST(test_odd_is_followed)
     }
     Pushed *both[] = {&half, &whole};
     for (int32_t k = 0; k < 2; k++) {
-        push_aside(1e-15, both[k]);
+        push_aside(1e-14, both[k]);
         for (int32_t n = 0; n < STEPS; n++) {
             const State *now = &both[k]->control.now;
             const Interface *interface = &both[k]->rig.interface;
