@@ -24,7 +24,7 @@ typedef struct StabilityPoint {
     double area;   // how much of the contact slips, over all of it
 } StabilityPoint;
 
-enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 6, STABILITY_WHY_SIZE = 400 };
+enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 7, STABILITY_WHY_SIZE = 400 };
 
 // Resistance of a contact curve (pad) to slip in the state where slip runs away at the scene's V;
 // l, drag and stiffness of the pad alone, everything else held.
@@ -44,6 +44,9 @@ typedef struct StabilityPad {
     double drag;   // viscous shear of its softest slip over the slip rate,
         // stress / velocity: eta1/2 over H for a layer of height H
     double stiffness;   // elastic shear of its softest slip over the slip, stress/length
+    double critical_stiffness;   // of friction that remembers: a massless body on a stiffness below
+        // it does not slip steadily at V, stress/length; NaN: friction has no memory, or weakens
+        // with slip rate at once, which no spring stabilises
 } StabilityPad;
 
 // Lengths: where something is first lost, over L, between two positions of the front; NaN: nowhere.
@@ -71,6 +74,9 @@ typedef struct StabilitySummary {
     double steady_contact;   // how long a contact of that pad may be, at its mean pressure and with
         // the rest of its face free, so that no disturbance of slip on it grows, length; the pad's
         // own length: all of it; 0: however short it is one grows; NaN: nothing runs away
+    double nucleation_length;   // of friction that remembers: how long a part in the middle of that
+        // pad may be so that no disturbance of its steady slip at V grows, at the pad's mean
+        // pressure and with all else held, length; NaN: all of it, or friction has no memory
     int32_t why_count;
     char why[STABILITY_WHY_MAX][STABILITY_WHY_SIZE];   // [why_count] sentences on the above
     int64_t path_steps;

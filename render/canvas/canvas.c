@@ -167,32 +167,64 @@ void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-// Cairo places what OpenGL draws: an image of its own, so that PDF and SVG hold the same pixels.
+// Where in a PNG the pixels of `box` begin, if they are whole ones and all are drawn.
+static uint32_t *pixels_of_box(Canvas *canvas, const Box *box, GlImageDef *def)
+{
+    double left, top, right, bottom, width = box->right - box->left,
+                                     height = box->bottom - box->top;
+    cairo_clip_extents(canvas->cairo, &left, &top, &right, &bottom);
+    bool whole = box->left == round(box->left) && box->top == round(box->top) &&
+                 width == round(width) && height == round(height);
+    bool inside = box->left >= left && box->right <= right && box->top >= top &&
+                  box->bottom <= bottom && width >= 1 && height >= 1;
+    if (canvas_is_vector(canvas) || !whole || !inside) return NULL;
+    cairo_surface_flush(canvas->surface);
+    def->width = (int32_t)width;
+    def->height = (int32_t)height;
+    def->stride = cairo_image_surface_get_stride(canvas->surface) / (int32_t)sizeof(uint32_t);
+    return (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface) +
+           (int64_t)box->top * def->stride + (int64_t)box->left;
+}
+
+// OpenGL draws on the page itself, or, in PDF and SVG, an image of its own which Cairo places.
 static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
 {
     GlImageDef def = *wanted;
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, def.width, def.height);
-    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+    Error *err = &canvas->failure;
+    cairo_surface_t *image = NULL;
     def.colors = canvas->map;
     def.color_count = MAP_SIZE;
     def.below = canvas->below;
-    uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
-    if (cairo_surface_status(image)) {
-        error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "a map of %d by %d values: %s", def.width, def.height,
-                  cairo_status_to_string(cairo_surface_status(image)));
-    } else if (gl_image_draw(GL_OSMESA, &def, pixels, &canvas->failure)) {
-        cairo_surface_mark_dirty(image);
-        canvas_image(canvas, box, image);
+    uint32_t *page = pixels_of_box(canvas, box, &def);
+    if (page) {
+        gl_image_draw(GL_OSMESA, &def, page, err);
+        cairo_surface_mark_dirty(canvas->surface);
+        return;
     }
+    image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, def.width, def.height);
+    if (cairo_surface_status(image))
+        FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
+             cairo_status_to_string(cairo_surface_status(image)));
+    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+    TRY(gl_image_draw(GL_OSMESA, &def, (uint32_t *)(void *)cairo_image_surface_get_data(image),
+                      err));
+    cairo_surface_mark_dirty(image);
+    canvas_image(canvas, box, image);
+cleanup:
     cairo_surface_destroy(image);
 }
 
-// One pixel of an image a value, not interpolated: what is seen is a number that was computed,
-// never a mixture.
-void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns, int32_t rows)
+// Not interpolated: what is seen is a number that was computed, never a mixture.
+void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map)
 {
-    draw_pixels(canvas, box, &(GlImageDef){.width = columns, .height = rows, .values = values});
+    draw_pixels(canvas, box,
+                &(GlImageDef){.width = map->columns,
+                              .height = map->row_shown ? map->shown_count : map->rows,
+                              .values = map->values,
+                              .columns = map->columns,
+                              .rows = map->rows,
+                              .row_shown = map->row_shown,
+                              .shown_count = map->shown_count});
 }
 
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count)
@@ -209,13 +241,14 @@ bool canvas_is_vector(const Canvas *canvas)
     return canvas->def.format != CANVAS_PNG;
 }
 
-// A little larger than asked: viewers leave a hair of paper between shapes that only touch.
+// In a PDF or SVG a little larger than asked: viewers leave a hair of paper between shapes that only
+// touch.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 {
     static const double over = 0.04;   // points
     int32_t entry = (int32_t)lroundf(fminf(fmaxf(value, 0), 1) * (MAP_SIZE - 1));
-    uint32_t pixel = canvas->map[entry];
-    double more = over * canvas->def.dpi / POINTS_AN_INCH;
+    uint32_t pixel = value < 0 ? canvas->below : canvas->map[entry];
+    double more = canvas_is_vector(canvas) ? over * canvas->def.dpi / POINTS_AN_INCH : 0;
     cairo_set_source_rgb(canvas->cairo, (pixel >> 16 & 255) / 255.0, (pixel >> 8 & 255) / 255.0,
                          (pixel & 255) / 255.0);
     cairo_rectangle(canvas->cairo, box->left, box->top, box->right - box->left + more,

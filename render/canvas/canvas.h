@@ -58,16 +58,23 @@ void canvas_clip(Canvas *canvas, const Box *box);
 // dark paper the order is turned round: much is bright there.
 void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below);
 
-// Fills `box` with [rows * columns] values, the first row at the top: 0 to 1 through the colour
-// map (larger: as 1), or a HeatLevel. Values are not blended into each other.
-void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns,
-                 int32_t rows);
+// Values in rows and columns, 0 to 1 through the colour map (larger: as 1), or a HeatLevel.
+typedef struct HeatMap {
+    int32_t columns, rows;
+    const float *values;   // [rows * columns] first row at the top
+    const int32_t *row_shown;   // [shown_count] which rows, from the top; NULL: each once
+    int32_t shown_count;
+} HeatMap;
+
+// Fills `box` with them: columns equally wide, rows that are shown equally high, not blended into
+// each other.
+void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map);
 
 // Triangles in `box`, whole pixels wide and high: three corners each, in pixels from its upper left
 // corner; between the corners values are linear. Below 0 is drawn as 0.
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count);
 
-// Fills `box` with the colour of one value; in a PDF or SVG a shape, not an image.
+// Fills `box` with the colour of one value, or of HEAT_BELOW; in a PDF or SVG a shape, not an image.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 

@@ -126,7 +126,8 @@ void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box)
         float down = (float)row / (MAP_SIZE - 1);
         values[row] = bar->falling ? down : 1 - down;
     }
-    canvas_heat(page->canvas, &colors, values, 1, MAP_SIZE);
+    canvas_heat(page->canvas, &colors,
+                &(HeatMap){.columns = 1, .rows = MAP_SIZE, .values = values});
     draw_outline(page->canvas, &stroke, &colors);
     scale_draw(page, bar, &colors);
 }

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 enum { TOKEN_SIZE = 16 };   // pixels a side of the buffer OSMesa insists on, never drawn into
-enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
+enum { UNIT_COLORS, UNIT_VALUES, UNIT_ROWS, UNIT_TARGET, UNITS };   // textures
 
 // clang-format off
 // All of OpenGL that is used: return type, name, arguments.
@@ -30,7 +30,6 @@ enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
     X(void, BindVertexArray, (GLuint)) \
     X(void, BufferData, (GLenum, GLsizeiptr, const void *, GLenum)) \
     X(GLenum, CheckFramebufferStatus, (GLenum)) \
-    X(void, ClearBufferuiv, (GLenum, GLint, const GLuint *)) \
     X(void, CompileShader, (GLuint)) \
     X(GLuint, CreateProgram, (void)) \
     X(GLuint, CreateShader, (GLenum)) \
@@ -192,15 +191,21 @@ static const char VERTEX_SOURCE[] =
 
 static const char FRAGMENT_SOURCE[] =
     "#version 330 core\n"
-    "uniform int per_pixel;\n"
+    "uniform vec2 scale;\n"   // values over pixels; 0: triangles
+    "uniform int listed;\n"
     "uniform uint below;\n"
     "uniform usampler2D colors;\n"
     "uniform sampler2D values;\n"
+    "uniform isampler2D rows;\n"
     "in float at;\n"
     "out uint color;\n"
     "void main() {\n"
-    "    float value = per_pixel != 0 ? texelFetch(values, ivec2(gl_FragCoord.xy), 0).r\n"
-    "                                 : max(at, 0.0);\n"
+    "    float value = max(at, 0.0);\n"
+    "    if (scale.x > 0.0) {\n"
+    "        ivec2 place = ivec2(gl_FragCoord.xy * scale);\n"
+    "        if (listed != 0) place.y = texelFetch(rows, ivec2(place.y, 0), 0).r;\n"
+    "        value = texelFetch(values, place, 0).r;\n"
+    "    }\n"
     "    if (!(value >= -1.5)) discard;\n"
     "    float last = float(textureSize(colors, 0).x - 1);\n"
     "    int place = int(floor(clamp(value, 0.0, 1.0) * last + 0.5));\n"
@@ -230,6 +235,7 @@ static bool program_create(Gl *gl, Error *err)
     gl->UseProgram(gl->program);
     gl->Uniform1i(gl->GetUniformLocation(gl->program, "colors"), UNIT_COLORS);
     gl->Uniform1i(gl->GetUniformLocation(gl->program, "values"), UNIT_VALUES);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "rows"), UNIT_ROWS);
 cleanup:
     return error_is_clean(err);
 }
@@ -284,16 +290,21 @@ cleanup:
 
 // --- an image ------------------------------------------------------------------------------------
 
-static bool target_size(const Gl *gl, const GlImageDef *def, Error *err)
+// What is drawn over is what is in memory.
+static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pixels, Error *err)
 {
-    GLint most = 0;
+    GLint most = 0, columns = def->values ? def->columns : 1, rows = def->values ? def->rows : 1;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (def->width > most || def->height > most)
-        FAIL(err, ERROR_LIBRARY, "OpenGL draws at most %d by %d pixels, not %d by %d", most, most,
-             def->width, def->height);
+    if (def->width > most || def->height > most || columns > most || rows > most ||
+        def->shown_count > most)
+        FAIL(err, ERROR_LIBRARY,
+             "OpenGL draws at most %d by %d pixels or values, not %d by %d of %d by %d", most, most,
+             def->width, def->height, columns, rows);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_TARGET);
+    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, def->stride);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->width, def->height, 0, GL_RED_INTEGER,
-                   GL_UNSIGNED_INT, NULL);
+                   GL_UNSIGNED_INT, pixels);
+    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                              gl->texture[UNIT_TARGET], 0);
     // What cannot be had leaves the texture before.
@@ -312,24 +323,34 @@ static void corners_draw(const Gl *gl, const GlCorner *corners, int64_t count)
     gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)count);
 }
 
+static void values_load(const Gl *gl, const GlImageDef *def)
+{
+    int32_t shown = def->row_shown ? def->shown_count : def->rows;
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->columns, def->rows, 0, GL_RED, GL_FLOAT,
+                   def->values);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_ROWS);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32I, def->row_shown ? shown : 1, 1, 0, GL_RED_INTEGER,
+                   GL_INT, def->row_shown);
+    gl->Uniform1i(gl->GetUniformLocation(gl->program, "listed"), def->row_shown != NULL);
+    gl->Uniform2f(gl->GetUniformLocation(gl->program, "scale"),
+                  (float)def->columns / (float)def->width, (float)shown / (float)def->height);
+}
+
 // Values that are a texture fill the image by one triangle that is larger than it.
 static bool image_draw(const Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *err)
 {
-    static const GLuint empty[4] = {0};
     float width = (float)def->width, height = (float)def->height;
     GLenum status = GL_NO_ERROR;
     const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
-    TRY(target_size(gl, def, err));
+    TRY(target_make(gl, def, pixels, err));
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
                    GL_UNSIGNED_INT, def->colors);
-    gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->values ? def->width : 1,
-                   def->values ? def->height : 1, 0, GL_RED, GL_FLOAT, def->values);
+    gl->Uniform2f(gl->GetUniformLocation(gl->program, "scale"), 0, 0);
+    if (def->values) values_load(gl, def);
     gl->Uniform2f(gl->GetUniformLocation(gl->program, "size"), width, height);
-    gl->Uniform1i(gl->GetUniformLocation(gl->program, "per_pixel"), def->values != NULL);
     gl->Uniform1ui(gl->GetUniformLocation(gl->program, "below"), def->below);
-    gl->ClearBufferuiv(GL_COLOR, 0, empty);
     if (def->values)
         corners_draw(gl, all, 3);
     else

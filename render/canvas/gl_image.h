@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // An image made of pixels, drawn off-screen by OpenGL 3.3: triangles between whose corners a value
-// is linear, or a value a pixel, shown through a table of colours. This file and gl_image.c are all
+// is linear, or values in rows and columns, shown through a table of colours. This file and gl_image.c are all
 // that knows OpenGL and where it comes from: OSMesa, or EGL without a surface where there is no
 // OSMesa (Mesa 25.1 dropped it). Neither is loaded before the first image. Called by canvas.c.
 #ifndef AMONTONS_RENDER_CANVAS_GL_IMAGE_H
@@ -19,15 +19,18 @@ typedef struct GlImageDef {
     int32_t width, height, stride;   // pixels; of the rows in memory
     const uint32_t *colors;   // [color_count] from value 0 to value 1; beyond: the last ones
     int32_t color_count;
-    // A value a pixel, [height * width] first row at the top, or NULL: then triangles. From -1.5 to
-    // 0 it has the colour `below`, lower ones none: the pixel becomes 0.
+    // Values, [rows * columns] first row at the top, or NULL: then triangles. From -1.5 to 0 they
+    // have the colour `below`, lower ones none: the pixel stays what it is.
     const float *values;
+    int32_t columns, rows;
+    const int32_t *row_shown;   // [shown_count] which rows, from the top; NULL: each once
+    int32_t shown_count;
     uint32_t below;
-    const GlCorner *corners;   // [corner_count] three a triangle; where there is none: pixels are 0
+    const GlCorner *corners;   // [corner_count] three a triangle
     int64_t corner_count;
 } GlImageDef;
 
-// Draws into pixels [height * stride]. ERROR_LIBRARY: no OpenGL from `first` on, or not that large.
+// Draws over pixels [height * stride]. ERROR_LIBRARY: no OpenGL from `first` on, or not that large.
 bool gl_image_draw(GlSource first, const GlImageDef *def, uint32_t *pixels, Error *err);
 
 #endif

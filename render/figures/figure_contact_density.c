@@ -48,7 +48,7 @@ static double range_low(double density_min)
 // From slip rates to what is lost of phi, over what the scale spans. Open is infinitely fast here.
 static void grid_to_levels(PixelGrid *grid, double critical, double low)
 {
-    int64_t count = (int64_t)grid->rows * grid->columns;
+    int64_t count = (int64_t)grid->bands * grid->columns;
     for (int64_t k = 0; k < count; ++k) {
         double rate = (double)grid->values[k];
         if (isnan(rate))

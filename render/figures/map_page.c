@@ -128,7 +128,9 @@ void map_page_draw_field(const Page *page, const ResultView *view, const MapPage
     const Axes *axes = &map->axes;
     SpaceTime data = view_space_time(view);
     double covered = axes->y.low, from = 0, to = 0;
-    canvas_heat(page->canvas, &axes->box, map->grid.values, map->grid.columns, map->grid.rows);
+    const HeatMap heat = {map->grid.columns, map->grid.bands, map->grid.values, map->grid.band,
+                          map->grid.rows};
+    canvas_heat(page->canvas, &axes->box, &heat);
     for (int32_t i = 0; i < view->nodes; ++i) {
         node_extent(&data, i, &from, &to);
         if (from > covered) gap_draw(page, axes, covered, from);

@@ -46,7 +46,7 @@ float slip_scale_level(const Colorbar *bar, double V, double rate)
 
 void slip_scale_levels(const Colorbar *bar, double V, PixelGrid *grid)
 {
-    int64_t count = (int64_t)grid->rows * grid->columns;
+    int64_t count = (int64_t)grid->bands * grid->columns;
     for (int64_t k = 0; k < count; ++k)
         grid->values[k] = slip_scale_level(bar, V, (double)grid->values[k]);
 }

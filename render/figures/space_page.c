@@ -103,7 +103,7 @@ static bool draw_colors(const Page *page, const SpacePage *space, const Block *b
         image->values[k] = isnan(image->values[k])
                                ? HEAT_MISSING
                                : (float)level_of(space, (double)image->values[k]);
-    canvas_heat(page->canvas, box, image->values, image->columns, image->rows);
+    canvas_heat(page->canvas, box, &(HeatMap){image->columns, image->rows, image->values, NULL, 0});
 cleanup:
     return error_is_clean(err);
 }

@@ -133,51 +133,73 @@ static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
     return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
 }
 
-// by_node: [nodes * columns], so that what follows goes along memory.
-static void turn_round(const SpaceTime *data, const PixelGrid *grid, const float *by_column,
-                       float *by_node)
-{
-    for (int64_t column = 0; column < grid->columns; ++column)
-        for (int64_t i = 0; i < data->nodes; ++i)
-            by_node[i * grid->columns + column] = by_column[column * data->nodes + i];
-}
-
-// Row 0 is at the top, x_high. Several nodes in a pixel: the largest of them; none: NaN.
-static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_node)
+// The nodes that row `row` shows, from *first to *last: they are neighbours.
+static void nodes_of_row(const SpaceTime *data, const PixelGrid *grid, int32_t row, int32_t *first,
+                         int32_t *last)
 {
     double pixel = (grid->x_high - grid->x_low) / grid->rows;
+    double x = grid->x_high - (row + 0.5) * pixel;
+    *first = 0;
+    *last = -1;
+    for (int32_t i = 0; i < data->nodes; ++i) {
+        if (!node_is_at(data, i, x, pixel)) continue;
+        if (*last < 0) *first = i;
+        *last = i;
+    }
+}
+
+// Rows that show the same nodes are one; nodes [2 * rows]: first and last of each of them.
+static void rows_join(const SpaceTime *data, PixelGrid *grid, int32_t *nodes)
+{
+    grid->bands = 0;
     for (int32_t row = 0; row < grid->rows; ++row) {
-        float *line = grid->values + (int64_t)row * grid->columns;
-        double x = grid->x_high - (row + 0.5) * pixel;
-        for (int32_t column = 0; column < grid->columns; ++column) line[column] = NAN;
-        for (int32_t i = 0; i < data->nodes; ++i) {
-            if (!node_is_at(data, i, x, pixel)) continue;
-            for (int32_t column = 0; column < grid->columns; ++column)
-                line[column] = larger(line[column], by_node[(int64_t)i * grid->columns + column]);
+        int32_t first = 0, last = -1, before = 2 * (grid->bands - 1);
+        nodes_of_row(data, grid, row, &first, &last);
+        if (grid->bands == 0 || first != nodes[before] || last != nodes[before + 1]) {
+            nodes[2 * grid->bands] = first;
+            nodes[2 * grid->bands++ + 1] = last;
+        }
+        grid->band[row] = grid->bands - 1;
+    }
+}
+
+// Several nodes in a band: the largest of them; none: NaN.
+static void bands_fill(const SpaceTime *data, PixelGrid *grid, const int32_t *nodes,
+                       const float *by_column)
+{
+    for (int32_t column = 0; column < grid->columns; ++column) {
+        const float *value = by_column + (int64_t)column * data->nodes;
+        for (int32_t band = 0; band < grid->bands; ++band) {
+            float most = NAN;
+            for (int32_t i = nodes[2 * band]; i <= nodes[2 * band + 1]; ++i)
+                most = larger(most, value[i]);
+            grid->values[(int64_t)band * grid->columns + column] = most;
         }
     }
 }
 
-// grid->values: [rows * columns], made here; pixel_grid_destroy.
+// grid->values and band are made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
-    float *by_column = NULL, *by_node = NULL;
+    float *by_column = NULL;
+    int32_t *nodes = NULL;
     int64_t *next = NULL;
     TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
-    TRY(by_node = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
+    TRY(nodes = NEW_ARRAY(int32_t, 2 * (int64_t)grid->rows, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
-    TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->rows * grid->columns, err));
+    TRY(grid->band = NEW_ARRAY(int32_t, grid->rows, err));
+    rows_join(data, grid, nodes);
+    TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->bands * grid->columns, err));
     if (data->slip) {
         columns_mean(data, grid, by_column);
     } else {
         columns_gather(data, grid, by_column, next);
         columns_hold(data, grid, next, by_column);
     }
-    turn_round(data, grid, by_column, by_node);
-    rows_fill(data, grid, by_node);
+    bands_fill(data, grid, nodes, by_column);
 cleanup:
     memory_free(by_column);
-    memory_free(by_node);
+    memory_free(nodes);
     memory_free(next);
     return error_is_clean(err);
 }
@@ -185,5 +207,7 @@ cleanup:
 void pixel_grid_destroy(PixelGrid *grid)
 {
     memory_free(grid->values);
+    memory_free(grid->band);
     grid->values = NULL;
+    grid->band = NULL;
 }

@@ -34,10 +34,12 @@ typedef struct PixelGrid {
     double x_low, x_high;   // what the rows span, x_high at the top
     int32_t columns, rows;
     int32_t event_columns;   // of a short rapid event, at least 1
-    float *values;   // [rows * columns] |slip rate|, first row at the top; NaN: none; owned
+    int32_t bands;   // rows that show the same nodes are one band
+    int32_t *band;   // [rows] which, the first at the top; owned
+    float *values;   // [bands * columns] |slip rate|; NaN: none; owned
 } PixelGrid;
 
-// Fills grid->values; the other members are given.
+// Fills bands, band and values; the other members are given.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err);
 void pixel_grid_destroy(PixelGrid *grid);   // zeroed is fine
 

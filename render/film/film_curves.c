@@ -13,7 +13,7 @@ static const double ABOVE = 0.08;   // of the range of mu: room over and below t
 static const double RIGHT = 6;   // points: frame to the cell's right end
 static const double DOT = 2.6, RING = 1.0;   // points: radius, white around it
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
-static const float STICK_SHARE = 0.02f;   // of the height: the foot where the contact sticks
+static const double STICK_SHARE = 0.02;   // of the height: the foot where the contact sticks
 static const double PAST_WIDTH = 1.2, LATER_WIDTH = 0.8;   // points
 
 static const Color PAST = {0.05f, 0.27f, 0.55f, 1};
@@ -138,47 +138,28 @@ void film_profile_draw(const Page *page, const FilmProfile *profile)
     axes_draw(page, &profile->axes);
 }
 
-// Columns from `left` to `right` of the image up to where its level stands, or a foot.
-static void fill_bar(const PixelGrid *image, const int32_t columns[2], float level)
-{
-    float share = level < 0 ? STICK_SHARE : fmaxf(level, STICK_SHARE);
-    int32_t top = image->rows - (int32_t)lroundf(share * (float)image->rows);
-    for (int32_t row = top; row < image->rows; ++row)
-        for (int32_t column = columns[0]; column < columns[1]; ++column)
-            image->values[(int64_t)row * image->columns + column] = level;
-}
-
 // A bar a node, as wide as the part of the contact it stands for, in the colours of the map; what
 // is slower than the scale is a grey foot.
-bool film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now,
-                      Error *err)
+void film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now)
 {
     const ResultView *view = profile->view;
     const Axes *axes = &profile->axes;
+    const Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
     SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]), height = axes->box.bottom - axes->box.top;
     uint8_t colors[3 * MAP_SIZE];
-    PixelGrid image = {.columns = (int32_t)(axes->box.right - axes->box.left),
-                       .rows = (int32_t)(axes->box.bottom - axes->box.top)};
-    int64_t count = (int64_t)image.columns * image.rows;
-    TRY(image.values = NEW_ARRAY(float, count, err));
-    for (int64_t k = 0; k < count; ++k) image.values[k] = HEAT_MISSING;
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, profile->bar.neutral_color);
     for (int32_t i = 0; i < view->nodes; ++i) {
         double from = 0, to = 0;
         node_extent(&data, i, &from, &to);
         float level = slip_scale_level(&profile->bar, V, fabs(film_slip_rate(view, now, i)));
-        double left = axes_place(axes, from, 1).x - axes->box.left;
-        double right = fmax(axes_place(axes, to, 1).x - axes->box.left, left + 1);
-        const int32_t columns[2] = {(int32_t)lround(fmin(fmax(left, 0), image.columns)),
-                                    (int32_t)lround(fmin(fmax(right, 0), image.columns))};
-        if (level > (float)HEAT_MISSING) fill_bar(&image, columns, level);
+        if (level <= (float)HEAT_MISSING) continue;
+        Box bar = axes->box;
+        bar.left = round(axes_place(axes, from, 1).x);
+        bar.right = round(fmax(axes_place(axes, to, 1).x, bar.left + 1));
+        bar.top = bar.bottom - round(fmax((double)level, STICK_SHARE) * height);
+        canvas_heat_cell(page->canvas, &bar, level);
     }
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, profile->bar.neutral_color);
-    canvas_heat(page->canvas, &axes->box, image.values, image.columns, image.rows);
-    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
     draw_outline(page->canvas, &stroke, &axes->box);
-cleanup:
-    pixel_grid_destroy(&image);
-    return error_is_clean(err);
 }

@@ -30,7 +30,6 @@ typedef struct FilmProfile {
 
 void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile);
 void film_profile_draw(const Page *page, const FilmProfile *profile);   // what stands
-bool film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now,
-                      Error *err);
+void film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now);
 
 #endif

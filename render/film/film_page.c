@@ -389,7 +389,7 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
     if (page->in_space)
         TRY(film_plane_now(&page->frame, &page->plane, &now, err));
     else
-        TRY(film_profile_now(&page->frame, &page->profile, &now, err));
+        film_profile_now(&page->frame, &page->profile, &now);
     if (page->stored)
         block_page_contact(&page->frame, &page->map,
                            page->shown >= 0 ? &page->block_shown : &page->pair[0],

@@ -185,8 +185,7 @@ void *apart_take(ApartReply *reply, int64_t count, size_t size, Error *err)
     void *array = NULL;
     if (count < 0 || count > (reply->size - reply->taken) / (int64_t)size)
         FAIL(err, ERROR_FILE, "the answer of another process is cut off");
-    array = memory_array(count, size, err);
-    if (!array) goto cleanup;
+    TRY((array = memory_array(count, size, err)));
     memcpy(array, reply->bytes + reply->taken, (size_t)count * size);
     reply->taken += count * (int64_t)size;
 cleanup:

@@ -56,9 +56,7 @@ static void refuse(Reading *reading, const char *wanted)
                   "`%.40s`: expected %s in its place", reading->at, wanted);
     else
         error_set(reading->err, ERROR_INPUT, __FILE__, __LINE__,
-                  "the formula ends where %s is "
-                  "wanted",
-                  wanted);
+                  "the formula ends where %s is wanted", wanted);
 }
 
 static void add(Reading *reading, Operation operation, double number)

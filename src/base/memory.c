@@ -112,6 +112,11 @@ void memory_free(void *array)
     free(array);
 }
 
+void memory_free_list(void *const *arrays, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) memory_free(arrays[k]);
+}
+
 MemoryCounters memory_counters(void)
 {
     return tally_now()->counters;

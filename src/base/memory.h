@@ -33,6 +33,7 @@ void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *
 
 char *memory_text(const char *text, Error *err);   // an owned copy
 void memory_free(void *array);   // NULL is fine
+void memory_free_list(void *const *arrays, int32_t count);   // for memory_free_all
 MemoryCounters memory_counters(void);
 void memory_take_over(MemoryCounters counted);   // by a thread that has ended, into this one's
 
@@ -52,5 +53,10 @@ void amontons_module_tally(MemoryTallyFunction tally);
 
 // NEW_ARRAY(double, n, err): a zeroed double[n], or NULL with the error set.
 #define NEW_ARRAY(type, count, err) ((type *)memory_array((count), sizeof(type), (err)))
+
+// memory_free of each of several arrays.
+#define memory_free_all(...)                                                                       \
+    memory_free_list((void *[]){__VA_ARGS__},                                                      \
+                     (int32_t)(sizeof((void *[]){__VA_ARGS__}) / sizeof(void *)))
 
 #endif

@@ -6,8 +6,7 @@
 
 void sparse_pattern_destroy(SparsePattern *pattern)
 {
-    memory_free(pattern->start);
-    memory_free(pattern->index);
+    memory_free_all(pattern->start, pattern->index);
     *pattern = (SparsePattern){0};
 }
 

@@ -26,8 +26,7 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
             cholmod_free_dense(&analysis->passages[k], common);
         cholmod_finish(common);
     }
-    memory_free(analysis->source);
-    memory_free(analysis);
+    memory_free_all(analysis->source, analysis);
 }
 
 // A CHOLMOD view of the pattern, into the caller's arrays.
@@ -95,8 +94,7 @@ static bool analyse_with_border(SparseAnalysis *analysis, cholmod_sparse *patter
     if (!border_is_last(analysis, border))
         FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
 cleanup:
-    memory_free(member);
-    memory_free(order);
+    memory_free_all(member, order);
     return error_is_clean(err);
 }
 
@@ -134,8 +132,7 @@ static bool order_entries(SparseAnalysis *analysis, const SparsePattern *pattern
             analysis->source[at] = k;
         }
 cleanup:
-    memory_free(place);
-    memory_free(next);
+    memory_free_all(place, next);
     return error_is_clean(err);
 }
 
@@ -189,8 +186,7 @@ SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err)
     if (!analysis) return NULL;
     analysis->symbolic = cholmod_copy_factor(from->symbolic, &analysis->common);
     analysis->ordered = copy_pattern(from->ordered, &analysis->common);
-    analysis->source = NEW_ARRAY(int32_t, entries, err);
-    if (!analysis->source) goto cleanup;
+    TRY((analysis->source = NEW_ARRAY(int32_t, entries, err)));
     if (!analysis->symbolic || !analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, from->size);
     memcpy(analysis->source, from->source, (size_t)entries * sizeof *from->source);
 cleanup:

@@ -58,8 +58,7 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
     SparseFactor *factor = NEW_ARRAY(SparseFactor, 1, err);
     if (!factor) goto cleanup;
     factor->analysis = analysis;
-    factor->border_factor = NEW_ARRAY(double, count *count, err);
-    if (!factor->border_factor) goto cleanup;
+    TRY((factor->border_factor = NEW_ARRAY(double, count *count, err)));
 
     factor->numeric = analysis->spare ? analysis->spare
                                       : cholmod_copy_factor(analysis->symbolic, common);
@@ -89,8 +88,7 @@ void sparse_factor_destroy(SparseFactor *factor)
         factor->numeric = NULL;
     }
     if (factor->analysis) cholmod_free_factor(&factor->numeric, &factor->analysis->common);
-    memory_free(factor->border_factor);
-    memory_free(factor);
+    memory_free_all(factor->border_factor, factor);
 }
 
 void sparse_schur(const SparseFactor *factor, double *schur)

@@ -79,20 +79,16 @@ static void print_mu_M(const RunSummary *summary)
                  : summary->mu_M_is);
         return;
     }
-    if (strcmp(summary->mu_M_is, STEADY) == 0) {
-        print_estimate("mu_M", summary->mu_M, NAN, summary->mu_M_known_to);
+    bool bar = summary->bar_runs > 0, steady = strcmp(summary->mu_M_is, STEADY) == 0;
+    print_estimate("mu_M", summary->mu_M, bar ? summary->mu_M_error : (double)NAN,
+                   summary->mu_M_known_to);
+    if (bar) print_parts(summary->mu_M_error, summary->mu_M_parts);
+    if (steady)
         say(": F_T/F_N of %s; the block slides slowly as a whole, no sliding was fast\n", STEADY);
-        return;
-    }
-    if (summary->bar_runs > 0) {
-        print_estimate("mu_M", summary->mu_M, summary->mu_M_error, summary->mu_M_known_to);
-        print_parts(summary->mu_M_error, summary->mu_M_parts);
+    else if (bar)
         say(": static friction\n");
-        return;
-    }
-    print_estimate("mu_M", summary->mu_M, NAN, summary->mu_M_known_to);
-    say(": static friction, mean of the last %d of %d peaks, each before the whole block "
-        "slid\n",
+    if (steady || bar) return;
+    say(": static friction, mean of the last %d of %d peaks, each before the whole block slid\n",
         summary->peaks_counted, summary->peaks);
     print_known_to(summary->mu_M_known_to);
     print_on_this_mesh(summary->mu_M, summary->mu_M_error);
@@ -236,8 +232,8 @@ static void print_answers(const RunSummary *summary)
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;
-    say("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip "
-        "could have grown, %lld: no solution)\n",
+    say("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip could "
+        "have grown, %lld: no solution)\n",
         (long long)counters->accepted,
         (long long)counters->rejected + (long long)counters->unsolved_retries,
         (long long)counters->rejected - (long long)counters->rejected_uncertified,

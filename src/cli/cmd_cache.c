@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
+#include "cli_help.h"
 
 #include <stdio.h>
 #include <time.h>
@@ -12,15 +13,7 @@ enum { SHOWN_MAX = 20 };
 
 static const CommandText text = {
     .name = "cache",
-    .help =
-        "Says where reductions of blocks are kept for the next run of the same shape, how large "
-        "the files are and when they were last used."
-        "\vThe folder is $AMONTONS_CACHE, else ~/.cache/amontons. When a new file makes it larger "
-        "than $AMONTONS_CACHE_LIMIT (bytes, or as in 500M, 10G; default 2G) those go that were "
-        "not used for the longest time. A run that finds nothing makes its reduction anew. "
-        "Examples:\n\n"
-        "  amontons cache\n"
-        "  amontons cache --clean"};
+    .help = cache_txt};
 
 // The last ones of the list: those used last.
 typedef struct Shown {

@@ -4,6 +4,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/say.h"
+#include "cli_help.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,22 +19,7 @@ static const CommandText text = {
     .argument = "RESULT",
     .what = "result folder",
     .example = "amontons film fig1-result -o fig1.mp4",
-    .help =
-        "Films the result folder RESULT, from what is stored in it; nothing is computed but with "
-        "--fields. The film "
-        "shows a field of the block (where the scene had output.fields; else the interface alone), "
-        "the slip rate along the contact, and F_T/F_N. Where slip is rapid time goes slower by "
-        "itself: a band at the foot says how much."
-        "\vThe ending of -o says what is made: .mp4 (H.264), .webm (VP9) or .gif; a name without "
-        "an ending is a folder of PNG frames, and so is a pattern such as frames/run-%04d.png. "
-        "Without -o the film is RESULT.mp4 in the current folder. Of the fields each frame shows "
-        "the one stored nearest in time; --fields computes the run once more and keeps as many as "
-        "the film shows, until it is made. Examples:\n\n"
-        "  amontons film fig1-result\n"
-        "  amontons film fig1-result --cycle --fields\n"
-        "  amontons film fig1-result -o cycle.webm --cycle --size 1280x720\n"
-        "  amontons film fig1-result -o sliding.gif --from U=0.0114 --to U=0.0116\n"
-        "  amontons film fig1-result -o frames/ --of velocity --dark"};
+    .help = film_txt};
 
 // A number above 0, with nothing behind it.
 static int read_number(const char *name, const char *word, double *number)

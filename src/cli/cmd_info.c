@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
+#include "cli_help.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,14 +15,7 @@ static const CommandText text = {
     .argument = "FILE\nkeys",
     .what = "file",
     .example = "amontons info validation/paper/fig1.yaml",
-    .help = "Prints what FILE holds: a mesh (.msh, or .geo), a scene (.yaml, all values after "
-            "defaults), or a result folder."
-            "\vWith the word `keys` instead of FILE: prints every key that a scene may have, with "
-            "default, range and meaning. Examples:\n\n"
-            "  amontons info meshes/pads.geo --set n=4 --picture pads.png\n"
-            "  amontons info scene.yaml --picture mesh.png\n"
-            "  amontons info fig1-result\n"
-            "  amontons info keys"};
+    .help = info_txt};
 
 int command_info(int argc, char **argv)
 {

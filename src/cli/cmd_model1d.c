@@ -6,6 +6,7 @@
 #include "cli/point_table.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
+#include "cli_help.h"
 
 #include <stdlib.h>
 
@@ -14,15 +15,7 @@ static const CommandText text = {
     .argument = "SCENE",
     .what = "scene",
     .example = "amontons model1d validation/paper/fig1.yaml",
-    .help =
-        "The effective model in one dimension of Otsuki and Matsukawa (2013), with the block, "
-        "material, friction and rod of the scene file SCENE: a line whose pressure grows as "
-        "2 P x/L. Prints, for each position l of the quasi-static front, the adiabatic solution "
-        "and how fast disturbances of it grow, beside the same of a simulation of the line."
-        "\vThe simulation starts where sliding has just stopped (U = 0) and ends with the scene's "
-        "time.until; it makes steps as `amontons run` does. With -o it also writes model1d.json, "
-        "model1d.h5 and history.h5, of which `amontons render` draws pictures. Example:\n\n"
-        "  amontons model1d validation/paper/fig1.yaml --set load.pressure=0.03 -o line"};
+    .help = model1d_txt};
 
 typedef struct Model1dWords {
     SceneWords common;

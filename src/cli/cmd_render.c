@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
+#include "cli_help.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -23,22 +24,7 @@ static const CommandText text = {
     .argument = "RESULT\nSWEEP\nPLOT.yaml",
     .what = "result folder",
     .example = "amontons render fig1-result",
-    .help =
-        "Draws the pictures of the result folder RESULT again, from its stored history; "
-        "nothing is computed. They are written to RESULT/figures/NAME.png. With a file "
-        "PLOT.yaml or PLOT.json that describes curves or maps: draws them into PLOT.png. A sweep "
-        "leaves such files; render/plot/plot_file.h explains their keys. Of the folder SWEEP "
-        "that a sweep left: draws what its study asks for again, or with --plot anything that its "
-        "table holds, in the words of a study's `plot`."
-        "\vIn PDF and SVG lines and letters stay sharp "
-        "at any size, and fonts come along. Letters are 7 to 8 points high in print, whatever the "
-        "width. Examples:\n\n"
-        "  amontons render fig1-result --figure force --format pdf\n"
-        "  amontons render fig1-result --figure slip-map --style columns --height 60\n"
-        "  amontons render fig1-result --panels force,slip-map,contact-density\n"
-        "  amontons render fig1-result --figure field --of stress_xz --at U=0.0117\n"
-        "  amontons render phase-sweep --plot '{x: load.pressure, y: mesh.set.length, color: "
-        "mu_M}'"};
+    .help = render_txt};
 
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
+#include "cli_help.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -12,17 +13,7 @@ static const CommandText text = {
     .argument = "RESULT...",
     .what = "result folder",
     .example = "amontons report fig1-result",
-    .help = "Writes one page, an .html file that needs no network: of the result folder of a run "
-            "(what was computed, key numbers with their errors and warnings, a slider through "
-            "frames of it, a film that lies in the folder, figures, events, the scene, how to "
-            "reproduce and to cite it); of a sweep (figures, ranking, all points); or of several "
-            "runs, up to 8 (their numbers side by side, where their scenes differ, their force "
-            "curves over each other)."
-            "\vNothing is computed. A run that failed or has not ended has a page, too, which says "
-            "so. Examples:\n\n"
-            "  amontons report fig1-result\n"
-            "  amontons report pads-sweep -o pads.html\n"
-            "  amontons report dry-result wet-result -o dry-and-wet.html"};
+    .help = report_txt};
 
 // A path with slashes behind it; at most one argument's length.
 static void default_file(const OptionWords *results, char *file, size_t size)

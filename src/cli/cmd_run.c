@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
+#include "cli_help.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,26 +20,7 @@ static const CommandText text = {
     .argument = "SCENE",
     .what = "scene",
     .example = "amontons run validation/paper/fig1.yaml",
-    .help =
-        "Simulates the scene file SCENE: makes the mesh, lets the block relax under its load, "
-        "moves the rod until the end of the scene (time.until), and writes run.json, history.h5, "
-        "fields and pictures into the result folder (without -o: the scene's name with -result, "
-        "in the current folder)."
-        " With --to 1% the mesh is refined and runs are repeated until the error bar of mu_M is 1 "
-        "% "
-        "or less; the bar then holds the error of the mesh, of branches that coexist, and of the "
-        "finite number of slidings. Now and then a checkpoint is written: a run that was cut off "
-        "goes "
-        "on with --resume, to the same bits as if nothing had happened; one that came to its end "
-        "goes "
-        "farther with --extend."
-        "\vValues are written as in the scene: --set load.pressure=0.006, "
-        "--set output.figures=[], --set output.fields=none; `amontons info keys` lists all keys. "
-        "A .geo is refined by its parameter `refine`, any other mesh by splitting its cells. "
-        "Ctrl-C ends the run after the present step and keeps its results. Examples:\n\n"
-        "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=40 -o coarse\n"
-        "  amontons run validation/paper/fig1.yaml --to 1% --within 5min\n"
-        "  amontons run validation/paper/fig1.yaml -o first --extend U=0.03"};
+    .help = run_txt};
 
 // A line for each mesh, above the progress bar.
 static void show_level(const LevelView *view, void *context)

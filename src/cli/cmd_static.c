@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
+#include "cli_help.h"
 
 #include <math.h>
 
@@ -11,13 +12,7 @@ static const CommandText text = {
     .argument = "SCENE",
     .what = "scene",
     .example = "amontons static validation/freefem/friction.yaml",
-    .help = "Finds the static equilibrium of the block in the scene file SCENE, under its load, "
-            "rod.displacement and load.supports. The contact can open; friction is Coulomb's law "
-            "with friction.mu_static, and a node that sticks stays where it is in the undeformed "
-            "block."
-            "\vPrints the forces and how well they balance. With -o it also writes static.json, "
-            "static.h5 and static.vtu. Example:\n\n"
-            "  amontons static validation/freefem/friction.yaml -o friction"};
+    .help = static_txt};
 
 // Of a force, an energy and a moment, each per width, and of a length; empty: normalised.
 typedef struct Units {

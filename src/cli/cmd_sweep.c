@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "cli/study_run.h"
+#include "cli_help.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,56 +16,7 @@ static const CommandText text = {
     .argument = "STUDY",
     .what = "study",
     .example = "amontons sweep validation/paper/fig2a.yaml",
-    .help =
-        "Computes all points of the study file STUDY, each of them a run, in processes of their "
-        "own, and writes one table, DIR/sweep.csv and DIR/sweep.h5. A study names a scene and what "
-        "is "
-        "varied in it:\n\n"
-        "  scene: fig1.yaml\n"
-        "  set: {mesh.set.nx: 40, mesh.set.height: = 0.5 * mesh.set.length}\n"
-        "  vary:\n"
-        "    mesh.set.length: [0.25, 1, 4]\n"
-        "    load.pressure: {log: [1e-4, 1e-2], points: 7}\n"
-        "  record: [mu_M, period, results.mu_max]\n"
-        "  rank: {by: mu_M, order: highest, top: 10, against: {mesh.set.length: 1}}\n"
-        "  plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}\n"
-        "\v`set` changes keys of the scene for all points; a value that begins with `=` is a "
-        "formula over the scene's numbers. `vary` takes every combination of its values. `cases` "
-        "is a list of maps of keys, each combined with all of `vary`.\n\n"
-        "`record` names the columns of the table: paths in run.json, or mu_M, mu_M_error, spread, "
-        "period, low, high, peaks, l_c, l_sc, slip_cells, steps, unsolved, solve_s, total_s, "
-        "energy_error, contact_error, moment_error, "
-        "reduction_error, mu_max, mu_hold, mu_hold_error, mu_drops, mu_drops_error, "
-        "drops, drops_period, drops_enough, run_in_over, mu_steady, mu_first_pad, first_mu, "
-        "contact_nodes, reduced_dofs.\n\n"
-        "`rank` prints the best points at the end, and writes DIR/ranking.csv and "
-        "DIR/figures/ranking.png: `by` is a name as in `record`, `order` is highest or lowest, "
-        "`top` how many are printed, `against` what the gain is measured from: first (the first "
-        "point), best, or keys: then the same point with these values. `+-` is the error of "
-        "the number before it. Where the difference of two points is within their errors, their "
-        "order is `not decided`; `refine: 0.5%` computes such points again, with accuracy.mu "
-        "halved until the order is decided or 0.5% is reached. `plot` draws DIR/figures/plot.png: "
-        "`x` and `y` each a result, a key that varies, or a formula over such, as in = "
-        "load.pressure * mesh.set.length; `series` a key, `log`: x, y, both or none. With `color` "
-        "(and `contours`) it draws a map, DIR/figures/map.png. `panels` draws a frame for each "
-        "value of a key, `with` names folders of other sweeps to show beside; a list draws several "
-        "plots, told apart by `name`. `amontons render DIR --plot` draws others later.\n\n"
-        "Each point ends when its peaks are periodic, and keeps no history and no pictures, "
-        "unless the study sets output.history: true and the like; with `keep: table` it leaves no "
-        "folder either. Finished points stay in "
-        "DIR/points: the same command continues an interrupted sweep, and computes only what is "
-        "new when the study has changed.\n\n"
-        "With --slurm each point is an element of a job array. The sweep waits for them, on a "
-        "login node for instance; Ctrl-C cancels them. All nodes must see DIR and this program. "
-        "Partition, time and memory are given by the variables of sbatch (SBATCH_PARTITION, "
-        "SBATCH_TIMELIMIT, ...) or here: --slurm=\"--partition=short --time=10 --mem=1G\". A point "
-        "needs one core. The output of an element is in DIR/slurm; an element that Slurm ended is "
-        "a failed point, with Slurm's reason. With `keep: table` an element computes as many "
-        "points as "
-        "take four minutes; what it left undone the same command goes on with.\n\n"
-        "Exit status: 0 all points done, 1 some failed (listed; the others are in the table), "
-        "2 the study is wrong. Example:\n\n"
-        "  amontons sweep validation/paper/fig2a.yaml -j 2 -o fig2a"};
+    .help = sweep_txt};
 
 // One point, in a job of a Slurm array. list: the file that the sweep wrote for the array; Slurm
 // puts into the environment which element this process is, and keeps its exit status.

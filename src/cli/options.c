@@ -159,8 +159,7 @@ Option option_trust(bool *trusted)
 {
     return (Option){
         "trust", 0, NULL,
-        "Also use a .geo that runs commands or writes files, and a friction law that is a "
-        "plug-in",
+        "Also use a .geo that runs commands or writes files, and a friction law that is a plug-in",
         .flag = trusted};
 }
 

@@ -34,9 +34,7 @@ bool contact_discs_create(const Interface *interface, ContactNewton *newton, Con
 
 void contact_discs_destroy(ContactDiscs *discs)
 {
-    memory_free(discs->row);
-    memory_free(discs->kept);
-    memory_free(discs->taken);
+    memory_free_all(discs->row, discs->kept, discs->taken);
     disc_factors_destroy(&discs->factors);
     *discs = (ContactDiscs){0};
 }

@@ -54,8 +54,7 @@ cleanup:
 
 void contact_faces_destroy(ContactFaces *faces)
 {
-    memory_free(faces->corner);
-    memory_free(faces->point);
+    memory_free_all(faces->corner, faces->point);
     *faces = (ContactFaces){0};
 }
 

@@ -39,20 +39,9 @@ bool contact_factors_create(const Interface *interface, ContactFactors *factors,
 
 void contact_factors_destroy(ContactFactors *factors)
 {
-    memory_free(factors->lu);
-    memory_free(factors->pivots);
-    memory_free(factors->free);
-    memory_free(factors->row);
-    memory_free(factors->status);
-    memory_free(factors->replaced);
-    memory_free(factors->z);
-    memory_free(factors->v);
-    memory_free(factors->p);
-    memory_free(factors->p_pivots);
-    memory_free(factors->now);
-    memory_free(factors->x);
-    memory_free(factors->y);
-    memory_free(factors->t);
+    memory_free_all(factors->lu, factors->pivots, factors->free, factors->row, factors->status,
+                    factors->replaced, factors->z, factors->v, factors->p, factors->p_pivots,
+                    factors->now, factors->x, factors->y, factors->t);
     *factors = (ContactFactors){0};
 }
 

@@ -37,10 +37,7 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
 
 void contact_matrix_destroy(ContactMatrix *matrix)
 {
-    memory_free(matrix->closed);
-    memory_free(matrix->out);
-    memory_free(matrix->work);
-    memory_free(matrix->order);
+    memory_free_all(matrix->closed, matrix->out, matrix->work, matrix->order);
     *matrix = (ContactMatrix){0};
 }
 

@@ -26,12 +26,8 @@ bool contact_newton_create(const Interface *interface, ContactNewton *newton, Er
 void contact_newton_destroy(ContactNewton *newton)
 {
     contact_factors_destroy(&newton->factors);
-    memory_free(newton->free);
-    memory_free(newton->open);
-    memory_free(newton->row);
-    memory_free(newton->step);
-    memory_free(newton->more);
-    memory_free(newton->pull);
+    memory_free_all(newton->free, newton->open, newton->row, newton->step, newton->more,
+                    newton->pull);
     *newton = (ContactNewton){0};
 }
 

@@ -51,17 +51,9 @@ bool contact_path_create(const Interface *interface, ContactPath *path, Error *e
 
 void contact_path_destroy(ContactPath *path)
 {
-    memory_free(path->free);
-    memory_free(path->equation);
-    memory_free(path->pivots);
-    memory_free(path->matrix);
-    memory_free(path->lift);
-    memory_free(path->row);
-    memory_free(path->tangent);
-    memory_free(path->velocity_rate);
-    memory_free(path->reaction_rate);
-    memory_free(path->kept);
-    memory_free(path->piece);
+    memory_free_all(path->free, path->equation, path->pivots, path->matrix, path->lift, path->row,
+                    path->tangent, path->velocity_rate, path->reaction_rate, path->kept,
+                    path->piece);
     *path = (ContactPath){0};
 }
 

@@ -153,11 +153,9 @@ typedef struct Face {
 
 static void face_destroy(Face *face)
 {
-    memory_free(face->node);
-    memory_free(face->area);
+    memory_free_all(face->node, face->area);
     for (int k = 0; k < 2; k++) {
-        memory_free(face->from[k]);
-        memory_free(face->to[k]);
+        memory_free_all(face->from[k], face->to[k]);
     }
 }
 
@@ -334,8 +332,7 @@ bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *inter
     TRY(build_contact(mesh, def, interface, err));
     TRY(build_rod(mesh, def, interface, err));
     interface->count = interface_rod(interface, interface->rod_count);
-    interface->dofs = NEW_ARRAY(int32_t, interface->count, err);
-    if (!interface->dofs) goto cleanup;
+    TRY((interface->dofs = NEW_ARRAY(int32_t, interface->count, err)));
     for (int32_t i = 0; i < interface->contact_count; i++)
         for (int32_t d = 0; d < mesh->dim; d++)
             interface->dofs[interface_unknown(interface, i, d)] =
@@ -364,20 +361,10 @@ double interface_nodes_along(const Interface *interface)
 
 void interface_destroy(Interface *interface)
 {
-    memory_free(interface->node);
-    memory_free(interface->x);
-    memory_free(interface->weight);
-    memory_free(interface->gap);
-    memory_free(interface->pad);
-    memory_free(interface->pad_name);
+    memory_free_all(interface->node, interface->x, interface->weight, interface->gap,
+                    interface->pad, interface->pad_name);
     contact_faces_destroy(&interface->faces);
-    memory_free(interface->rod_node);
-    memory_free(interface->y);
-    memory_free(interface->line);
-    memory_free(interface->rod_z);
-    memory_free(interface->rod_y);
-    memory_free(interface->rod_length);
-    memory_free(interface->rod_share);
-    memory_free(interface->dofs);
+    memory_free_all(interface->rod_node, interface->y, interface->line, interface->rod_z,
+                    interface->rod_y, interface->rod_length, interface->rod_share, interface->dofs);
     *interface = (Interface){0};
 }

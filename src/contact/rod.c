@@ -27,9 +27,7 @@ bool rod_build(const Interface *interface, RodKind kind, double velocity, Rod *r
 
 void rod_destroy(Rod *rod)
 {
-    memory_free(rod->origin);
-    memory_free(rod->softness);
-    memory_free(rod->lag);
+    memory_free_all(rod->origin, rod->softness, rod->lag);
     *rod = (Rod){0};
 }
 

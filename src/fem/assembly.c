@@ -91,8 +91,7 @@ static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
         pattern->start[dof + 1] = filled;
     }
 cleanup:
-    memory_free(graph.start);
-    memory_free(graph.neighbour);
+    memory_free_all(graph.start, graph.neighbour);
     return error_is_clean(err);
 }
 
@@ -194,11 +193,7 @@ bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *mate
 void bulk_destroy(Bulk *bulk)
 {
     sparse_pattern_destroy(&bulk->pattern);
-    memory_free(bulk->stiffness);
-    memory_free(bulk->damping);
-    memory_free(bulk->mass);
-    memory_free(bulk->load);
-    memory_free(bulk->held);
+    memory_free_all(bulk->stiffness, bulk->damping, bulk->mass, bulk->load, bulk->held);
     *bulk = (Bulk){0};
 }
 
@@ -249,6 +244,21 @@ static void share_face(const Mesh *mesh, FaceNodes face, bool shadow, double sha
     }
 }
 
+// int N_a dA of a T6's corners is 0 where it is flat and of either sign, as small as the square of
+// its bend, where it is curved: half of each goes to the mid-sides beside it, so that corners of a
+// curved contact touch nothing, either.
+static void share_of_mid_sides(double share[FACE_NODES_MAX])
+{
+    static const double ROUNDING = 1e-12;   // over that of a mid-side
+    for (int32_t a = 0; a < 3; a++) {
+        double half = 0.5 * share[a];
+        if (fabs(half) < ROUNDING * share[3 + a]) continue;
+        share[3 + a] += half;
+        share[3 + (a + 2) % 3] += half;
+        share[a] = 0;
+    }
+}
+
 // w_i = int N_i dA, at its mesh nodes: what turns a nodal reaction into a stress.
 void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
                           double *weight)
@@ -257,6 +267,7 @@ void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool s
         FaceNodes face = mesh_boundary_face(boundary, k);
         double share[FACE_NODES_MAX] = {0};
         share_face(mesh, face, shadow, share);
+        if (mesh->dim > 2 && face.kind == ELEMENT_T6) share_of_mid_sides(share);
         for (int32_t a = 0; a < element_node_count(face.kind); a++)
             weight[face.node[a]] += share[a];
     }

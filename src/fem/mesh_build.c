@@ -26,8 +26,7 @@ void mesh_destroy(Mesh *mesh)
                      .group_count = mesh->group_count,
                      .groups = mesh->groups};
     mesh_file_destroy(&file);
-    memory_free(mesh->region);
-    memory_free(mesh->mean_next);
+    memory_free_all(mesh->region, mesh->mean_next);
     *mesh = (Mesh){0};
 }
 
@@ -253,8 +252,7 @@ static bool check_boundaries(const Mesh *mesh, Error *err)
                *piece = mesh->dim == 2 ? "curve" : "surface";
     char at[PLACE_TEXT_SIZE];
     TRY(mesh_faces_build(mesh, &table, err));
-    listed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err);
-    if (!listed) goto cleanup;
+    TRY((listed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err)));
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
         for (int32_t k = 0; k < group->face_count; k++) {

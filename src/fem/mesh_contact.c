@@ -73,9 +73,7 @@ cleanup:
 
 void mesh_contact_destroy(MeshContact *contact)
 {
-    memory_free(contact->pads);
-    memory_free(contact->nodes);
-    memory_free(contact->pad_of);
+    memory_free_all(contact->pads, contact->nodes, contact->pad_of);
     *contact = (MeshContact){0};
 }
 
@@ -229,8 +227,7 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
         if (fabs(mesh_height(mesh, b) - mesh_height(mesh, a)) > tolerance)
             FAIL(err, ERROR_INPUT,
                  "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a face is "
-                 "no "
-                 "contact",
+                 "no contact",
                  mesh->path, name, at_b[0], mesh_height(mesh, a), mesh_height(mesh, b));
         FAIL(err, ERROR_INPUT,
              "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "

@@ -124,16 +124,14 @@ static bool count_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table,
 bool mesh_faces_build(const Mesh *mesh, MeshFaces *table, Error *err)
 {
     *table = (MeshFaces){0};
-    table->first = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err);
-    if (!table->first) goto cleanup;
+    TRY((table->first = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err)));
     if (!(table->last = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
     visit_faces(mesh, count_face, table, err);
     for (int32_t i = 0; i < mesh->node_count; i++) {
         table->first[i + 1] += table->first[i];
         table->last[i] = table->first[i];
     }
-    table->faces = NEW_ARRAY(MeshFace, table->first[mesh->node_count], err);
-    if (!table->faces) goto cleanup;
+    TRY((table->faces = NEW_ARRAY(MeshFace, table->first[mesh->node_count], err)));
     TRY(visit_faces(mesh, add_face, table, err));
 cleanup:
     return error_is_clean(err);
@@ -141,9 +139,7 @@ cleanup:
 
 void mesh_faces_destroy(MeshFaces *table)
 {
-    memory_free(table->first);
-    memory_free(table->last);
-    memory_free(table->faces);
+    memory_free_all(table->first, table->last, table->faces);
     *table = (MeshFaces){0};
 }
 

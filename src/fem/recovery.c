@@ -165,17 +165,9 @@ cleanup:
 
 void nodal_stress_destroy(NodalStress *stress)
 {
-    memory_free(stress->elastic);
-    memory_free(stress->total);
-    memory_free(stress->von_mises);
-    memory_free(stress->row);
-    memory_free(stress->row_length);
-    memory_free(stress->column);
-    memory_free(stress->slope);
-    memory_free(stress->areal);
-    memory_free(stress->region);
-    memory_free(stress->points);
-    memory_free(stress->extra_node);
+    memory_free_all(stress->elastic, stress->total, stress->von_mises, stress->row,
+                    stress->row_length, stress->column, stress->slope, stress->areal,
+                    stress->region, stress->points, stress->extra_node);
     *stress = (NodalStress){0};
 }
 

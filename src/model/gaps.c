@@ -25,22 +25,43 @@ cleanup:
 }
 
 // Measured no farther than the contact nodes reach: what lies beyond is not guessed.
-static bool add_profile(const Scene *scene, Interface *interface, Error *err)
+static bool reaches_over(const char *path, const char *axis, const double measured[2],
+                         const double contact[2], Error *err)
 {
     // Of positions, over the contact's length: a file may hold five digits, far less than a cell.
     static const double ROUNDING = 1e-4;
-    SceneProfile profile = {0};
-    int32_t last = interface->contact_count - 1;
-    double first_x = interface->x[0], last_x = interface->x[last];
-    double slack = ROUNDING * (last_x - first_x);
-    TRY(scene_profile_read(scene, &profile, err));
-    double begin = profile.x[0], end = profile.x[profile.count - 1];
-    if (begin > first_x + slack || end < last_x - slack)
+    double slack = ROUNDING * (contact[1] - contact[0]);
+    if (measured[0] > contact[0] + slack || measured[1] < contact[1] - slack)
         FAIL(err, ERROR_INPUT,
-             "%s goes from x = %g to %g, the contact from %g to %g: it must reach over all of it",
-             scene->contact.profile, begin, end, first_x, last_x);
-    for (int32_t i = 0; i <= last; i++)
-        interface->gap[i] += scene_profile_at(&profile, interface->x[i]);
+             "%s goes from %s = %g to %g, the contact from %g to %g: it must reach over all of it",
+             path, axis, measured[0], measured[1], contact[0], contact[1]);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool add_profile(const Scene *scene, Interface *interface, Error *err)
+{
+    SceneProfile profile = {0};
+    const char *path = scene->contact.profile;
+    const double *y = interface->y;
+    int32_t count = interface->contact_count;
+    TRY(scene_profile_read(scene, &profile, err));
+    if (profile.y && !y)
+        FAIL(err, ERROR_INPUT, "%s has x, y and gap, but the mesh is in the plane: there is no y",
+             path);
+    TRY(reaches_over(path, "x", (double[]){profile.x[0], profile.x[profile.count - 1]},
+                     (double[]){interface->x[0], interface->x[count - 1]}, err));
+    if (profile.y) {
+        double reach[2] = {y[0], y[0]};
+        for (int32_t i = 0; i < count; i++) {
+            reach[0] = fmin(reach[0], y[i]);
+            reach[1] = fmax(reach[1], y[i]);
+        }
+        TRY(reaches_over(path, "y", (double[]){profile.y[0], profile.y[profile.rows - 1]}, reach,
+                         err));
+    }
+    for (int32_t i = 0; i < count; i++)
+        interface->gap[i] += scene_profile_at(&profile, interface->x[i], y ? y[i] : 0);
 cleanup:
     scene_profile_destroy(&profile);
     return error_is_clean(err);

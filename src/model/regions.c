@@ -76,8 +76,7 @@ static bool check_locking(const Model *model, const uint8_t *is_mean, Error *err
         if (mesh->kind[e] == ELEMENT_TET4 && is_mean[mesh_region(mesh, e)])
             FAIL(err, ERROR_INPUT,
                  "%s: TET4 lock in a material whose volume resists so much more than its shape; "
-                 "take "
-                 "hexahedra, wedges or order 2",
+                 "take hexahedra, wedges or order 2",
                  mesh->path);
 cleanup:
     return error_is_clean(err);
@@ -160,7 +159,6 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     model->rod_end[0] = find_end(model, &rod, on_rod, 0, low, high);
     model->rod_end[1] = find_end(model, &rod, on_rod, interface->rod_count - 1, low, high);
 cleanup:
-    memory_free(on_pad);
-    memory_free(on_rod);
+    memory_free_all(on_pad, on_rod);
     return error_is_clean(err);
 }

@@ -63,8 +63,7 @@ static bool write_curves(HtmlWriter *html, const RunSource *runs, int32_t count,
     }
     if (with < count)
         html_markup(html,
-                    "<p class='note'>%d of %d runs kept no history, and have no curve "
-                    "here.</p>\n",
+                    "<p class='note'>%d of %d runs kept no history, and have no curve here.</p>\n",
                     count - with, count);
     if (with == 0) return true;
     RenderCurvesFunction render =

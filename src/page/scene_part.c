@@ -77,8 +77,8 @@ void scene_summary_write(HtmlWriter *html, const RunSource *run)
 {
     char group[KEY_SIZE], path[KEY_SIZE + 8], inner[KEY_SIZE];
     html_markup(html,
-                "<div class='wide'><table><caption>The scene, all values after defaults, in "
-                "%s units</caption><tbody>\n",
+                "<div class='wide'><table><caption>The scene, all values after defaults, in %s "
+                "units</caption><tbody>\n",
                 run->si ? "SI" : "normalised");
     for (int32_t k = 0; json_find_key(run->json, "scene", k, group, sizeof group); ++k) {
         snprintf(path, sizeof path, "scene.%s", group);
@@ -132,9 +132,8 @@ static void write_difference(void *context, const char *path, const char *value)
 void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count)
 {
     Differences all = {.html = html, .runs = runs, .count = count};
-    html_markup(html,
-                "<div class='wide'><table><caption>Keys of the scenes that differ; all others "
-                "are the same</caption><thead><tr><th scope='col'>key</th>");
+    html_markup(html, "<div class='wide'><table><caption>Keys of the scenes that differ; all "
+                      "others are the same</caption><thead><tr><th scope='col'>key</th>");
     for (int32_t k = 0; k < count; ++k) {
         html_markup(html, "<th scope='col' class='number'>");
         html_text(html, runs[k].name);

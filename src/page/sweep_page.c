@@ -80,8 +80,7 @@ static void sweep_close(SweepSource *sweep)
 {
     csv_destroy(&sweep->table);
     csv_destroy(&sweep->ranking);
-    memory_free(sweep->is_key);
-    memory_free(sweep->varies);
+    memory_free_all(sweep->is_key, sweep->varies);
     run_source_close(&sweep->run);
     *sweep = (SweepSource){0};
 }
@@ -203,8 +202,7 @@ static bool write_answer(HtmlWriter *html, const SweepSource *sweep, Error *err)
     html_markup(html, "'><figcaption>The best design: its mesh, and the rod.</figcaption>"
                       "</figure>\n");
 cleanup:
-    memory_free(text);
-    memory_free(picture);
+    memory_free_all(text, picture);
     return error_is_clean(err);
 }
 

@@ -25,13 +25,8 @@ bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
 
 void contact_arrays_destroy(ContactArrays *arrays)
 {
-    memory_free(arrays->slip_rate);
-    memory_free(arrays->slip);
-    memory_free(arrays->pressure);
-    memory_free(arrays->shear);
-    memory_free(arrays->status);
-    memory_free(arrays->state);
-    memory_free(arrays->origin);
+    memory_free_all(arrays->slip_rate, arrays->slip, arrays->pressure, arrays->shear,
+                    arrays->status, arrays->state, arrays->origin);
     *arrays = (ContactArrays){0};
 }
 

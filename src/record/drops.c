@@ -45,9 +45,7 @@ cleanup:
 
 void drops_destroy(Drops *drops)
 {
-    memory_free(drops->list);
-    memory_free(drops->series);
-    memory_free(drops->states);
+    memory_free_all(drops->list, drops->series, drops->states);
     stretches_destroy(&drops->stretches);
     *drops = (Drops){0};
 }
@@ -260,8 +258,7 @@ static void drop_archive(Drop *drop, int32_t events, Archive *archive)
 // Work and states: room for as many as the list has.
 static bool make_room(Drops *drops, Error *err)
 {
-    memory_free(drops->series);
-    memory_free(drops->states);
+    memory_free_all(drops->series, drops->states);
     drops->series = NEW_ARRAY(SeriesItem, drops->room, err);
     drops->states = NEW_ARRAY(double, (int64_t)(drops->room + 1) * state_size(drops), err);
     return error_is_clean(err);

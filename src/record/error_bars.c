@@ -318,6 +318,14 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_max_known_to = fabs(usual * answers->mu_max);
 }
 
+// No run of the last level had a peak: its mu_M is that of steady sliding.
+static bool slides_steadily(const Level *last)
+{
+    for (int32_t k = 0; k < last->run_count; k++)
+        if (last->runs[k].peaks > 0) return false;
+    return !isnan(last->answer[ANSWER_MU_M].value);
+}
+
 void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
@@ -331,6 +339,7 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
     answers->mu_hold_parts = mu_hold->parts;
+    answers->steady = slides_steadily(&levels->list[levels->count - 1]);
     answers->mu_M_known_to = levels_known_to(levels, ANSWER_MU_M);
     answers->mu_hold_known_to = levels_known_to(levels, ANSWER_MU_HOLD);
 }

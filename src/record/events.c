@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "contact/slip.h"
+#include "record/front_area.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,6 +52,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
     events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    events->slow_arrival = NEW_ARRAY(double, interface->contact_count, err);
     events->pads = NEW_ARRAY(PadSum, interface->pad_count, err);
     events->pads_before = NEW_ARRAY(PadSum, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
@@ -62,10 +64,8 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 
 void events_destroy(Events *events)
 {
-    memory_free(events->list);
-    memory_free(events->slipped);
-    memory_free(events->pads);
-    memory_free(events->pads_before);
+    memory_free_all(events->list, events->slipped, events->slow_arrival, events->pads,
+                    events->pads_before);
     front_path_destroy(&events->path);
     *events = (Events){0};
 }
@@ -85,6 +85,7 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .front_start = events->front_before,
                                    .reach = seen->front,
                                    .front_speed = NAN,
+                                   .area_front_speed = NAN,
                                    .pad = -1,
                                    .slip_length = NAN,
                                    .slip_cells = NAN,
@@ -124,14 +125,18 @@ static void end_slow(Events *events, const Interface *interface)
     double from = event->front_start, to = event->reach, duration = event->t_stop - event->t_start;
     if (duration > 0 && to > from)
         event->front_speed = (to - from - gaps_between(interface, from, to)) / duration;
+    if (events->in_space)
+        event->area_front_speed = front_area_speed(interface, events->slow_arrival, event->t_start);
     events->slow = -1;
 }
 
 // What is known of a rapid event once it is over.
-static void end_rapid(Events *events)
+static void end_rapid(Events *events, const Interface *interface)
 {
     Event *event = &events->list[events->rapid];
     front_path_stations(&events->path, event->t_start, event->front_times);
+    if (events->in_space)
+        event->area_front_speed = front_area_speed(interface, events->path.arrival, -INFINITY);
     events->rapid = -1;
 }
 
@@ -143,6 +148,7 @@ static bool mark_slipped(Events *events, const Observation *seen)
         if (seen_status(seen, i) != CONTACT_STICK && !events->slipped[i]) {
             events->slipped[i] = 1;
             events->list[events->rapid].slipped += seen->interface->weight[i];
+            if (isnan(events->slow_arrival[i])) events->slow_arrival[i] = INFINITY;
         }
         all = all && events->slipped[i];
     }
@@ -266,6 +272,17 @@ static void follow_rapid(Events *events, const Observation *seen)
     }
 }
 
+// One step of the quasi-static event under way.
+static void follow_slow(Events *events, const Observation *seen)
+{
+    Event *event = &events->list[events->slow];
+    extend_event(event, seen, seen->front);
+    event->slipped = fmax(event->slipped, sum_slipping(events->pads, seen->interface->pad_count));
+    for (int32_t i = 0; events->in_space && i < seen->interface->contact_count; i++)
+        if (isnan(events->slow_arrival[i]) && status_slips(seen_status(seen, i)))
+            events->slow_arrival[i] = seen->t;
+}
+
 // Slow and rapid events never overlap in a step: while something is rapid, the slow one pauses.
 static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
@@ -275,20 +292,17 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
     if (events->rapid >= 0) {
         follow_rapid(events, seen);
         if (seen->max_slip_rate < events->rate_stop) {
-            end_rapid(events);
+            end_rapid(events, seen->interface);
             events->ended = true;
         }
         goto cleanup;
     }
     bool slips = seen->front > interface_line_x(seen->interface, 0) && seen->max_slip_rate > 0;
-    if (events->slow < 0 && slips)
+    if (events->slow < 0 && slips) {
         TRY(start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err));
-    if (events->slow >= 0) {
-        Event *event = &events->list[events->slow];
-        extend_event(event, seen, seen->front);
-        event->slipped =
-            fmax(event->slipped, sum_slipping(events->pads, seen->interface->pad_count));
+        for (int32_t i = 0; i < seen->interface->contact_count; i++) events->slow_arrival[i] = NAN;
     }
+    if (events->slow >= 0) follow_slow(events, seen);
 cleanup:
     return error_is_clean(err);
 }
@@ -313,7 +327,7 @@ void events_close(Events *events, const Observation *last)
     if (!events->list) return;   // the run failed before they were created
     if (events->rapid >= 0) {
         extend_event(&events->list[events->rapid], last, 0);
-        end_rapid(events);
+        end_rapid(events, last->interface);
     }
     end_slow(events, last->interface);
 }
@@ -339,6 +353,7 @@ static void event_archive(Event *event, int32_t pad_count, Archive *archive)
     archive_number(archive, &event->slipped);
     archive_number(archive, &event->peak_slip_rate);
     archive_number(archive, &event->front_speed);
+    archive_number(archive, &event->area_front_speed);
     archive_index(archive, &event->pad, -1, pad_count);
     archive_number(archive, &event->slip_length);
     archive_number(archive, &event->slip_cells);
@@ -362,6 +377,7 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     archive_flag(archive, &events->ended);
     archive_flag(archive, &events->crossed);
     archive_octets(archive, events->slipped, interface->contact_count);
+    archive_numbers(archive, events->slow_arrival, interface->contact_count);
     archive_number(archive, &events->fast_front_start);
     archive_number(archive, &events->fast_t_start);
     archive_number(archive, &events->fast_reach);

@@ -128,16 +128,9 @@ cleanup:
 void field_files_destroy(FieldFiles *files)
 {
     nodal_stress_destroy(&files->stress);
-    memory_free(files->points);
-    memory_free(files->vectors);
-    memory_free(files->offsets);
-    memory_free(files->connectivity);
-    memory_free(files->cell_types);
-    memory_free(files->line_points);
-    memory_free(files->line_values);
-    memory_free(files->line_offsets);
-    memory_free(files->line_connectivity);
-    memory_free(files->line_types);
+    memory_free_all(files->points, files->vectors, files->offsets, files->connectivity,
+                    files->cell_types, files->line_points, files->line_values, files->line_offsets,
+                    files->line_connectivity, files->line_types);
     *files = (FieldFiles){0};
 }
 

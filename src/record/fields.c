@@ -113,8 +113,7 @@ void fields_destroy(Fields *fields)
     worker_destroy(fields->writer);
     for (int32_t k = 0; k < FIELD_SLOTS; k++) memory_free(fields->slots[k].storage);
     field_files_destroy(&fields->files);
-    memory_free(fields->entries);
-    memory_free(fields->names);
+    memory_free_all(fields->entries, fields->names);
     *fields = (Fields){0};
 }
 

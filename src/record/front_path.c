@@ -50,8 +50,7 @@ bool front_path_create(const Interface *interface, double threshold, FrontPath *
 
 void front_path_destroy(FrontPath *path)
 {
-    memory_free(path->rate_before);
-    memory_free(path->arrival);
+    memory_free_all(path->rate_before, path->arrival);
     *path = (FrontPath){0};
 }
 

@@ -18,11 +18,8 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
                     const ContactArrays *contact, History *history, Error *err)
 {
     int32_t count = interface->contact_count;
-    *history = (History){.contact = contact,
-                         .flushed_at = clock_seconds(),
-                         .pad_count = interface->pad_count,
-                         .rod_on_spring = head->rod_on_spring,
-                         .remembers = head->remembers};
+    *history = (History){
+        .contact = contact, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     if (interface->line) history->line = NEW_ARRAY(double, count, err);
@@ -38,6 +35,8 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
         history->line[interface->line[k]] = 1;
     head->contact_count = count;
     head->tangents = contact->tangents;
+    for (ResultSeries k = 0; k < RESULT_SERIES_COUNT; k++)
+        history->written[k] = result_series_written(head, k);
     head->nodes[NODES_X] = interface->x;
     head->nodes[NODES_Y] = interface->y;
     head->nodes[NODES_LINE] = history->line;
@@ -52,12 +51,8 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
 // A file that was not finished stays as history.h5.part, which render and info can read.
 void history_destroy(History *history)
 {
-    memory_free(history->row);
-    memory_free(history->pad);
-    memory_free(history->line);
-    memory_free(history->pad_sums);
-    memory_free(history->pad_row);
-    memory_free(history->pad_length);
+    memory_free_all(history->row, history->pad, history->line, history->pad_sums, history->pad_row,
+                    history->pad_length);
     array_file_abandon(history->file);
     *history = (History){0};
 }
@@ -114,27 +109,35 @@ static const double *node_values(const History *history, ResultSeries series)
     }
 }
 
-// Of pad p; mean slip along it: of its nodes by weight.
+// Mean slip of pad p along the drive, 0, or across it, 1: of its nodes by weight.
+static double pad_slip(const History *history, const Interface *interface, int32_t p, int32_t c)
+{
+    const ContactArrays *contact = history->contact;
+    double slip = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (interface->pad[i] == p)
+            slip += interface->weight[i] / history->pad_length[p] *
+                    contact->slip[i * contact->tangents + c];
+    return slip;
+}
+
 static double pad_value(const History *history, const Observation *seen, ResultSeries series,
                         int32_t p)
 {
     const PadSum *sum = &history->pad_sums[p];
-    const Interface *interface = seen->interface;
-    const double *along = history->contact->slip;
-    int32_t tangents = history->contact->tangents;
-    double slip = 0;
     switch (series) {
     case SERIES_PAD_NORMAL:
         return sum->normal_force;
     case SERIES_PAD_SHEAR:
         return sum->shear;
+    case SERIES_PAD_SHEAR_ACROSS:
+        return sum->shear_across;
     case SERIES_PAD_SLIPPING:
         return sum->slipping;
     case SERIES_PAD_SLIP:
-        for (int32_t i = 0; i < interface->contact_count; i++)
-            if (interface->pad[i] == p)
-                slip += interface->weight[i] / history->pad_length[p] * along[i * tangents];
-        return slip;
+        return pad_slip(history, seen->interface, p, 0);
+    case SERIES_PAD_SLIP_ACROSS:
+        return pad_slip(history, seen->interface, p, 1);
     default:
         return NAN;
     }
@@ -169,8 +172,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
     double started = clock_seconds();
     pad_sums(seen, history->pad_sums);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
-        if (series == SERIES_ROD_WAY && !history->rod_on_spring) continue;
-        if (series == SERIES_STATE && !history->remembers) continue;
+        if (!history->written[series]) continue;
         TRY(append(history, seen, series, err));
     }
     history->end.rows++;

@@ -18,8 +18,7 @@ typedef struct HistoryEnd {
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
     HistoryEnd end;
-    bool rod_on_spring;   // its own way is recorded
-    bool remembers;   // so are the states of friction
+    bool written[RESULT_SERIES_COUNT];   // which series there are
     double seconds;   // wall time spent
     double flushed_at;   // wall time of the last flush, s
     double *row;   // [contact_count] work; owned

@@ -24,6 +24,7 @@ void pad_sums(const Observation *seen, PadSum *sums)
         PadSum *sum = &sums[interface->pad[i]];
         sum->normal_force += state->reaction[interface_normal(interface, i)];
         sum->shear -= state->reaction[interface_tangent(interface, i)];
+        if (interface->y) sum->shear_across -= state->reaction[interface_tangent(interface, i) + 1];
         if (!status_slips(seen_status(seen, i))) continue;
         sum->slipping += interface->weight[i];
         sum->slipping_cells += cells_of(interface, i);
@@ -54,6 +55,7 @@ void pad_sums_archive(PadSum *sums, int32_t count, Archive *archive)
     for (int32_t p = 0; p < count; p++) {
         archive_number(archive, &sums[p].normal_force);
         archive_number(archive, &sums[p].shear);
+        archive_number(archive, &sums[p].shear_across);
         archive_number(archive, &sums[p].slipping);
         archive_number(archive, &sums[p].slipping_cells);
         archive_number(archive, &sums[p].fastest);

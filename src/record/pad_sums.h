@@ -9,6 +9,7 @@
 typedef struct PadSum {
     double normal_force;   // force/width
     double shear;   // positive where the plane holds the block back, force/width
+    double shear_across;   // towards -y; 0 in the plane, force
     double slipping;   // how much of the pad slips, length, in space length^2
     double slipping_cells;   // in the plane the same counted in nodes, an end of the pad as half a
         // one: cells of the contact, halves of them where elements are of order 2

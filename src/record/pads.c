@@ -42,9 +42,7 @@ bool pads_create(const Interface *interface, const Events *events, Pads *pads, E
 
 void pads_destroy(Pads *pads)
 {
-    memory_free(pads->list);
-    memory_free(pads->stuck);
-    memory_free(pads->slipped);
+    memory_free_all(pads->list, pads->stuck, pads->slipped);
     *pads = (Pads){0};
 }
 

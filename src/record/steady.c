@@ -61,22 +61,17 @@ Estimate steady_mu(const Steady *steady)
     return isnan(now.value) ? steady->before : now;
 }
 
-static bool is_steady(const Steady *steady, const Answers *answers)
-{
-    return answers->peaks_counted == 0 && !isnan(steady_mu(steady).value);
-}
-
 void steady_answer(const Steady *steady, Answers *answers)
 {
-    if (!is_steady(steady, answers)) return;
+    answers->steady = answers->peaks_counted == 0 && !isnan(steady_mu(steady).value);
+    if (!answers->steady) return;
     answers->mu_M = steady_mu(steady);
     answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
-    answers->steady = true;
 }
 
 const char *steady_words(const Steady *steady, const Answers *answers)
 {
-    if (is_steady(steady, answers)) return "steady sliding";
+    if (answers->steady) return "steady sliding";
     if (!isnan(answers->mu_M.value)) return "peaks";
     if (steady->slides) return "none: the block slides slowly, and F_T/F_N is not steady yet";
     if (answers->peaks > 0)

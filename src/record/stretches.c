@@ -41,9 +41,7 @@ bool stretches_create(const Interface *interface, Stretches *stretches, Error *e
 
 void stretches_destroy(Stretches *stretches)
 {
-    memory_free(stretches->of_node);
-    memory_free(stretches->nodes);
-    memory_free(stretches->slipped);
+    memory_free_all(stretches->of_node, stretches->nodes, stretches->slipped);
     *stretches = (Stretches){0};
 }
 

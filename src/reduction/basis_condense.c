@@ -76,8 +76,6 @@ bool basis_condense(const Basis *basis, const double *factor, double *schur, dou
     dense_mirror(schur, m);
     *energy = dense_dot(z + m * r, z + m * r, (int32_t)r);
 cleanup:
-    memory_free(interior);
-    memory_free(z);
-    memory_free(beside);
+    memory_free_all(interior, z, beside);
     return error_is_clean(err);
 }

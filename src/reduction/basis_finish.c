@@ -16,10 +16,7 @@ typedef struct Turn {
 
 static void turn_destroy(Turn *turn)
 {
-    memory_free(turn->w);
-    memory_free(turn->diagonal);
-    memory_free(turn->beside);
-    memory_free(turn->damping);
+    memory_free_all(turn->w, turn->diagonal, turn->beside, turn->damping);
 }
 
 static bool turn_create(const Basis *basis, Turn *turn, Error *err)
@@ -80,8 +77,7 @@ static bool write_modes(const Basis *basis, const Turn *turn, ReducedPart *part,
     }
     responses_combine(responses, mixed, r, phi);
 cleanup:
-    memory_free(statics);
-    memory_free(mixed);
+    memory_free_all(statics, mixed);
     return error_is_clean(err);
 }
 

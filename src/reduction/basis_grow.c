@@ -35,13 +35,9 @@ void basis_destroy(Basis *basis)
 {
     responses_destroy(&basis->responses);
     for (int term = 0; term < BULK_TERMS; term++) {
-        memory_free(basis->statics[term]);
-        memory_free(basis->beside[term]);
-        memory_free(basis->interior[term]);
+        memory_free_all(basis->statics[term], basis->beside[term], basis->interior[term]);
     }
-    memory_free(basis->lower);
-    memory_free(basis->load);
-    memory_free(basis->parts);
+    memory_free_all(basis->lower, basis->load, basis->parts);
     *basis = (Basis){0};
 }
 
@@ -58,10 +54,7 @@ bool basis_create(const BulkOperator *full, const BulkScales *scales, Basis *bas
 static void extension_destroy(Extension *x)
 {
     for (int term = 0; term < BULK_TERMS; term++) {
-        memory_free(x->gram[term]);
-        memory_free(x->beside[term]);
-        memory_free(x->old[term]);
-        memory_free(x->own[term]);
+        memory_free_all(x->gram[term], x->beside[term], x->old[term], x->own[term]);
     }
     double *const owned[] = {x->statics, x->parts, x->load, x->lower, x->along};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++) memory_free(owned[k]);
@@ -177,8 +170,7 @@ static bool find_new(Extension *x, double *turn, int64_t *kept, Error *err)
         for (int64_t i = 0; i < added; i++) turn[j * added + i] /= sqrt(values[j]);
     }
 cleanup:
-    memory_free(values);
-    memory_free(work);
+    memory_free_all(values, work);
     return error_is_clean(err);
 }
 
@@ -203,10 +195,7 @@ static bool form_new(Basis *basis, Extension *x, DenseView turn, Error *err)
     responses_combine(&basis->responses, all, kept, formed);
     responses_replace(&basis->responses, kept, formed);
 cleanup:
-    memory_free(formed);
-    memory_free(phi);
-    memory_free(psi);
-    memory_free(all);
+    memory_free_all(formed, phi, psi, all);
     return error_is_clean(err);
 }
 

@@ -60,8 +60,7 @@ cleanup:
     for (int32_t k = 0; k < SLOTS_MAX; k++) {
         Slot *slot = &batch.slots[k];
         interface_operator_destroy(slot->point.full);
-        memory_free(slot->point.held);
-        memory_free(slot->point.pull);
+        memory_free_all(slot->point.held, slot->point.pull);
         bulk_operator_destroy(&slot->system);
     }
     return error_is_clean(err);

@@ -27,8 +27,7 @@ static bool rotate(double *stiffness, double *mass, int32_t q, Error *err)
     if (!dense_eigen(mass, q, values, work)) FAIL(err, ERROR_LIBRARY, "LAPACK: no modes");
     dense_lower_divide_transposed(stiffness, q, q, mass);
 cleanup:
-    memory_free(work);
-    memory_free(values);
+    memory_free_all(work, values);
     return error_is_clean(err);
 }
 
@@ -48,9 +47,7 @@ static bool append_patch(const Bulk *mesh, const PatchModes *modes, Transform *b
     dense_multiply(field, dense_view(mass, q, q), 1, 0, turned);
     dense_transpose(whole, transform_append(by, modes->dofs, modes->size, modes->count), q);
 cleanup:
-    memory_free(stiffness);
-    memory_free(mass);
-    memory_free(turned);
+    memory_free_all(stiffness, mass, turned);
     return error_is_clean(err);
 }
 

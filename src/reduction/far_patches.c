@@ -32,9 +32,7 @@ void far_patches_destroy(FarPatches *patches)
 {
     for (int32_t p = 0; patches->modes && p < patches->count; p++)
         patch_modes_destroy(&patches->modes[p]);
-    memory_free(patches->modes);
-    memory_free(patches->of);
-    memory_free(patches->place);
+    memory_free_all(patches->modes, patches->of, patches->place);
     *patches = (FarPatches){0};
 }
 
@@ -209,7 +207,6 @@ bool far_patches_create(const SparsePattern *pattern, const int32_t *interface_d
     TRY(number_patches(&reach, m, pattern->size, patches, err));
     if (patches->count > 0) TRY(list_dofs(pattern->size, patches, err));
 cleanup:
-    memory_free(reach.distance);
-    memory_free(reach.nearest);
+    memory_free_all(reach.distance, reach.nearest);
     return error_is_clean(err);
 }

@@ -53,10 +53,7 @@ typedef struct Sampling {
 static void sampling_destroy(Sampling *work)
 {
     interface_operator_destroy(work->statics);
-    memory_free(work->lifted);
-    memory_free(work->asked);
-    memory_free(work->fields);
-    memory_free(work->busy);
+    memory_free_all(work->lifted, work->asked, work->fields, work->busy);
     for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) far_room_destroy(&work->room[k]);
 }
 
@@ -111,8 +108,7 @@ static bool begin_patches(Sampling *work, Error *err)
 {
     FarPatches *patches = work->samples->patches;
     int32_t size = 0;
-    work->busy = NEW_ARRAY(bool, patches->count, err);
-    if (!work->busy) goto cleanup;
+    TRY((work->busy = NEW_ARRAY(bool, patches->count, err)));
     TRY(far_patches_begin(work->mesh->bulk, work->def->scales.stiffness, ROOM, patches, err));
     for (int32_t p = 0; p < patches->count; p++)
         if (patches->modes[p].size > size) size = patches->modes[p].size;
@@ -129,8 +125,7 @@ static bool sampling_begin(Sampling *work, Error *err)
     const BulkScales *scales = &work->def->scales;
     int64_t m = mesh->interface_count;
     OperatorTerms terms = {.stiffness = 1 / scales->stiffness, .lift = true};
-    work->statics = interface_operator_create(mesh, terms, err);
-    if (!work->statics) goto cleanup;
+    TRY((work->statics = interface_operator_create(mesh, terms, err)));
     TRY(inertia_slowest(mesh, scales, work->statics, &samples->slowest, err));
     list_points(work, inertia_element(mesh->bulk, scales, mesh->interface_dofs, (int32_t)m));
     TRY(begin_patches(work, err));
@@ -234,8 +229,7 @@ static bool sample_statics(Sampling *work, Error *err)
     work->lower = work->lifted;
     TRY(sample(work, work->statics, held, LEAST_AT_REST, err));
 cleanup:
-    memory_free(held);
-    memory_free(pull);
+    memory_free_all(held, pull);
     return error_is_clean(err);
 }
 
@@ -279,8 +273,7 @@ bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOper
     double *work = NEW_ARRAY(double, dense_eigen_work(m), err);
     if (!error_is_clean(err)) goto cleanup;
     full = interface_operator_create(mesh, samples->compared, err);
-    condensed = full ? interface_operator_create(left, samples->compared, err) : NULL;
-    if (!condensed) goto cleanup;
+    TRY((condensed = full ? interface_operator_create(left, samples->compared, err) : NULL));
     memcpy(excess, interface_operator_schur(condensed), (size_t)m * (size_t)m * sizeof *excess);
     dense_add_scaled(-1, interface_operator_schur(full), m * m, excess);
     dense_divide_both_sides(interface_operator_schur_lower(full), m, excess);
@@ -290,8 +283,6 @@ bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOper
 cleanup:
     interface_operator_destroy(full);
     interface_operator_destroy(condensed);
-    memory_free(excess);
-    memory_free(values);
-    memory_free(work);
+    memory_free_all(excess, values, work);
     return error_is_clean(err);
 }

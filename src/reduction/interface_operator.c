@@ -95,10 +95,7 @@ cleanup:
 
 void bulk_operator_destroy(BulkOperator *system)
 {
-    memory_free(system->interface_dofs);
-    memory_free(system->load);
-    memory_free(system->rigid);
-    memory_free(system->values);
+    memory_free_all(system->interface_dofs, system->load, system->rigid, system->values);
     reduced_operator_destroy(system->small);
     sparse_analysis_destroy(system->analysis);
     *system = (BulkOperator){0};
@@ -204,8 +201,7 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     InterfaceOperator *condensed = NEW_ARRAY(InterfaceOperator, 1, err);
     if (!condensed) goto cleanup;
     condensed->system = system;
-    condensed->schur = NEW_ARRAY(double, terms.lower_only ? 0 : m *m, err);
-    if (!condensed->schur) goto cleanup;
+    TRY((condensed->schur = NEW_ARRAY(double, terms.lower_only ? 0 : m *m, err)));
     if (system->bulk)
         TRY(condense_sparse(condensed, terms, err));
     else

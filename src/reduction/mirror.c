@@ -31,10 +31,7 @@ typedef struct Finder {
 static void finder_destroy(Finder *find)
 {
     for (int32_t k = 0; k < AXES_MAX; k++) memory_free(find->image[k]);
-    memory_free(find->border);
-    memory_free(find->place);
-    memory_free(find->root[0]);
-    memory_free(find->root[1]);
+    memory_free_all(find->border, find->place, find->root[0], find->root[1]);
 }
 
 void mirror_destroy(Mirror *mirror)

@@ -96,9 +96,7 @@ cleanup:
 
 void condensed_part_destroy(CondensedPart *condensed)
 {
-    memory_free(condensed->inverse);
-    memory_free(condensed->map);
-    memory_free(condensed->half);
+    memory_free_all(condensed->inverse, condensed->map, condensed->half);
     *condensed = (CondensedPart){0};
 }
 

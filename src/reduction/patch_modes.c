@@ -18,9 +18,7 @@ void patch_modes_destroy(PatchModes *modes)
 {
     memory_free(modes->dofs);
     sparse_pattern_destroy(&modes->pattern);
-    memory_free(modes->stiffness);
-    memory_free(modes->field);
-    memory_free(modes->image);
+    memory_free_all(modes->stiffness, modes->field, modes->image);
     *modes = (PatchModes){0};
 }
 

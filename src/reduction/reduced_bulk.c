@@ -23,11 +23,7 @@ double rigid_motion(int32_t dim, int32_t which, const double *place, int32_t axi
 
 void reduced_part_destroy(ReducedPart *part)
 {
-    memory_free(part->mass);
-    memory_free(part->damping);
-    memory_free(part->stiffness);
-    memory_free(part->load);
-    memory_free(part->modes);
+    memory_free_all(part->mass, part->damping, part->stiffness, part->load, part->modes);
     transform_destroy(&part->border);
     transform_destroy(&part->mesh);
     *part = (ReducedPart){0};
@@ -41,8 +37,7 @@ void reduced_bulk_destroy(ReducedBulk *reduced)
         reduced_part_destroy(part);
     }
     if (!reduced->storage) memory_free(reduced->load);
-    memory_free(reduced->rigid);
-    memory_free(reduced->storage);
+    memory_free_all(reduced->rigid, reduced->storage);
     *reduced = (ReducedBulk){0};
 }
 
@@ -82,8 +77,7 @@ typedef struct Recovery {
 static void recovery_destroy(Recovery *work)
 {
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
-        memory_free(work->local[p]);
-        memory_free(work->field[p]);
+        memory_free_all(work->local[p], work->field[p]);
     }
     memory_free(work->storage);
 }

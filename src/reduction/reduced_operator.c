@@ -36,11 +36,9 @@ void reduced_operator_destroy(ReducedOperator *system)
     if (!system) return;
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
         part_operator_destroy(&system->part[p]);
-        memory_free(system->local[p]);
-        memory_free(system->image[p]);
+        memory_free_all(system->local[p], system->image[p]);
     }
-    memory_free(system->border);
-    memory_free(system);
+    memory_free_all(system->border, system);
 }
 
 ReducedOperator *reduced_operator_create(const ReducedBulk *reduced, Error *err)
@@ -80,10 +78,8 @@ void condensed_bulk_destroy(CondensedBulk *condensed)
 {
     if (!condensed) return;
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) condensed_part_destroy(&condensed->part[p]);
-    memory_free(condensed->mirrored.follow);
-    memory_free(condensed->mirrored.lower);
-    memory_free(condensed->pushed);
-    memory_free(condensed);
+    memory_free_all(condensed->mirrored.follow, condensed->mirrored.lower, condensed->pushed,
+                    condensed);
 }
 
 // border: [m + n, squared] S; schur [m^2] := S_bb - S_bR E.
@@ -129,8 +125,7 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
     }
     TRY(condense_mirrored(border, (int32_t)m, reduced->mirrored, &condensed->mirrored, schur, err));
 cleanup:
-    memory_free(border);
-    memory_free(part);
+    memory_free_all(border, part);
     if (error_is_clean(err)) return condensed;
     condensed_bulk_destroy(condensed);
     return NULL;

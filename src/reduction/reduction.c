@@ -54,9 +54,7 @@ typedef struct Builder {
 static void builder_destroy(Builder *work)
 {
     basis_destroy(&work->basis);
-    memory_free(work->excess);
-    memory_free(work->values);
-    memory_free(work->eigen_work);
+    memory_free_all(work->excess, work->values, work->eigen_work);
     bulk_operator_destroy(&work->mesh);
     far_field_destroy(&work->far);
 }
@@ -220,8 +218,7 @@ static bool compare_beyond(Builder *work, Error *err)
     TRY(compare_at(work, point, schur, err));
     errors->error[errors->count - 1] = fmax(work->values[m - 1], 0);
 cleanup:
-    memory_free(schur);
-    memory_free(lower);
+    memory_free_all(schur, lower);
     return error_is_clean(err);
 }
 

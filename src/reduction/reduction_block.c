@@ -66,8 +66,7 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
     double length = mesh->x_max - mesh->x_min;
     *block = (ReductionBlock){.materials = normalise(materials)};
     int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
-    block->position = NEW_ARRAY(double, numbers, err);
-    if (!block->position) goto cleanup;
+    TRY((block->position = NEW_ARRAY(double, numbers, err)));
     for (int64_t k = 0; k < numbers; k++) {
         double start = k % mesh->dim == 0 ? mesh->x_min : 0;
         block->position[k] = put_on_grid((mesh->position[k] - start) / length);

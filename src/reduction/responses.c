@@ -23,8 +23,7 @@ enum { ALL_PRODUCTS = (1 << BULK_TERMS) - 1 };
 
 static void block_destroy(ResponseBlock *block)
 {
-    memory_free(block->boundary);
-    memory_free(block->reaction);
+    memory_free_all(block->boundary, block->reaction);
     *block = (ResponseBlock){0};
 }
 
@@ -34,8 +33,7 @@ void responses_destroy(Responses *responses)
     for (int32_t k = 0; k < responses->shelf_count; k++) memory_free(responses->shelves[k].field);
     memory_free(responses->unit_load);
     for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) {
-        memory_free(responses->room[k].image);
-        memory_free(responses->room[k].work);
+        memory_free_all(responses->room[k].image, responses->room[k].work);
     }
     *responses = (Responses){0};
 }
@@ -315,8 +313,7 @@ cleanup:
         memory_free(responses->room[k].product);
         responses->room[k].product = NULL;
     }
-    memory_free(a);
-    memory_free(b);
+    memory_free_all(a, b);
     return error_is_clean(err);
 }
 

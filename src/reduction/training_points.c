@@ -151,9 +151,7 @@ bool inertia_slowest(const BulkOperator *full, const BulkScales *scales, Interfa
         *slowest = 1 / dense_dot(x, rhs, dofs);
     }
 cleanup:
-    memory_free(x);
-    memory_free(rhs);
-    memory_free(pull);
+    memory_free_all(x, rhs, pull);
     return error_is_clean(err);
 }
 

@@ -25,11 +25,7 @@ bool transform_create(int32_t size, int32_t blocks, int64_t entries, Transform *
 
 void transform_destroy(Transform *by)
 {
-    memory_free(by->blocks);
-    memory_free(by->rows);
-    memory_free(by->values);
-    memory_free(by->block_of);
-    memory_free(by->place);
+    memory_free_all(by->blocks, by->rows, by->values, by->block_of, by->place);
     *by = (Transform){0};
 }
 
@@ -96,8 +92,7 @@ bool transform_apply_many(const Transform *by, const double *y, int32_t columns,
 {
     double *moved = NULL, *fields = NULL;
     for (const TransformBlock *b = by->blocks; b < by->blocks + by->block_count; b++) {
-        memory_free(moved);
-        memory_free(fields);
+        memory_free_all(moved, fields);
         moved = NEW_ARRAY(double, (int64_t)b->count *columns, err);
         fields = NEW_ARRAY(double, (int64_t)b->size *columns, err);
         if (!moved || !fields) break;
@@ -110,8 +105,7 @@ bool transform_apply_many(const Transform *by, const double *y, int32_t columns,
             for (int64_t i = 0; i < b->size; i++)
                 x[j * by->size + b->rows[i]] = fields[j * b->size + i];
     }
-    memory_free(moved);
-    memory_free(fields);
+    memory_free_all(moved, fields);
     return error_is_clean(err);
 }
 
@@ -131,11 +125,7 @@ typedef struct Congruence {
 
 static void congruence_destroy(Congruence *work)
 {
-    memory_free(work->listed);
-    memory_free(work->slot);
-    memory_free(work->image);
-    memory_free(work->moved);
-    memory_free(work->product);
+    memory_free_all(work->listed, work->slot, work->image, work->moved, work->product);
 }
 
 static int ascending(const void *left, const void *right)

@@ -18,14 +18,13 @@
 
 enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
 static const double STEP = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
-// A run's time goes with a power of the cells along the contact: this before levels tell, and
-// between those whatever they tell, as times of short runs on a busy machine are noise.
-static const double GROWTH[] = {2.6, 5}, GROWTH_LEAST[] = {1.2, 2},   // in the plane, in space
-    GROWTH_MOST[] = {4, 6.5};
-// A mesh may take so many times less than is expected: nine of ten runs are off by less
-// (validation/strangers/forecasts.py). One that time then cuts short costs time that nothing else
-// could use.
-static const double FORECAST_OFF = 3.5;
+// A run's time goes with this power of the cells along the contact, in the plane and in space. What
+// the levels of a search tell of it says less: times of short runs are noise.
+static const double GROWTH[] = {2, 4};
+// A mesh may take so many times less than is expected: of long ones nine of ten are off by less
+// (validation/strangers/forecasts.py --meshes). One that time then cuts short costs time that
+// nothing else could use.
+static const double FORECAST_OFF = 2;
 
 static double seconds_of_run(const Level *level)
 {
@@ -91,15 +90,10 @@ static double span_left(const Accuracy *accuracy)
     return levels_span_left(&accuracy->levels, accuracy->levels.asked);
 }
 
-// By what a run takes longer where cells are so many times smaller, as its power was so far.
+// By what a run takes longer where cells are so many times smaller.
 static double growth_ahead(const Accuracy *accuracy, double step)
 {
-    const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
-    double finer = log(last->nodes_along / first->nodes_along);
-    bool space = last->space;
-    double power = GROWTH[space];
-    if (finer > 0) power = log(seconds_of_run(last) / seconds_of_run(first)) / finer;
-    return pow(step, fmin(fmax(power, GROWTH_LEAST[space]), GROWTH_MOST[space]));
+    return pow(step, GROWTH[accuracy->levels.list[accuracy->levels.count - 1].space]);
 }
 
 // Wall time that the next level will take, s.
@@ -154,7 +148,7 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = pow(accuracy->step, GROWTH[accuracy_last_level(accuracy)->space]) *
+        accuracy->out_of_time = growth_ahead(accuracy, accuracy->step) *
                                     accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;

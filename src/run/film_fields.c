@@ -30,9 +30,7 @@ typedef struct StoredRun {
 
 static void stored_destroy(StoredRun *run)
 {
-    memory_free(run->t);
-    memory_free(run->U);
-    memory_free(run->mu);
+    memory_free_all(run->t, run->U, run->mu);
 }
 
 static bool read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,

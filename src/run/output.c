@@ -91,8 +91,7 @@ static bool open_history(Simulation *simulation, Error *err)
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->contact, &simulation->history, err));
 cleanup:
-    memory_free(points);
-    memory_free(pads);
+    memory_free_all(points, pads);
     return error_is_clean(err);
 }
 

@@ -162,6 +162,7 @@ static void write_events(JsonWriter *json, const Events *events, const Pads *pad
         }
         json_number(json, "peak_slip_rate", event->peak_slip_rate);
         json_number(json, "front_speed", event->front_speed);
+        if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, pads);
             write_front(json, event, &events->path);

@@ -25,10 +25,9 @@ cleanup:
 // Always false.
 static bool refuse_other_end(Error *err)
 {
-    FAIL(
-        err, ERROR_INPUT,
-        "output.window.last is counted back from the end of the run, and so far it had another one "
-        "(--overwrite begins anew)");
+    FAIL(err, ERROR_INPUT,
+         "output.window.last is counted back from the end of the run, and so far it had another "
+         "one (--overwrite begins anew)");
 cleanup:
     return false;
 }

@@ -424,6 +424,5 @@ void amontons_simulation_destroy(Simulation *simulation)
     model_destroy(&simulation->model);
     kept_states_destroy(&simulation->kept);
     result_folder_release(&simulation->folder);
-    memory_free(simulation->block_motion);
-    memory_free(simulation);
+    memory_free_all(simulation->block_motion, simulation);
 }

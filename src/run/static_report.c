@@ -117,8 +117,7 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
         TRY(array_file_write(file, &columns[k].series, columns[k].values, 0, columns[k].rows, err));
 cleanup:
-    memory_free(number);
-    memory_free(contact);
+    memory_free_all(number, contact);
     if (error_is_clean(err)) return array_file_close(file, err);
     array_file_abandon(file);
     return false;

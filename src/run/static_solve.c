@@ -36,16 +36,10 @@ static bool make_room(const Model *model, StaticSolution *solution, Error *err)
 
 static void static_solution_destroy(StaticSolution *solution)
 {
-    memory_free(solution->displacement);
-    memory_free(solution->load);
-    memory_free(solution->reaction);
-    memory_free(solution->work);
+    memory_free_all(solution->displacement, solution->load, solution->reaction, solution->work);
     rod_destroy(&solution->rod);
-    memory_free(solution->contact_displacement);
-    memory_free(solution->contact_reaction);
-    memory_free(solution->status);
-    memory_free(solution->node_laws);
-    memory_free(solution->rod_touches);
+    memory_free_all(solution->contact_displacement, solution->contact_reaction, solution->status,
+                    solution->node_laws, solution->rod_touches);
     *solution = (StaticSolution){0};
 }
 
@@ -158,8 +152,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
                              err));
     system.machine = model_machine(model);
     OperatorTerms terms = {.stiffness = 1, .lift = true};
-    stiffness = interface_operator_create(&system, terms, err);
-    if (!stiffness) goto cleanup;
+    TRY((stiffness = interface_operator_create(&system, terms, err)));
     // A rod on a spring is found from the forces: displacements are against it until then.
     bool rigid = scene->rod.stiffness == 0;
     if (rigid) solution->rod_way = scene->rod.displacement;
@@ -176,8 +169,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
 cleanup:
     interface_operator_destroy(stiffness);
     bulk_operator_destroy(&system);
-    memory_free(bound);
-    memory_free(g);
+    memory_free_all(bound, g);
     return error_is_clean(err);
 }
 

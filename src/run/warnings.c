@@ -58,12 +58,12 @@ void warnings_of_resolution(const Certificate *certificate, double load, RunWarn
     double worst = 0;
     int32_t undamped = undamped_nodes(certificate, load, &worst);
     if (undamped > 0)
-        warnings_add(warnings,
-                     "slip is not resolved: friction weakens faster than viscosity can damp at %d "
-                     "of %d contact nodes, each taken alone; slip turns unstable on less than an "
-                     "element, and what comes out depends on the mesh; elements %.2g times as "
-                     "long would do",
-                     undamped, certificate->moving.interface->contact_count, 1 / worst);
+        warnings_add(
+            warnings,
+            "slip is not resolved: friction weakens faster than viscosity can damp at %d of %d "
+            "contact nodes, each taken alone; slip turns unstable on less than an element, and "
+            "what comes out depends on the mesh; elements %.2g times as long would do",
+            undamped, certificate->moving.interface->contact_count, 1 / worst);
 }
 
 // Cells on the length over which what is remembered makes slip unstable.
@@ -87,12 +87,11 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings)
         least = fmin(least, reach);
     }
     if (coarse > 0)
-        warnings_add(
-            warnings,
-            "slip is not resolved: what contacts remember is lost over so little slip that "
-            "it turns unstable on %.2g of length, and at %d of %d contact nodes cells are "
-            "longer than an eighth of it",
-            least, coarse, count);
+        warnings_add(warnings,
+                     "slip is not resolved: what contacts remember is lost over so little slip "
+                     "that it turns unstable on %.2g of length, and at %d of %d contact nodes "
+                     "cells are longer than an eighth of it",
+                     least, coarse, count);
 }
 
 // Of the displacement gradient. What the theory of small strains leaves out, half its square in the
@@ -131,14 +130,14 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
     if (worst < 0) return;
     const Material *material = &materials->list[worst];
     double pressure = load / loaded_width(model, worst);
-    warnings_add(warnings,
-                 "strains are not small: at the largest load ratio, %.3g, the mean stresses shear "
-                 "`%s` by %.2g %% and compress it by %.2g %%; from %g %% on what the theory of "
-                 "small strains leaves out is more than the error bars: answers hold to that "
-                 "part only",
-                 push, scene_region_name(model->scene, worst),
-                 100 * material_gradient(material, 0, push * pressure),
-                 100 * material_gradient(material, pressure, 0), 100 * GRADIENT_SMALL);
+    warnings_add(
+        warnings,
+        "strains are not small: at the largest load ratio, %.3g, the mean stresses shear `%s` by "
+        "%.2g %% and compress it by %.2g %%; from %g %% on what the theory of small strains leaves "
+        "out is more than the error bars: answers hold to that part only",
+        push, scene_region_name(model->scene, worst),
+        100 * material_gradient(material, 0, push * pressure),
+        100 * material_gradient(material, pressure, 0), 100 * GRADIENT_SMALL);
 }
 
 // Of the way along the drive: so far sides may go ahead or behind, or the block across the drive,
@@ -263,8 +262,8 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
     double covered = fmin(high, to) - fmax(low, from);
     if (covered >= (1 - STRIP_MISSED) * width) return;
     warnings_add(warnings,
-                 "the rod misses part of its face: its strip is %.4g <= z <= %.4g, group \"%s\" "
-                 "is %.4g <= z <= %.4g; only %.0f %% of the strip pushes the block: move "
-                 "rod.height or change rod.width",
+                 "the rod misses part of its face: its strip is %.4g <= z <= %.4g, group \"%s\" is "
+                 "%.4g <= z <= %.4g; only %.0f %% of the strip pushes the block: move rod.height "
+                 "or change rod.width",
                  low, high, scene->groups.rod, from, to, 100 * fmax(covered, 0) / width);
 }

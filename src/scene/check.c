@@ -127,8 +127,8 @@ static bool check_friction(const Check *check)
     double mu_static = scene->friction.mu_static, mu_kinetic = scene->friction.mu_kinetic;
     if (!weakens && is_given(check, "friction.mu_kinetic") && mu_kinetic != mu_static)
         return blame(check, "friction.mu_kinetic",
-                     "the law `%s` has one coefficient, mu_static (%g); leave this key out or "
-                     "make it the same",
+                     "the law `%s` has one coefficient, mu_static (%g); leave this key out or make "
+                     "it the same",
                      friction_law_name(&scene->friction), mu_static);
     if (weakens && mu_kinetic > mu_static)
         return blame(check, "friction.mu_kinetic", "%g is more than mu_static (%g)", mu_kinetic,
@@ -237,9 +237,9 @@ static bool check_programs(const Check *check)
     if (load->U.count > 0 && !moves)
         return blame(check, "load.program.U", "the scene has no rod (rod.kind: none); give t");
     if (rod->U.count > 0 && !(least_factor(rod) > 0))
-        return blame(check, "rod.program.factor",
-                     "by U it must be above 0 everywhere, or the rod never gets on; by t it need "
-                     "not be");
+        return blame(
+            check, "rod.program.factor",
+            "by U it must be above 0 everywhere, or the rod never gets on; by t it need not be");
     if (load->U.count > 0 && !(least_factor(rod) > 0))
         return blame(check, "load.program.U",
                      "rod.program holds the rod or takes it back, and so U; give t");
@@ -249,9 +249,9 @@ static bool check_programs(const Check *check)
                      "load.tractions as they are",
                      load->factor.value[0]);
     if (scene_has_program(load) && scene->reduction.use == REDUCE_ALWAYS)
-        return blame(check, "reduction.use",
-                     "`always`, but a load that changes needs the mesh (load.program): auto or "
-                     "never");
+        return blame(
+            check, "reduction.use",
+            "`always`, but a load that changes needs the mesh (load.program): auto or never");
     return true;
 }
 
@@ -318,8 +318,7 @@ static bool check_output(const Check *check)
     if (!check_window(check)) return false;
     if (scene->output.figures.count > 0 && !scene->output.history)
         return blame(check, "output.figures",
-                     "pictures are drawn from the history: they need "
-                     "output.history: true");
+                     "pictures are drawn from the history: they need output.history: true");
     if (scene->output.compare[0] && scene->output.figures.count == 0)
         return blame(check, "output.compare", "output.figures names no picture to draw it in");
     for (int32_t k = 0; k < scene->output.figures.count; k++) {
@@ -340,13 +339,11 @@ const char *amontons_scene_warning(const Scene *scene)
     for (int32_t i = 0; i < scene->materials.count; i++)
         if (!(scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0))
             return "eta1 is 0 in one of the regions of `materials`: where friction that weakens "
-                   "acts "
-                   "on it, the shortest wave that the mesh can hold grows fastest, so the answer "
-                   "has no limit as the mesh gets finer (an ill-posed problem)";
+                   "acts on it, the shortest wave that the mesh can hold grows fastest, so the "
+                   "answer has no limit as the mesh gets finer (an ill-posed problem)";
     if (scene->material.eta1 > 0) return NULL;
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
-           "hold "
-           "grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
+           "hold grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
            "problem)";
 }
 

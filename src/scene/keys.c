@@ -36,11 +36,11 @@ static const char *const figure_choices[] = {
 // Keys of one map stand together: the writers open and close maps as they go along.
 static const SceneKey keys[] = {
     {"title", KEY_TEXT, offsetof(Scene, title), "1", RANGE_ANY, "\"\"",
-     .sentence = "What the scene is, in a line; shown in the closing lines and above "
-                 "figures, kept in results."},
+     .sentence = "What the scene is, in a line; shown in the closing lines and above figures, kept "
+                 "in results."},
     {"units", KEY_CHOICE, offsetof(Scene, units), "1", RANGE_ANY, "normalised",
-     .sentence = "`normalised`: plain numbers; density, Young's modulus and eta1 usually 1. "
-                 "`si`: numbers in SI base units, or with a unit (10 um/s, 3 kPa).",
+     .sentence = "`normalised`: plain numbers; density, Young's modulus and eta1 usually 1. `si`: "
+                 "numbers in SI base units, or with a unit (10 um/s, 3 kPa).",
      .choices = units_choices},
     {"mesh.file", KEY_TEXT, offsetof(Scene, mesh.file), "1", RANGE_ANY, NULL,
      .sentence = "The mesh: a .msh file, or a .geo for gmsh; relative to the scene's folder."},
@@ -72,16 +72,15 @@ static const SceneKey keys[] = {
                  "young, poisson, density, eta1, eta2 that differ there from `material`."},
     {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
      .sentence =
-         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` "
-         "are one's own; `ageing`, `slip-weakening` and `rate-and-state` remember.",
+         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` are "
+         "one's own; `ageing`, `slip-weakening` and `rate-and-state` remember.",
      .choices = law_choices},
     {"friction.mu_static", KEY_NUMBER, offsetof(Scene, friction.mu_static), "1", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Local coefficient mu_S at rest; one's own law has it."},
     {"friction.mu_kinetic", KEY_NUMBER, offsetof(Scene, friction.mu_kinetic), "1",
      RANGE_NOT_NEGATIVE, NULL,
-     .sentence =
-         "Local coefficient mu_K of fast slip, at most mu_static; not needed with `coulomb` "
-         "and one's own law."},
+     .sentence = "Local coefficient mu_K of fast slip, at most mu_static; not needed with "
+                 "`coulomb` and one's own law."},
     {"friction.critical_velocity", KEY_NUMBER, offsetof(Scene, friction.critical_velocity),
      "velocity", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Slip rate v_c over which friction weakens; needed by the weakening laws."},
@@ -93,8 +92,8 @@ static const SceneKey keys[] = {
      .sentence = "Law `table`: the coefficient at each; the first holds at rest."},
     {"friction.interpolation", KEY_CHOICE, offsetof(Scene, own_friction.interpolation), "1",
      RANGE_ANY, NULL, .may_lack = true,
-     .sentence = "Law `table`: between points `cubic` (each piece monotone; if not given) or "
-                 "`linear`.",
+     .sentence =
+         "Law `table`: between points `cubic` (each piece monotone; if not given) or `linear`.",
      .choices = interpolation_choices},
     {"friction.formula", KEY_TEXT, offsetof(Scene, own_friction.formula), "1", RANGE_ANY, NULL,
      .may_lack = true,
@@ -109,9 +108,8 @@ static const SceneKey keys[] = {
      NULL, .may_lack = true, .sentence = "Law `plugin`: at most 16 numbers for it."},
     {"friction.velocity_max", KEY_NUMBER, offsetof(Scene, own_friction.velocity_max), "velocity",
      RANGE_POSITIVE, NULL, .may_lack = true,
-     .sentence =
-         "Laws `formula` and `plugin`: slip rate beyond which mu stays, and up to which it is "
-         "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
+     .sentence = "Laws `formula` and `plugin`: slip rate beyond which mu stays, and up to which it "
+                 "is looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
     {"friction.slip_distance", KEY_NUMBER, offsetof(Scene, own_friction.slip_distance), "length",
      RANGE_POSITIVE, NULL, .may_lack = true,
      .sentence = "Laws with memory: slip D_c over which contacts lose what they had."},
@@ -121,12 +119,12 @@ static const SceneKey keys[] = {
                  "t_h in which strength comes back at rest, but for 1/e."},
     {"friction.healing", KEY_NUMBER, offsetof(Scene, own_friction.healing), "1", RANGE_NOT_NEGATIVE,
      NULL, .may_lack = true,
-     .sentence = "Law `ageing`: beta, by which part of mu friction grows each time that the age "
-                 "is e times as much."},
+     .sentence = "Law `ageing`: beta, by which part of mu friction grows each time that the age is "
+                 "e times as much."},
     {"friction.direct_effect", KEY_NUMBER, offsetof(Scene, own_friction.direct_effect), "1",
      RANGE_POSITIVE, NULL, .may_lack = true,
-     .sentence = "Law `rate-and-state`: a, by which mu rises at once when slip is e times as "
-                 "fast."},
+     .sentence =
+         "Law `rate-and-state`: a, by which mu rises at once when slip is e times as fast."},
     {"friction.evolution_effect", KEY_NUMBER, offsetof(Scene, own_friction.evolution_effect), "1",
      RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
      .sentence = "Law `rate-and-state`: b, by which mu falls again over slip_distance; above a "
@@ -139,8 +137,8 @@ static const SceneKey keys[] = {
      .sentence = "Law `rate-and-state`: V_0, for mu_reference."},
     {"friction.evolution", KEY_CHOICE, offsetof(Scene, own_friction.evolution), "1", RANGE_ANY,
      NULL, .may_lack = true,
-     .sentence = "Law `rate-and-state`: contacts strengthen at rest (`ageing`; if not given) or "
-                 "by slip alone (`slip`).",
+     .sentence = "Law `rate-and-state`: contacts strengthen at rest (`ageing`; if not given) or by "
+                 "slip alone (`slip`).",
      .choices = evolution_choices},
     {"friction.rest", KEY_NUMBER, offsetof(Scene, own_friction.rest), "time", RANGE_POSITIVE, NULL,
      .may_lack = true,
@@ -148,8 +146,8 @@ static const SceneKey keys[] = {
                  "if not given, they are as in steady slip at rod.velocity."},
     {"friction.along", KEY_TEXT, offsetof(Scene, own_friction.along), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, "
-                 "1, 0.45, 0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
+     .sentence = "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, 1, "
+                 "0.45, 0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
     {"friction.contacts", KEY_CONTACT_LAWS, offsetof(Scene, contact_laws), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence =
@@ -167,7 +165,8 @@ static const SceneKey keys[] = {
     {"contact.profile", KEY_TEXT, offsetof(Scene, contact.profile), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "The same as a file, relative to the scene's folder: a line for each point, x and "
-                 "gap, over all of the contact. A first line may give units, `x [mm], gap [um]`."},
+                 "gap, in space also x, y and gap (a height map), over all of the contact. A first "
+                 "line may give units, `x [mm], gap [um]`."},
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
@@ -189,16 +188,16 @@ static const SceneKey keys[] = {
      .may_lack = true,
      .sentence = "true: begin again after the last point; else what it has there stays."},
     {"rod.velocity", KEY_NUMBER, offsetof(Scene, rod.velocity), "velocity", RANGE_POSITIVE, NULL,
-     .sentence = "Speed V of the rod along x; not needed with kind `none`, nor by `amontons "
-                 "static`."},
+     .sentence =
+         "Speed V of the rod along x; not needed with kind `none`, nor by `amontons static`."},
     {"rod.stiffness", KEY_NUMBER, offsetof(Scene, rod.stiffness), "stress", RANGE_POSITIVE, NULL,
      .may_lack = true,
      .sentence = "Stiffness of the machine: a spring between the drive, which moves with "
-                 "`rod.velocity`, and the rod; force per width (breadth) of the block over "
-                 "length. If not given, the rod itself moves with `rod.velocity`."},
+                 "`rod.velocity`, and the rod; force per width (breadth) of the block over length. "
+                 "If not given, the rod itself moves with `rod.velocity`."},
     {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
-     .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
-                 "only."},
+     .sentence =
+         "How far the rod stands inside the undeformed block; read by `amontons static` only."},
     {"rod.height", KEY_NUMBER, offsetof(Scene, rod.height), "length", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Height of the strip's centre over the substrate; 0: half the block's height."},
     {"rod.width", KEY_NUMBER, offsetof(Scene, rod.width), "length", RANGE_NOT_NEGATIVE, "0",
@@ -236,8 +235,8 @@ static const SceneKey keys[] = {
                  "the block relaxes.",
      .choices = start_rod_choices},
     {"start.state", KEY_CHOICE, offsetof(Scene, start.state), "1", RANGE_ANY, "relaxed",
-     .sentence = "The block at t = 0: `relaxed` under its load, or `undeformed`, the load put on "
-                 "at once.",
+     .sentence =
+         "The block at t = 0: `relaxed` under its load, or `undeformed`, the load put on at once.",
      .choices = start_state_choices},
     {"start.velocity_x", KEY_NUMBER, offsetof(Scene, start.velocity_x), "velocity", RANGE_ANY, "0",
      .sentence = "Velocity of the whole block at t = 0, along x."},
@@ -252,26 +251,25 @@ static const SceneKey keys[] = {
     {"time.until.t", KEY_NUMBER, offsetof(Scene, time.until_t), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Stop at this time after the rod's start; 0: not by time."},
     {"time.until.periodic", KEY_FLAG, offsetof(Scene, time.until_periodic), "1", RANGE_ANY, "false",
-     .sentence = "Stop earlier when the periodic regime is established, or when load drops that "
-                 "do not repeat are enough (results.drops.enough)."},
+     .sentence = "Stop earlier when the periodic regime is established, or when load drops that do "
+                 "not repeat are enough (results.drops.enough)."},
     {"time.until.slidings", KEY_NUMBER, offsetof(Scene, time.until_slidings), "1",
      RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
-     .sentence =
-         "Stop earlier when the whole block has slid so many times, each to its end; 1: the "
-         "first sliding."},
+     .sentence = "Stop earlier when the whole block has slid so many times, each to its end; 1: "
+                 "the first sliding."},
     {"time.until.mu_below", KEY_NUMBER, offsetof(Scene, time.until_mu_below), "1",
      RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
      .sentence = "Stop earlier when F_T / F_N falls below this, having been above."},
     {"time.scheme", KEY_CHOICE, offsetof(Scene, time.scheme), "1", RANGE_ANY, "sdirk2",
-     .sentence = "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, "
-                 "`sdirk3`: the same with backward Euler (order 1), three stages (order 3). "
-                 "`explicit`: central differences at the stable step, an independent check that "
-                 "takes far longer.",
+     .sentence =
+         "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, `sdirk3`: "
+         "the same with backward Euler (order 1), three stages (order 3). `explicit`: central "
+         "differences at the stable step, an independent check that takes far longer.",
      .choices = scheme_choices},
     {"time.accuracy", KEY_CHOICE, offsetof(Scene, time.accuracy), "1", RANGE_ANY, "standard",
-     .sentence = "Error allowed to steps (2e-2, 5e-3, 5e-4) and to the reduction where their own "
-                 "keys do not say; `fine` is for references. The error of the mesh is another "
-                 "matter: accuracy.mu.",
+     .sentence =
+         "Error allowed to steps (2e-2, 5e-3, 5e-4) and to the reduction where their own keys do "
+         "not say; `fine` is for references. The error of the mesh is another matter: accuracy.mu.",
      .choices = accuracy_choices},
     {"time.tolerance", KEY_NUMBER, offsetof(Scene, time.tolerance), "1", RANGE_PART_OR_ZERO, "0",
      .sentence = "Local error allowed to the displacements in one step, over the slip that the "
@@ -285,10 +283,10 @@ static const SceneKey keys[] = {
      .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
                  "block, L / c_L (L / 2 c_S where that is longer)."},
     {"time.watch", KEY_NUMBER, offsetof(Scene, time.watch), "1", RANGE_NOT_NEGATIVE, "20",
-     .sentence = "How long oscillations of slow slip beyond l_sc are followed at each position of "
-                 "the front, in wave crossings of the block; after that those that stay small are "
-                 "stepped over, so that a slow rod costs no more than a fast one. 0: all of them "
-                 "are followed."},
+     .sentence =
+         "How long oscillations of slow slip beyond l_sc are followed at each position of the "
+         "front, in wave crossings of the block; after that those that stay small are stepped "
+         "over, so that a slow rod costs no more than a fast one. 0: all of them are followed."},
     {"time.certificate", KEY_FLAG, offsetof(Scene, time.certificate), "1", RANGE_ANY, "true",
      .sentence = "Resolve waves wherever slip is not certified to be stable; off gives wrong "
                  "answers and is for studying just that."},
@@ -313,9 +311,8 @@ static const SceneKey keys[] = {
      .choices = reduce_choices},
     {"reduction.tolerance", KEY_NUMBER, offsetof(Scene, reduction.tolerance), "1",
      RANGE_PART_OR_ZERO, "0",
-     .sentence =
-         "Error allowed to the answers of the reduced interior, relative, in the energy norm; "
-         "0: by time.accuracy."},
+     .sentence = "Error allowed to the answers of the reduced interior, relative, in the energy "
+                 "norm; 0: by time.accuracy."},
     {"reduction.cache", KEY_FLAG, offsetof(Scene, reduction.cache), "1", RANGE_ANY, "true",
      .sentence = "Keep the basis on disk for the next run of the same shape, of whatever length."},
     {"output.history", KEY_FLAG, offsetof(Scene, output.history), "1", RANGE_ANY, "true",

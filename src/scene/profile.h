@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// contact.profile: a measured shape of the substrate, a table of x and gap in a text file. Read
-// with the scene, so that what is wrong is said before anything is meshed, and by model/gaps.
+// contact.profile: a measured shape of the substrate in a text file, a table of x and gap, or of x,
+// y and gap: a height map. Read with the scene, so that what is wrong is said before anything is
+// meshed, and by model/gaps.
 #ifndef AMONTONS_SCENE_PROFILE_H
 #define AMONTONS_SCENE_PROFILE_H
 
@@ -9,18 +10,23 @@
 enum { SCENE_PROFILE_BYTES_MAX = 1 << 26 };
 
 typedef struct SceneProfile {
-    int32_t count;   // of points; 0: the scene has none
-    double *x, *gap;   // [count] length in the scene's units, x ascending; owned
+    int32_t count;   // of places along x; 0: the scene has none
+    int32_t rows;   // of places along y; 1: the gap is of x alone
+    double *x, *y;   // [count], [rows] length in the scene's units, ascending; y NULL with one row;
+        // owned
+    double *gap;   // [rows * count] row by row, length; owned
 } SceneProfile;
 
-// Two numbers a line, with a comma, a semicolon, a tab or blanks between them; empty lines and
-// those that begin with # are passed over. Before the first point a line, also one behind #, may
-// name the columns, in an SI scene with units: `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`,
-// `mm, um`. ERROR_INPUT with file, line and column: also for names that are none of these.
+// Two or three numbers a line, with a comma, a semicolon, a tab or blanks between them; empty lines
+// and those that begin with # are passed over. Points of three are those of a grid, in any order.
+// Before the first point a line, also one behind #, may name the columns, in an SI scene with
+// units: `x [mm], gap [um]`, `x/mm, y/mm, gap/um`, `x_mm, gap_um`, `mm, um`. ERROR_INPUT with file,
+// line and column: also for names that are none of these.
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err);
 void scene_profile_destroy(SceneProfile *profile);   // zeroed is fine
 
-// On the straight line between two points; beyond the ends as there.
-double scene_profile_at(const SceneProfile *profile, double x);
+// On the straight line between two points, of a map between the four around (bilinear); beyond the
+// ends as there. y: not read with one row.
+double scene_profile_at(const SceneProfile *profile, double x, double y);
 
 #endif

@@ -19,11 +19,10 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
     // Numbers of scenes and results are written with a point; the locale is the caller's to change.
     const char *point = localeconv()->decimal_point;
     if (strcmp(point, ".") != 0)
-        FAIL(
-            err, ERROR_INPUT,
-            "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be C "
-            "(uselocale sets it for one thread)",
-            point);
+        FAIL(err, ERROR_INPUT,
+             "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be "
+             "C (uselocale sets it for one thread)",
+             point);
     TRY(scene_read(path, overrides, override_count, made, err));
     *scene = made;
     made = NULL;

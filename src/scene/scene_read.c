@@ -348,8 +348,7 @@ cleanup:
 static void destroy_reader(Reader *reader)
 {
     for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
-    memory_free(reader->overrides);
-    memory_free(reader->settings);
+    memory_free_all(reader->overrides, reader->settings);
     yaml_destroy(reader->file);
     yaml_destroy(reader->defaults);
 }

@@ -21,7 +21,7 @@ bool both_sides_hold(BothSides sides, const State *state, double reach, bool *od
 
 bool both_sides_resolve(BothSides sides, const State *state, int32_t k);   // _step_resolves
 bool both_sides_run_away(BothSides sides, const State *state, int32_t resolved);   // _finds_runaway
-bool both_sides_oscillate_less(BothSides sides, const State *state, double growth);
-bool both_sides_exclude_runaway(BothSides sides, const State *state);
+bool both_sides_oscillate_less(BothSides sides, const State *state, RungRange range, double growth);
+bool both_sides_exclude_runaway(BothSides sides, const State *state, RungRange range);
 
 #endif

@@ -12,7 +12,9 @@
 #include <math.h>
 
 // Rungs double: where s lies half way between two of them in log s, s m + k/s at the nearest is
-// this times its least, (sqrt 2 + 1/sqrt 2)/2.
+// this times its least, (sqrt 2 + 1/sqrt 2)/2. With matrices of both: s M + K/s there is a sum of
+// theirs with weights that make at least 1/this together. A bound of memory is at most this times
+// the mean of theirs (1.049 by evaluation over all `fading` and c).
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
 // A ratio that changes by less than this part in a power of the iteration has settled: enough to
@@ -66,9 +68,7 @@ void certificate_destroy(Certificate *certificate)
     interface_operator_destroy(certificate->damping);
     memory_free(certificate->half_damping);
     moving_set_destroy(&certificate->moving);
-    memory_free(certificate->matrix);
-    memory_free(certificate->vector);
-    memory_free(certificate->pivots);
+    memory_free_all(certificate->matrix, certificate->vector, certificate->pivots);
     *certificate = (Certificate){0};
 }
 
@@ -80,11 +80,12 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// part S + (1 - part) S_C - W - M(reach) on F, part < 1, is positive definite; S that of `rung`.
+// part S + (1 - part) S_C - W - N on F, part < 1, is positive definite; S that of `rung` (NULL:
+// part is 0), N the most that is remembered at 1/bound->reach and faster, or with a rung the bound.
 // Parts of condensed operators are less than their parts condensed: with open nodes the test is a
 // little stricter between its ends.
 static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *rung,
-                        double part, double reach)
+                        double part, const MemoryBound *bound)
 {
     MovingSet *moving = &certificate->moving;
     moving_set_find(moving, state, false);
@@ -92,14 +93,17 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     const double *damping = NULL, *own = NULL;
     if (certificate->damping_contact.schur)
         damping = close_matrix(certificate, state, &certificate->damping_contact);
-    if (part > 0) own = close_matrix(certificate, state, rung);
-    if (!damping || (part > 0 && !own)) return false;
+    if (rung) own = close_matrix(certificate, state, rung);
+    if (!damping || (rung && !own)) return false;
     moving_set_gather(moving, damping, 1 - part, 0, certificate->matrix);
-    if (part > 0) moving_set_gather(moving, own, part, 1, certificate->matrix);
+    if (rung) moving_set_gather(moving, own, part, 1, certificate->matrix);
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
-    moving_set_subtract_memory(moving, reach, certificate->matrix);
+    if (rung)
+        moving_set_subtract_bound(moving, bound, certificate->matrix);
+    else
+        moving_set_subtract_memory(moving, bound->reach, certificate->matrix);
     certificate->checks++;
     return dense_cholesky(certificate->matrix, moving->count);
 }
@@ -107,21 +111,34 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
 bool certificate_holds(Certificate *certificate, const State *state, double reach)
 {
     double started = clock_seconds();
-    bool holds = is_definite(certificate, state, NULL, 0, reach);
+    MemoryBound bound = {.reach = reach};
+    bool holds = is_definite(certificate, state, NULL, 0, &bound);
     certificate->seconds += clock_seconds() - started;
     return holds;
 }
 
+// What oscillates and grows by `narrow` at most, at the s of a rung and half way to the next.
+static bool is_narrow(Certificate *certificate, const State *state, ContactMatrix *rung,
+                      double reach, double narrow)
+{
+    MemoryBound bound = {
+        .reach = reach, .narrow = narrow, .cosine = narrow, .factor = BETWEEN_RUNGS};
+    if (!is_definite(certificate, state, rung, narrow / BETWEEN_RUNGS, &bound)) return false;
+    bound.cosine = 1;   // without memory that asks less
+    return !certificate->moving.remembers ||
+           is_definite(certificate, state, rung, 1 / BETWEEN_RUNGS, &bound);
+}
+
 // a = cos(arctan(pi/log g)) of the header is ratio/sqrt(1 + ratio^2), ratio = log g/pi.
 bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
-                                 double growth)
+                                 RungRange range, double growth)
 {
     double started = clock_seconds(), ratio = log(growth) / M_PI;
-    double part = ratio / sqrt(1 + ratio * ratio) / BETWEEN_RUNGS;
+    double narrow = ratio / sqrt(1 + ratio * ratio);
     bool less = ladder_fill(ladder);   // BETWEEN_RUNGS is that of neighbours
-    for (int32_t k = 0; less && k < ladder->rung_count; k++) {
+    for (int32_t k = range.first; less && k < range.end; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) less = is_definite(certificate, state, rung, part, 0);
+        if (rung) less = is_narrow(certificate, state, rung, ladder_reach(ladder, k), narrow);
     }
     certificate->seconds += clock_seconds() - started;
     return less;
@@ -188,13 +205,15 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
     return found;
 }
 
-double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung)
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
+                         double reach)
 {
     double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
     const double *closed = close_matrix(certificate, state, rung);
     if (closed) {
         moving_set_find(&certificate->moving, state, false);
+        moving_set_settle(&certificate->moving, reach);
         fill_coupled(certificate, closed);
         certificate->checks++;
         if (dense_lu(certificate->matrix, certificate->moving.count, pivots))
@@ -205,15 +224,16 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
     return ratio;
 }
 
-bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder)
+bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+                                  RungRange range)
 {
     double ratio[3] = {0}, octaves;
     if (!ladder_fill(ladder)) return false;   // so is the parabola
-    for (int32_t k = 0; k < ladder->rung_count; k++) {
+    for (int32_t k = range.first; k < range.end; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
         ratio[0] = ratio[1];
         ratio[1] = ratio[2];
-        ratio[2] = rung ? certificate_ratio(certificate, state, rung) : 0;
+        ratio[2] = rung ? certificate_ratio(certificate, state, rung, ladder_reach(ladder, k)) : 0;
         // Each by itself: fmax would lose a ratio that is not a number.
         if (!(ratio[2] < 1) || !(weakening_ratio_top(ratio, &octaves) < 1)) return false;
     }

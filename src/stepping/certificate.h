@@ -30,12 +30,16 @@
 // fading diagonal. The second test takes W(s) of its own s. In place of the first, for a step dt
 // with h = gamma dt:
 //
-//   * S_C[F,F] - W - M positive definite, M = h memory/sqrt(1 + (h fading)^2): |lambda| < 1/h for
-//     all that grows, so that the step resolves it. (For x = exp(lambda t) u with Re lambda >= 0,
-//     |lambda| >= 1/h, the real part of u*(lambda m + c + k/lambda - memory/(lambda + fading))u is
-//     at least u*(C - W - M)u, as |lambda + fading|^2 >= 1/h^2 + fading^2: it cannot be 0.)
+//   * S_C[F,F] - W - N positive definite, N the most that memory Re 1/(lambda + fading) is where
+//     Re lambda >= 0 and |lambda| >= 1/h: |lambda| < 1/h for all that grows, so that the step
+//     resolves it. (Else the real part of u*(lambda m + c + k/lambda - memory/(lambda + fading))u
+//     is at least u*(C - W - N)u: it cannot be 0.)
+//   * S_C + c (S(s) - S_C) - W - N(c, s) positive definite for c = a, c = 1 and all s >= 1/h, N
+//     linear in c and at least memory Re 1/(lambda + fading) at |lambda| = s, Re lambda = c s: of
+//     what has |lambda| >= 1/h, Re lambda < a |lambda| for all that grows. (As above; what is
+//     definite at both ends is so between them.)
 //
-// a = 0 is the first test. Both leave out that pressure follows slip. Dampers of soft rod nodes
+// All leave out that pressure follows slip. Dampers of soft rod nodes
 // belong to C; their springs are left out, which only makes the tests stricter. Called by
 // stepping/step_control.
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
@@ -75,17 +79,25 @@ bool certificate_step_resolves(Certificate *certificate, const State *state, Con
 bool certificate_finds_runaway(Certificate *certificate, const State *state, Ladder *ladder,
                                int32_t resolved);
 
-// A disturbance that oscillates grows by less than `growth` > 1 in half a period. Asked on all
-// rungs between the first and the last that are built; here and below those that lack are built.
+// The next two ask rungs from `first` to before `end`; of these all between the first and the last
+// of the ladder that are built, where those that lack are built.
+typedef struct RungRange {
+    int32_t first, end;
+} RungRange;
+
+// A disturbance that oscillates, at the s of these rungs, grows by less than `growth` > 1 in half a
+// period.
 bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
-                                 double growth);
+                                 RungRange range, double growth);
 
-// No real rate of growth lies within the range of the rungs that are built, those between included.
-bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder);
+// No real rate of growth lies within the range of the rungs, those between included.
+bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+                                  RungRange range);
 
-// Weakening over what the block withstands at s = 1/(gamma dt), the pressure that follows slip
+// Weakening over what the block withstands at s = 1/reach of `rung`, the pressure that follows slip
 // included (stepping/weakening_ratio); INFINITY where S is singular.
-double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung);
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
+                         double reach);
 
 // What another one has counted counts here, no longer there.
 void certificate_take_counts(Certificate *certificate, Certificate *from);

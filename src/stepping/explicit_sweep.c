@@ -74,13 +74,8 @@ bool explicit_sweep_create(const Bulk *bulk, double step, ExplicitSweep *sweep, 
 
 void explicit_sweep_destroy(ExplicitSweep *sweep)
 {
-    memory_free(sweep->start);
-    memory_free(sweep->column);
-    memory_free(sweep->blocks);
-    memory_free(sweep->kick);
-    memory_free(sweep->now);
-    memory_free(sweep->next);
-    memory_free(sweep->force);
+    memory_free_all(sweep->start, sweep->column, sweep->blocks, sweep->kick, sweep->now,
+                    sweep->next, sweep->force);
     *sweep = (ExplicitSweep){0};
 }
 

@@ -8,13 +8,17 @@
 //
 // A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
 // one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w:
-// the soft ends of its strip are led by it. Of each shift's space only pairs whose residual is
+// the soft ends of its strip are led by it. Last, where friction remembers, z of each slipping
+// tangent: what friction remembers of its slip, a way that fades, dz/dt = v - fading z, so that
+// friction falls by memory z. Its part c of x comes back as (s y - c)/(s + fading), and to the right
+// side is added -memory c/(s (s + fading)); W is W(s). Of each shift's space only pairs whose residual is
 // below RESIDUAL_LIMIT are believed; neighbouring shifts see some of them twice, and keep_rate
 // drops the second.
 #include "stepping/growth.h"
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "stepping/weakening_ratio.h"
 
 #include <math.h>
@@ -33,6 +37,7 @@ struct Growth {
     BulkOperator *system;   // not owned, like the next
     const Interface *interface;
     bool on_spring;   // the rod has a way of its own
+    bool remembers;   // some law has a state
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
     InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
@@ -52,7 +57,8 @@ struct Growth {
 
 static int64_t state_size(const Growth *growth)
 {
-    return 2 * (int64_t)growth->system->dof_count + growth->on_spring;
+    return 2 * (int64_t)growth->system->dof_count + growth->on_spring +
+           (growth->remembers ? growth->interface->count : 0);
 }
 
 // From the slowest oscillation of the block, a quarter wave over its length, to about c over the
@@ -91,14 +97,14 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     growth->system = block->system;
     growth->interface = block->interface;
     growth->on_spring = block->system->machine.stiffness > 0;
+    growth->remembers = friction_remembers(block->law, block->interface->contact_count);
     TRY(moving_set_create(block, &growth->moving, err));
     TRY(allocate(growth, err));
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
         int32_t k = growth->shift_count++;
         growth->shift[k] = s;
         OperatorTerms terms = {.mass = s, .damping = 1, .stiffness = 1 / s};
-        growth->at[k] = interface_operator_create(block->system, terms, err);
-        if (!growth->at[k]) goto cleanup;
+        TRY((growth->at[k] = interface_operator_create(block->system, terms, err)));
         if (s >= def->fastest) break;
     }
 cleanup:
@@ -116,16 +122,17 @@ void growth_destroy(Growth *growth)
                         growth->mode_re, growth->mode_im, growth->real_mode};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
     moving_set_destroy(&growth->moving);
-    memory_free(growth->pivots);
-    memory_free(growth);
+    memory_free_all(growth->pivots, growth);
 }
 
 // --- the scan -----------------------------------------------------------------------------------
 
 // INFINITY: S cannot be factored there.
-static double ratio_at(Growth *growth, int32_t k)
+static double ratio_at(Growth *growth, const State *state, int32_t k)
 {
     MovingSet *moving = &growth->moving;
+    moving_set_find(moving, state, true);
+    moving_set_settle(moving, 1 / growth->shift[k]);
     moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
     moving_set_turn(moving, false, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
@@ -139,9 +146,8 @@ GrowthScan growth_scan(Growth *growth, const State *state)
 {
     double ratio[GROWTH_SHIFTS_MAX] = {0}, octaves;
     int32_t best = 0, count = growth->shift_count;
-    moving_set_find(&growth->moving, state, true);
     for (int32_t k = 0; k < count; k++) {
-        ratio[k] = ratio_at(growth, k);
+        ratio[k] = ratio_at(growth, state, k);
         if (ratio[k] > ratio[best]) best = k;
     }
     GrowthScan scan = {.ratio = ratio[best], .rate = growth->shift[best]};
@@ -163,7 +169,7 @@ static bool factor_moving(Growth *growth, int32_t k)
     moving_set_couple(moving, schur, growth->matrix);
     moving_set_turn(moving, false, growth->matrix);
     moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
-    moving_set_subtract_weakening(moving, 0, growth->matrix);
+    moving_set_subtract_weakening(moving, 1 / growth->shift[k], growth->matrix);
     return dense_lu(growth->matrix, moving->count, growth->pivots);
 }
 
@@ -183,6 +189,34 @@ static void put_rod(const Growth *growth, double way, double *to)
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
         if (!moves(&growth->moving, x)) to[growth->system->interface_dofs[x]] = way;
+    }
+}
+
+// The z of x.
+static double *memories_of(const Growth *growth, const double *x)
+{
+    return (double *)x + 2 * (int64_t)growth->system->dof_count + growth->on_spring;
+}
+
+// Adds to growth->step what is remembered in `from`.
+static void pull_memories(const Growth *growth, double s, const double *from)
+{
+    const double *c = memories_of(growth, from);
+    for (int32_t r = 0; growth->moving.remembers && r < growth->moving.count; r++) {
+        const MovingUnknown *row = &growth->moving.list[r];
+        growth->step[r] -= row->memory * c[r] / (s * (s + row->fading));
+    }
+}
+
+// z of `to`, from the velocities in growth->step.
+static void put_memories(const Growth *growth, double s, const double *from, double *to)
+{
+    const double *c = memories_of(growth, from);
+    double *z = memories_of(growth, to);
+    memset(z, 0, (size_t)growth->interface->count * sizeof *z);
+    for (int32_t r = 0; r < growth->moving.count; r++) {
+        const MovingUnknown *row = &growth->moving.list[r];
+        if (row->memory != 0) z[r] = (s * growth->step[r] - c[r]) / (s + row->fading);
     }
 }
 
@@ -207,7 +241,9 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
         if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
     }
     moving_set_turn_vector(&growth->moving, false, growth->step);
+    pull_memories(growth, s, from);
     dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
+    if (growth->remembers) put_memories(growth, s, from, to);
     moving_set_turn_vector(&growth->moving, true, growth->step);
     memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
     for (int32_t r = 0; r < growth->moving.count; r++)

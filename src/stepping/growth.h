@@ -7,7 +7,8 @@
 //                        P_t + s mu(v) P_n                      (s: direction of slip)
 //
 // W = diag(-mu'(|v_i|) r_n,i) is the weakening; P_n u is the change of the pressing force at a
-// held normal, so mu P_n couples pressure to slip and makes P unsymmetric. Two questions to it:
+// held normal, so mu P_n couples pressure to slip and makes P unsymmetric. Where friction remembers
+// W depends on lambda: W + memory/(lambda + fading) (stepping/moving_set). Two questions to it:
 //
 //   growth_rates  the rightmost lambda, exactly: shift-and-invert Arnoldi on the companion form
 //                 with real shifts s (Saad, Numerical Methods for Large Eigenvalue Problems, 2011,
@@ -23,7 +24,7 @@
 
 #include "stepping/moving_set.h"
 
-enum { GROWTH_KEPT = 8, GROWTH_SHIFTS_MAX = 24 };
+enum { GROWTH_KEPT = 8, GROWTH_SHIFTS_MAX = 80 };
 
 typedef struct GrowthDef {
     double slowest, fastest;   // rates looked for: the scan's s go up from one to the other by 2,

@@ -23,12 +23,8 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
 
 void moving_set_destroy(MovingSet *set)
 {
-    memory_free(set->list);
-    memory_free(set->unknown);
-    memory_free(set->normal);
-    memory_free(set->friction);
-    memory_free(set->turned);
-    memory_free(set->direction);
+    memory_free_all(set->list, set->unknown, set->normal, set->friction, set->turned,
+                    set->direction);
     *set = (MovingSet){0};
 }
 
@@ -214,12 +210,48 @@ void moving_set_subtract_weakening(const MovingSet *set, double reach, double *m
     }
 }
 
+// |s| Re 1/(s + k), k = `fades` |s|. It falls as |s| grows. In the cosine of arg s it rises and is
+// concave for k < |s|, falls and is convex above: a tangent or a chord lies above it.
+static double remembered_part(double fades, double cosine)
+{
+    return (cosine + fades) / (1 + 2 * cosine * fades + fades * fades);
+}
+
+// The chord, or the tangent at `narrow`.
+void moving_set_subtract_bound(const MovingSet *set, const MemoryBound *bound, double *matrix)
+{
+    for (int64_t a = 0; set->remembers && a < set->count; a++) {
+        const MovingUnknown *moving = &set->list[a];
+        double fades = bound->reach * moving->fading, low = remembered_part(fades, bound->narrow);
+        double all = 1 + 2 * bound->narrow * fades + fades * fades;
+        double slope = fades < 1 ? (1 - fades * fades) / (all * all)
+                                 : (1 / (1 + fades) - low) / (1 - bound->narrow);
+        double part = bound->factor * (low + slope * (bound->cosine - bound->narrow));
+        if (moving->memory > 0)
+            matrix[a * (set->count + 1)] -= moving->memory * bound->reach * part;
+    }
+}
+
 void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix)
 {
     for (int64_t a = 0; set->remembers && a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
-        if (moving->memory > 0)
-            matrix[a * (set->count + 1)] -= moving->memory * reach /
-                                            hypot(1, reach * moving->fading);
+        double fades = reach * moving->fading, part = remembered_part(fades, fades < 1 ? 1 : 0);
+        if (moving->memory > 0) matrix[a * (set->count + 1)] -= moving->memory * reach * part;
     }
+}
+
+void moving_set_settle(MovingSet *set, double reach)
+{
+    for (int32_t a = 0; set->remembers && a < set->count; a++) {
+        MovingUnknown *moving = &set->list[a];
+        if (moving->memory == 0) continue;
+        double weakening = moving->weakening - moving->damper +
+                           moving->memory * reach / (1 + reach * moving->fading);
+        moving->weakening = fmax(weakening, 0);
+        moving->damper = fmax(-weakening, 0);
+        moving->memory = 0;
+        set->weakens = set->weakens || weakening > 0;
+    }
+    set->remembers = false;
 }

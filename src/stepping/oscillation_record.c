@@ -2,6 +2,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 
 // Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at
@@ -35,7 +36,7 @@ void oscillation_record_clear(OscillationRecord *record)
     record->seen_for = 0;
 }
 
-// Weakening of contact node k (rod node k - contact_count) where it moves; -1, less than any, where
+// Weakening, with what is remembered at s = 1/duration, of contact node k (rod node k - contact_count) where it moves; -1, less than any, where
 // it is held.
 static double weakening_of(const OscillationRecord *record, const State *state, int32_t k)
 {
@@ -44,7 +45,9 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
     double speed = slip_size(record->interface, k, state->slip_rate);
-    double slope = friction_slope(friction_at(record->law, k), speed);
+    FrictionRates rates = friction_rates(friction_at(record->law, k), speed, state->theta[k]);
+    double remembered = rates.mu_state * rates.rate_speed * record->duration;
+    double slope = rates.mu_speed + remembered / (1 - record->duration * rates.rate_state);
     return slope < 0 ? -slope * state->reaction[interface_normal(record->interface, k)]
                      : 0;   // 0: it strengthens
 }

@@ -5,7 +5,8 @@
 // are resolved for a while at each set of slipping nodes; once they were seen to stay small they
 // are stepped over, until slip does something that was not seen before.
 //
-// Recorded for each node is the largest weakening -mu'(|v|) r_n that it had while it moved. A state
+// Recorded for each node is the largest weakening that it had while it moved: -mu'(|v|) r_n; where
+// friction remembers W(s) (stepping/moving_set) at s = 1/duration, the slowest that can be seen. A state
 // is covered when it moves only nodes that were seen to move, none with more weakening than was
 // seen, and nothing new was seen for `duration` of resolved time in which no slip rate came near
 // v_c, where friction stops falling and an oscillation may run away. Both duration and oscillations

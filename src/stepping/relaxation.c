@@ -25,12 +25,11 @@ bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error
     step_control_settle(control);
     for (*steps = 0; speed > def->speed_max; (*steps)++) {
         if (control->now.time > def->duration_max)
-            FAIL(
-                err, ERROR_COMPUTE,
-                "the block has not settled under its load after t = %g: the fastest point moves at "
-                "%g, start.tolerance asks for %g (does it tip over, or is start.duration_max too "
-                "short?)",
-                control->now.time, speed, def->speed_max);
+            FAIL(err, ERROR_COMPUTE,
+                 "the block has not settled under its load after t = %g: the fastest point moves "
+                 "at %g, start.tolerance asks for %g (does it tip over, or is start.duration_max "
+                 "too short?)",
+                 control->now.time, speed, def->speed_max);
         TRY(step_control_advance(control, INFINITY, err));
         if (def->may_go_on) TRY(def->may_go_on(def->self, err));
         speed = fastest(control);

@@ -37,16 +37,9 @@ void sdirk_destroy(Sdirk *scheme)
 {
     contact_solver_destroy(&scheme->solver);
     friction_states_destroy(&scheme->memory);
-    memory_free(scheme->rhs);
-    memory_free(scheme->force);
-    memory_free(scheme->viscous);
-    memory_free(scheme->predictor);
-    memory_free(scheme->g);
-    memory_free(scheme->bound);
-    memory_free(scheme->stage_velocity);
-    memory_free(scheme->stage_impulse);
-    memory_free(scheme->stage_elastic);
-    memory_free(scheme->stage_reaction);
+    memory_free_all(scheme->rhs, scheme->force, scheme->viscous, scheme->predictor, scheme->g,
+                    scheme->bound, scheme->stage_velocity, scheme->stage_impulse,
+                    scheme->stage_elastic, scheme->stage_reaction);
     *scheme = (Sdirk){0};
 }
 

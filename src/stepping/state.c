@@ -31,16 +31,9 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
 
 void state_destroy(State *state)
 {
-    memory_free(state->displacement);
-    memory_free(state->velocity);
-    memory_free(state->elastic_force);
-    memory_free(state->momentum);
-    memory_free(state->inertia);
-    memory_free(state->slip_rate);
-    memory_free(state->reaction);
-    memory_free(state->theta);
-    memory_free(state->status);
-    memory_free(state->rod_touches);
+    memory_free_all(state->displacement, state->velocity, state->elastic_force, state->momentum,
+                    state->inertia, state->slip_rate, state->reaction, state->theta, state->status,
+                    state->rod_touches);
     *state = (State){0};
 }
 

@@ -149,25 +149,36 @@ void step_control_disturb(StepControl *control)
     if (control->rung < resolving) control->rung = resolving < last ? resolving : last;
 }
 
-// No oscillation that a disturbance as fast as slip itself starts comes near v_c in half a period.
-static bool oscillations_stay_small(StepControl *control, const State *state)
+// No oscillation that a disturbance as fast as slip itself starts, at the s of these rungs, comes
+// near v_c in half a period.
+static bool oscillations_stay_small(StepControl *control, const State *state, RungRange range)
 {
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    return growth > 1 && both_sides_oscillate_less(sides_of(control), state, growth);
+    return growth > 1 && both_sides_oscillate_less(sides_of(control), state, range, growth);
 }
 
-// May `state` be left or reached by a step that does not resolve waves? What oscillates on is
-// small, as certified or as seen so far, and nothing grows without oscillating. Nothing is known of
-// that where friction remembers.
-static bool may_skip_waves(StepControl *control, const State *state)
+// May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates
+// on is small, as certified or as seen so far, and nothing grows without oscillating. Where
+// friction remembers, what grows more slowly than the step and than anything that could be seen is
+// resolved by it; what is slower than the time that was watched has not been seen.
+static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
 {
-    return control->oscillations.duration > 0 && !control->scheme.memory.act &&
-           (oscillation_record_covers(&control->oscillations, state) ||
-            oscillations_stay_small(control, state)) &&
-           both_sides_exclude_runaway(sides_of(control), state);
+    const Ladder *ladder = &control->ladder;
+    double watched = control->oscillations.duration;
+    if (watched == 0) return false;
+    int32_t slowest = ladder_find(ladder, watched / ladder->gamma);   // that was seen
+    RungRange all = {k < slowest ? k : slowest, ladder->rung_count};
+    RungRange unseen = {all.first, slowest + 1};
+    bool seen = oscillation_record_covers(&control->oscillations, state), small = seen;
+    if (control->scheme.memory.act)
+        small = seen && k >= slowest;
+    else
+        all.first = 0;
+    return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
+           both_sides_exclude_runaway(sides_of(control), state, all);
 }
 
 // Cheapest first. *certified and *odd_decays: of the state the step leads to; where the certificate
@@ -187,7 +198,7 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     *certified = both_sides_hold(sides_of(control), &control->next, reach, odd_decays);
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
-        return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
+        return may_skip_waves(control, &control->next, k) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
     bool resolved = both_sides_resolve(sides_of(control), &control->next, k);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
@@ -224,14 +235,15 @@ static int32_t next_rung(StepControl *control, int32_t k, double error, bool ret
     int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
     // What a step longer than the waves led to was asked already.
     bool free = k < resolving || next >= resolving || control->certified ||
-                may_skip_waves(control, &control->now);
+                may_skip_waves(control, &control->now, next);
     if (!free) return resolving;
     bool longer = next < k && next < resolving && control->scheme.memory.act &&
                   control->def.use_certificate;
-    if (longer && !certificate_holds(&control->certificate, &control->now,
-                                     ladder_reach(&control->ladder, next)))
-        return k;
-    return next;
+    bool stays = longer &&
+                 !certificate_holds(&control->certificate, &control->now,
+                                    ladder_reach(&control->ladder, next)) &&
+                 !may_skip_waves(control, &control->now, next);
+    return stays ? k : next;
 }
 
 // The coarsest built rung that does not overshoot; the chosen one when none is, or one is made.

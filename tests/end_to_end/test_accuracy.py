@@ -130,6 +130,18 @@ class Accuracy(unittest.TestCase):
         self.assertTrue(report["accuracy"]["met"])
         self.assertAlmostEqual(report["results"]["mu_M"] / 0.2336, 1, delta=0.02)   # 80 x 80 to U = 0.05: 0.2326; the first drop: 0.32
 
+    def test_steady_sliding(self):
+        """F_T/F_N is mu(V), with its bar, also where the scene's own run ends before the block slides."""
+        for way in ("0.003", "3e-5"):
+            ended = self.run_it("--to", "1%", "--overwrite", settings=["load.pressure=0.0002", "rod.velocity=5e-6", f"time.until.U={way}", "mesh.set.nx=20",
+                                                        "mesh.set.nz=10", *SETTINGS[2:]])
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            results = self.report()["results"]
+            self.assertEqual(results["mu_M_is"], "steady sliding")
+            exact = 0.38 - 0.28 * 5e-6 / 3.4e-4
+            self.assertLess(abs(results["mu_M"] - exact), results["mu_M_error"])
+            self.assertRegex(ended.stdout, r"mu_M +0\.37\d+ \+- 0\.00\d+ \(mesh .*\): F_T/F_N of steady sliding")
+
     def run_set_b(self, *words, pressure, way):
         mesh = "mesh.set={length: 0.04, height: 0.02, nx: 20, nz: 8, shape: quad, order: 1}"
         words = [PROGRAM, "run", SOURCE / "validation/paper/set-b.yaml", "-o", self.folder, *words]

@@ -157,9 +157,10 @@ class Gaps(OwnCache):
         for text, words in (("0,0\n1,0\n0.5,0", [":3: x = 0.5 comes after 1"]), ("0,0\n1,nan\n2,0", [":2:3: found `1,nan`"]),
                             ("0,0\n\n2,-1", [":3: at x = 2 the gap is -1"]), ("0,0\n1,0", ["goes from x = 0 to 1", "from 0 to 2"]),
                             ("x [mm], gap [um]\n0,0\n2000,0", [":1:4: found a unit, `mm`", "normalised"]),
-                            ("0,0", ["has 1 point; two or more"]), ("0 0 1\n", [":1:5: found `0 0 1`", "two numbers"]),
+                            ("0,0", ["has 1 point; two or more"]), ("0 0\n0 0 1\n", [":2:5: found `0 0 1`", "two numbers"]),
+                            ("0 0 1 2\n", [":1:7: found `0 0 1 2`", "three numbers"]),
                             ("place\n0 0\n", ["names of the two columns"]), ("O.1, 0.2\n0 0\n2 0", [":1:1: found `O.1`", "wanted: two numbers"]),
-                            ("# \n  x,0,2\n0 0\n2 0", [":2:5: found `0,2`"]), ("position, depth\n0 0\n2 0", [":1:1: found `position`"]),
+                            ("# \n  x,0,2\n0 0\n2 0", [":2:5: found `0`"]), ("position, depth\n0 0\n2 0", [":1:1: found `position`"]),
                             ("x\n0 0\n2 0", [":1:2: found ``"]), ("x (mm, gap\n0 0\n2 0", [":1:1: found `x (mm`"]),
                             ("x_s, gap_s\n0 0\n2 0", [":1:1: found `x_s`"]), ("x " + 99 * "y" + ", gap\n0 0\n2 0", [":1:1: "]),
                             ("0,1e999\n2,0", [":1: at x = 0 the gap is inf"])):

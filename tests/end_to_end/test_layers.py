@@ -55,8 +55,9 @@ def allowed(folder, include):
         return layer in ("render", "") or folder == "io/text"   # what render/render.h is asked; its options, read
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
-    if include in ("build_record.h", "computing_sources.h", "page_resources.h"):
-        return layer == {"b": "run", "c": "base", "p": "page"}[include[0]]   # generated
+    generated = {"build_record.h": "run", "computing_sources.h": "base", "page_resources.h": "page", "cli_help.h": "cli"}
+    if include in generated:
+        return layer == generated[include]
     if include in (*PUBLIC, "render/render.h") and layer in BELOW_SCENE:
         return False
     if folder == "":

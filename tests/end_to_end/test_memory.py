@@ -196,7 +196,6 @@ class Memory(Driven):
                 ("run", "`rate-and-state` is for a mesh in the plane",
                  ["friction=" + rate_state(slip_distance=1e-4), f"mesh={{file: {SOURCE}/meshes/block3d.geo, set: {{nx: 3, ny: 2, nz: 2}}}}"]),
                 ("static", "what holds at rest goes by what the contacts remember", [ageing, "rod.displacement=1e-3"]),
-                ("stability", "`ageing` remembers", [ageing]),
                 ("model1d", "`ageing` remembers", [ageing])):
             self.assertIn(words, self.call(command, *settings, status=2, flags=("-q",) if command != "model1d" else ("--theory",)))
 

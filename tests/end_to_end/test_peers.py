@@ -72,6 +72,20 @@ class Promise(unittest.TestCase):
         for ratios, kept in (([0.5] * 38 + [1.5] * 2, True), ([0.5] * 37 + [1.5] * 3, False), ([0.5] * 39 + [4], False)):
             self.assertEqual(promise.summary_of(0.01, ratios, 0, 40, [1] * 40)[1], kept)
 
+    def test_a_reference_is_three_times_as_sure_as_a_bar(self):
+        """Finer meshes only where the first ones err by more than a third of the shortest bar."""
+        case = next(one for one in map(promise.case, range(80)) if one.is_block)
+        with tempfile.TemporaryDirectory() as folder:
+            kept = promise.Kept(Path(folder, "promise.jsonl"))
+            for k, (cells, order, grade) in enumerate(promise.REFERENCES[True] + promise.FINER[True]):
+                for factor in promise.WINDOW:
+                    kept.obtain(case, f"reference {cells} order {order} grade {grade} at {factor}", lambda k=k: {"mu": 0.3 + 0.01 * (k == 1)})
+            first = promise.reference(case, kept)
+            self.assertAlmostEqual(first[0], 0.305)
+            self.assertEqual(promise.sure_reference(case, kept, first, []), first)
+            self.assertEqual(promise.sure_reference(case, kept, first, [0.2, 3.01 * first[1]]), first)
+            self.assertAlmostEqual(promise.sure_reference(case, kept, first, [0.2, 2.99 * first[1]])[0], 0.302)
+
     def test_what_a_sure_mesh_costs(self):
         """Of errors 1 to 101 %, 19 of 20 stay below 96 %; costs are a mean and a median."""
         runs = [(k / 100, 1 if k < 101 else 102) for k in range(1, 102)]

@@ -195,6 +195,57 @@ class Space(OwnCache):
         left, right = (moved[ahead & (numpy.abs(place[:, 1] - y) < 1e-9), 0].mean() for y in (0, 0.5))
         self.assertGreater(left, right + 1e-6)
 
+    def test_height_map(self):
+        """A measured z(x, y), its points in any order: between them bilinear, as this formula is."""
+        wanted = self.call("static", "rod.displacement=2e-3", "contact.gap=2e-3*(x + 0.1)*(y + 0.2)")["results"]
+        points = [(x, y, 2e-3 * (x + 0.1) * (y + 0.2)) for x in (-0.1, 0.13, 0.5) for y in (0, 0.31, 0.4, 0.7)]
+        numpy.random.default_rng(3).shuffle(points)
+        path = self.folder / "map.csv"
+        for head, unit, more in (("# measured", 1, []), ("x [mm], y/mm, gap_um", 1e3, ["units=si", "material={poisson: 0.34, young: 1, density: 1, eta1: 1, eta2: 1}"])):
+            path.write_text(f"{head}\n" + "".join(f"{unit * x!r}, {unit * y!r}, {unit * gap * (1000 if unit > 1 else 1)!r}\n" for x, y, gap in points))
+            found = self.call("static", "rod.displacement=2e-3", "contact.profile=map.csv", *more)["results"]
+            for key in ("rod_force", "normal_force", "elastic_energy", "pressure_moment"):
+                self.assertAlmostEqual(found[key] / wanted[key], 1, delta=1e-9, msg=key)
+            self.assertEqual([found[key] for key in ("sticking", "slipping", "open")], [wanted[key] for key in ("sticking", "slipping", "open")])
+        self.assertGreater(wanted["open"], 0)
+        flat = "mesh={file: %s/meshes/block.geo}" % SOURCE
+        for text, says, more in (("0 0 0\n0 1 0\n1 0 0\n", "3 points at 2 different x and 2 different y: a height map is a grid", []),
+                                 ("0 0 0\n0 1 0\n1 0 0\n0 1 1\n", "has two points at x = 0, y = 1", []),
+                                 ("0 0 0\n0 1 0\n", "has 1 point along x; two or more", []),
+                                 ("0 0 0\n0 1\n", ":2:4: found `0 1`; wanted: three numbers, x, y and gap", []),
+                                 ("0 0 0\n0 0.2 0\n1 0 0\n1 0.2 0\n", "from y = 0 to 0.2, the contact from 0 to 0.5", []),
+                                 ("0 0 0\n0 1 0\n1 0 0\n1 1 0\n", "the mesh is in the plane: there is no y", [flat])):
+            path.write_text(text)
+            self.assertIn(says, self.call("static", "rod.displacement=2e-3", "contact.profile=map.csv", *more, fails=True))
+
+    def test_step_file(self):
+        """A bridge on two feet out of a STEP file in mm, somewhere in its space: its sizes, names and load; another file of the same name is another block."""
+        mesh = f"mesh={{file: {SOURCE}/meshes/step3d.geo, set: {{file: {self.folder}/part.step, unit: 0.01, size_contact: 0.4, size_bulk: 0.4}}}}"
+        found = []
+        for length in (100, 120):
+            (self.folder / "part.geo").write_text(f"""SetFactory("OpenCASCADE");
+Box(1) = {{-7, 5, 3, {length}, 40, 50}};
+Box(2) = {{23, 5, 3, {length - 60}, 40, 10}};
+BooleanDifference(3) = {{ Volume{{1}}; Delete; }}{{ Volume{{2}}; Delete; }};
+""")
+            subprocess.run(["gmsh", "-0", "part.geo", "-o", "part.step"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            results = self.call("static", mesh, "rod={velocity: 2e-5, height: 0.3, displacement: 1e-3}")["results"]
+            with h5py.File(self.folder / "result/static.h5") as file:
+                place, touching = file["nodes/position"][:], file["contact/node"][:]
+            numpy.testing.assert_allclose(place.max(axis=0), [length / 100, 0.4, 0.5], atol=1e-7)
+            numpy.testing.assert_allclose(place.min(axis=0), 0, atol=1e-7)
+            self.assertEqual(abs(place[touching, 2]).max(), 0)
+            x = place[touching, 0]
+            self.assertFalse(((x > 0.31) & (x < length / 100 - 0.31)).any())
+            self.assertAlmostEqual(results["normal_force"], 0.003 * 0.4 * length / 100, delta=1e-8)
+            found.append(results["rod_force"])
+        self.assertNotEqual(*found)
+        said = subprocess.run([PROGRAM, "info", SOURCE / "meshes/step3d.geo", "--set", f"file={self.folder}/part.step"], capture_output=True, text=True, check=True).stdout
+        for name in ("contact_1", "contact_2", "top", "rod", "leading", "left", "right"):
+            self.assertRegex(said, rf"{name} +surface")
+        said = self.call("static", f"mesh={{file: {SOURCE}/meshes/step3d.geo, set: {{file: none.step}}}}", fails=True)
+        self.assertIn("none.step", said)
+
     def test_refused(self):
         for words, says in ((["material.poisson=0.5"], "Poisson's ratios below 0.5"),
                             (["friction.along=z"], "is no number here: x and y alone"),

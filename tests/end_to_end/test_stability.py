@@ -284,6 +284,61 @@ class Refusals(InFolder):
         self.assertFalse((self.folder / "result" / "stability.json").exists())
 
 
+class Memory(InFolder):
+    """Friction that remembers: what `amontons run` and published lengths say."""
+    SCENE = SOURCE / "validation/memory/paper.yaml"
+    AGEING = "friction={law: ageing, mu_static: 0.3545, mu_kinetic: 0.0933, critical_velocity: 3.4e-4, healing: %s, " \
+        "healing_time: 10, slip_distance: 1e-4}"
+    CREEPING = "friction={law: rate-and-state, mu_reference: 0.38, reference_velocity: 1e-7, direct_effect: 0.02, " \
+        "evolution_effect: 0.06, slip_distance: 1e-4}"
+
+    def found(self, *settings, words=(), mesh=(20, 10)):
+        done = stability("-o", self.folder / "stable", "--overwrite", *words, scene=self.SCENE,
+                         coarse=["--set", f"mesh.set.nx={mesh[0]}", f"mesh.set.nz={mesh[1]}", *settings])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.said = " ".join(done.stdout.split())
+        return json.loads((self.folder / "stable/stability.json").read_text())
+
+    def run_mu(self, *settings):
+        subprocess.run([PROGRAM, "run", self.SCENE, "--set", "mesh.set.nx=20", "mesh.set.nz=10", "output.figures=[]", *settings, "-q",
+                        "--overwrite", "-o", self.folder / "run"], check=True, timeout=240)
+        return json.loads((self.folder / "run/run.json").read_text())["results"]["mu_M"]
+
+    def test_memory_of_nothing(self):
+        """healing: 0 is linear weakening, point by point."""
+        weakens = self.AGEING.split("healing:")[0].replace("ageing", "linear-weakening").rstrip(", ") + "}"
+        plain, nothing = (self.found(law, words=("--from", "start")) for law in (weakens, self.AGEING % 0))
+        self.assertEqual(len(plain["points"]), len(nothing["points"]))
+        for one, other in zip(plain["points"], nothing["points"]):
+            for key in ("l_over_L", "U", "mu", "mu_at_V", "rate_re", "rate_im", "load"):
+                self.assertAlmostEqual(one[key], other[key], delta=1e-6 * max(abs(one[key]), 1), msg=key)
+        self.assertIsNone(nothing["results"]["critical_stiffness"])
+
+    def test_runs_agree(self):
+        """mu at V of laws that stick as the paper's does (2 % on Figure 1's block), and the rise of rate and state to where it runs away."""
+        self.assertAlmostEqual(self.found(self.AGEING % 0.03)["results"]["mu_M"] / self.run_mu(self.AGEING % 0.03), 1, delta=0.03)
+        weakens = "friction={law: slip-weakening, mu_static: 0.38, mu_kinetic: 0.1, healing_time: 100, slip_distance: 1e-3}"
+        self.assertAlmostEqual(self.found(weakens)["results"]["mu_M"] / self.run_mu(weakens), 1, delta=0.03)
+        creeps = self.CREEPING.replace("1e-7", "1e-5"), "load.pressure=0.001"
+        found = self.found(*creeps, words=("--from", "start"))
+        self.run_mu(*creeps)
+        first = json.loads((self.folder / "run/run.json").read_text())["results"]["peaks"][0]["mu"]
+        self.assertAlmostEqual(found["results"]["mu_M"] / first, 1, delta=0.02)
+        self.assertAlmostEqual(found["results"]["critical_stiffness"], 0.04 * 0.001 / 1e-4, delta=1e-6)
+        self.assertIn("is steady on a stiffness above 0.4 (critical)", self.said)
+
+    def test_nucleation_length(self):
+        """Slip of rate k_c on a part of a half-space whose normals are held: 2.316 G'/k_c (Uenishi and Rice, 2003: the half-length
+        0.579 G*/k_c of a crack between two half-spaces). On 7 elements 4 % less: the step from one node to the next is an error of
+        first order."""
+        found = self.found(self.CREEPING, "load.pressure=0.03", "rod.velocity=1e-7", "time.until={t: 1}", words=("--from", "end"), mesh=(64, 32))
+        critical = found["results"]["critical_stiffness"]
+        self.assertAlmostEqual(critical, 0.04 * 0.03 / 1e-4, delta=1e-4)
+        poisson = 0.34 / 1.34     # that of plane strain with the moduli of plane stress
+        modulus = 1 / (2 * 1.34) * 4 * (1 - poisson) / (3 - 4 * poisson)
+        self.assertAlmostEqual(found["results"]["nucleation_length"] / (2.316 * modulus / critical), 1, delta=0.06)
+
+
 SPACE = f"""material: {{poisson: 0.34, plane: strain}}
 friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
 load: {{pressure: 0.003}}

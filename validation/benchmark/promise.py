@@ -13,7 +13,7 @@ The reference of a case is the mean over meshes of the mean over three pressures
 program's window has them. A block has two meshes: quads of 96 cells along it, and quads of order 2 of 48. Pads and grooves,
 where values of single meshes scatter (slip waits at the edges of pads, whose last cells differ), have four: 112 and 88
 cells a length, and of order 2 56 and 44, graded by 8, 16, 8 and 16 towards the edges. Its own error is the standard error
-of the meshes' means, or that of the single runs where it is more; where it is above a third of a bar of 1 %, three finer meshes are added. A bar holds the reference where they differ by no more
+of the meshes' means, or that of the single runs where it is more; where it is above a third of a bar that was given, three finer meshes are added. A bar holds the reference where they differ by no more
 than the bar.
 
 Every run is kept in FOLDER/promise.jsonl as it ends (default results/promise): the same command goes on where it was
@@ -42,7 +42,7 @@ WINDOW = (0.995, 1, 1.005)      # of pressure: ends and middle of the program's 
 REFERENCES = {True: ((96, 1, 1), (48, 2, 1)),      # of a block: (cells, order, grade)
               False: ((112, 1, 8), (56, 2, 8), (88, 1, 16), (44, 2, 16))}
 FINER = {True: ((112, 1, 1), (128, 1, 1), (64, 2, 1)), False: ((128, 1, 16), (144, 1, 8), (72, 2, 8))}     # where that is not enough
-OWN_MAX = min(WANTED) / 3       # over mu
+OWN_MAX = 1 / 3                 # over the shortest bar
 QUIET = ["output.history=false", "output.fields=none", "output.figures=[]"]
 HELD = 0.95
 
@@ -169,9 +169,14 @@ def reference(case, kept, meshes=None):
         means.append(statistics.mean(values))
         every += values
     mean, own = statistics.mean(means), max(standard_error(means), standard_error(every))
-    if own > OWN_MAX * mean and meshes == REFERENCES[case.is_block]:
-        return reference(case, kept, meshes + FINER[case.is_block])
     return mean, own
+
+
+def sure_reference(case, kept, truth, bars):
+    """The reference, by finer meshes too where its own error is above a third of a bar."""
+    if not bars or truth[1] <= OWN_MAX * min(bars):
+        return truth
+    return reference(case, kept, REFERENCES[case.is_block] + FINER[case.is_block]) or truth
 
 
 def reference_hold(case, kept):
@@ -187,7 +192,7 @@ def reference_hold(case, kept):
 
 def known_references(path):
     """case name: (mean, its own error) of mu_M, and of mu_hold, from the tables of an earlier promise.md: a reference does
-    not depend on bars. Those that finer meshes are asked for are left out."""
+    not depend on bars."""
     known = {"mu_M": {}, "mu_hold": {}}
     answer = "mu_M"
     for line in path.read_text().splitlines() if path else []:
@@ -196,8 +201,7 @@ def known_references(path):
             answer = "mu_hold"
         if len(cells) == 3 and cells[0].startswith(("A, ", "B, ")):
             known[answer][cells[0]] = (float(cells[1]), float(cells[1]) * float(cells[2]) / 100)
-    good = {name for name, (mean, own) in known["mu_M"].items() if own <= OWN_MAX * mean}
-    return tuple({name: truth for name, truth in found.items() if name in good} for found in known.values())
+    return tuple(known.values())
 
 
 def ask(case, wanted):
@@ -310,10 +314,10 @@ def main():
             passed.append(one.name)
             print(f"passed over: {one.name}", flush=True)
             continue
-        mean, own = truth
+        answers = {wanted: kept.obtain(one, f"to {wanted}", lambda w=wanted: ask(one, w)) for wanted in wanted_all if not options.references}
+        mean, own = sure_reference(one, kept, truth, [answer["bar"] for answer in answers.values() if answer["bar"]])
         row = [one.name, f"{mean:.4f}", percent(own / mean)]
-        for wanted in () if options.references else wanted_all:
-            answer = kept.obtain(one, f"to {wanted}", lambda w=wanted: ask(one, w))
+        for wanted, answer in answers.items():
             cells, ratio = answer_cells(answer, mean)
             row += cells
             found[wanted].append((ratio, answer, ratio > 1 and bool(answer["bar"]) and own > answer["bar"]))

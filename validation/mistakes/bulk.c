@@ -5,6 +5,7 @@
 #include "reduction/interface_operator.h"
 #include "fem/assembly.h"
 #include "fem/material.h"
+#include "fem/mesh_faces.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,13 +58,19 @@ Moduli __wrap_material_viscous(const Material *material)
     return moduli;
 }
 
-// One node in the middle of the list has half of what it should.
+// One node in the middle of the list has half of what it should; corners have what a bend of their
+// face leaves them.
 void __wrap_boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
                                  double *weight)
 {
     __real_boundary_add_weights(mesh, boundary, shadow, weight);
     if (shadow && mistake_made() == MISTAKE_HALF_WEIGHT)
         weight[boundary->nodes[boundary->node_count / 2]] /= 2;
+    for (int32_t k = 0; mistake_made() == MISTAKE_BENT_CORNERS && k < boundary->face_count; k++) {
+        FaceNodes face = mesh_boundary_face(boundary, k);
+        for (int32_t a = 0; face.kind == ELEMENT_T6 && a < 3; a++)
+            weight[face.node[a]] += 1e-4 * weight[face.node[3 + a]];
+    }
 }
 
 // Only matrices of steps: those without mass are of equilibria and certificates.

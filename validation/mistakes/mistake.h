@@ -25,6 +25,7 @@
     X(MISTAKE_LAST_DIRECTION, "last-direction") /* friction along the slip of the solve before */  \
     X(MISTAKE_NO_ACROSS, "no-across") /* no friction across the drive */                           \
     X(MISTAKE_HALF_WEIGHT, "half-weight") /* of one contact node */                                \
+    X(MISTAKE_BENT_CORNERS, "bent-corners") /* corners of curved T6 faces touch, too */            \
     /* of scenes.c, in words in scenes.py */                                                       \
     X(MISTAKE_REGION_DENSITY, "region-density")                                                    \
     X(MISTAKE_REGION_VISCOSITY, "region-viscosity")                                                \
@@ -34,6 +35,7 @@
     X(MISTAKE_FLAT_MESH, "flat-mesh")                                                              \
     X(MISTAKE_PROFILE_STEPS, "profile-steps")                                                      \
     X(MISTAKE_PROFILE_NAME, "profile-name")                                                        \
+    X(MISTAKE_MAP_TURNED, "map-turned")                                                            \
     X(MISTAKE_LOAD_STAIRS, "load-stairs")                                                          \
     X(MISTAKE_LOAD_POINTS, "load-points")                                                          \
     X(MISTAKE_ROD_WAY, "rod-way")                                                                  \

@@ -30,7 +30,7 @@ REPLACED(bool, shape_key, const Scene *scene, double tolerance, char key[HASH_TE
 REPLACED(bool, model_lay_laws, Model *model, Error *err);
 REPLACED(bool, model_lay_gaps, Model *model, Error *err);
 REPLACED(double, mesh_gap, const Mesh *mesh, int32_t node);
-REPLACED(double, scene_profile_at, const SceneProfile *profile, double x);
+REPLACED(double, scene_profile_at, const SceneProfile *profile, double x, double y);
 REPLACED(bool, scene_hash, const Scene *scene, bool (*counts)(const char *key), Hash *hash,
          Error *err);
 REPLACED(double, load_factor, const LoadCourse *course, double time);
@@ -86,10 +86,11 @@ double __wrap_mesh_gap(const Mesh *mesh, int32_t node)
     return made(MISTAKE_FLAT_MESH) ? 0 : __real_mesh_gap(mesh, node);
 }
 
-// Of the point before it.
-double __wrap_scene_profile_at(const SceneProfile *profile, double x)
+// Of the point before it; of a map with x and y in each other's place.
+double __wrap_scene_profile_at(const SceneProfile *profile, double x, double y)
 {
-    if (!made(MISTAKE_PROFILE_STEPS)) return __real_scene_profile_at(profile, x);
+    if (made(MISTAKE_MAP_TURNED) && profile->y) return __real_scene_profile_at(profile, y, x);
+    if (!made(MISTAKE_PROFILE_STEPS)) return __real_scene_profile_at(profile, x, y);
     int32_t k = 0;
     while (k + 1 < profile->count && profile->x[k + 1] <= x) k++;
     return profile->gap[k];

@@ -25,6 +25,7 @@ TABLE = (
     ("flat-mesh", "the gaps that the mesh itself leaves are", "test_gaps.Gaps.test_hertz"),
     ("profile-steps", "a profile is level between its points", "test_gaps.Gaps.test_profile"),
     ("profile-name", "results know a profile by its name, not by its content", "test_gaps.Gaps.test_profile"),
+    ("map-turned", "a height map is read with x and y exchanged", "test_space.Space.test_height_map"),
     ("load-stairs", "the load jumps where it should rise", "test_programs.Programs.test_rigid_block"),
     ("load-points", "steps pass over the points of a load's program", "test_programs.Programs.test_schemes_agree"),
     ("rod-way", "U is the velocity of the moment times t", "test_programs.Programs.test_rigid_block"),

@@ -54,7 +54,7 @@ def part_exact():
     kept = KEPT / "exact.json"
     if not kept.exists():
         study = Study(folder=scratch())
-        for part in (exact.space.patch, exact.space.orders, exact.space.waves, exact.space.hertz, exact.space.mindlin, exact.space.punch, exact.space.plate):
+        for part in (exact.space.patch, exact.space.orders, exact.space.waves, exact.space.hertz, exact.space.hertz_curved, exact.space.mindlin, exact.space.punch, exact.space.plate):
             part(study)
         kept.write_text(json.dumps([[r.case, r.quantity, str(r.reference), str(r.ours), r.error, r.tolerance, r.passed, r.note]
                                     for r in study.rows]))

@@ -3,6 +3,7 @@
 """What `--dry-run` says of the problems for tuning, against what their runs take, each on its own mesh.
 
     validation/strangers/forecasts.py [--limit 120] [--only 5,44] [-o FOLDER]
+    validation/strangers/forecasts.py --meshes      # what the next mesh of a search takes, from now.jsonl
 
 A run leaves a line in FOLDER/forecasts.jsonl (default results/strangers); a call that was ended goes on there. Constants of
 src/model/stages.c were fitted to problems of odd number, those of even number judge. Seconds are processor time of the
@@ -53,12 +54,36 @@ def table(rows):
         for name, odd in halves.items() for at, what in enumerate(("stages", "seconds"))])
 
 
+def quantile(values, part):
+    return sorted(values)[min(len(values) - 1, int(part * len(values)))]
+
+
+def meshes_table(path, least):
+    """Time of a run over that of one on the mesh before, times a power of their nodes: wall time on busy machines, of runs
+    that took `least` s and more."""
+    steps = []      # (nodes over those before, time over that before, problem)
+    for one in map(json.loads, path.read_text().splitlines()):
+        levels = (one["asked"] or {}).get("levels") or []
+        times = [level["seconds"] / max(len(level["runs"]), 1) for level in levels]
+        steps += [(here["contact_nodes"] / before["contact_nodes"], after / time, one["number"])
+                  for before, here, time, after in zip(levels, levels[1:], times, times[1:]) if after >= least]
+    rows = []
+    for name, low, high in (("next mesh", 1.05, 1.35), ("far jump", 1.35, 3)):
+        for power in (1.5, 2, 2.6):
+            of = [time / nodes**power for nodes, time, _ in steps if low <= nodes < high]
+            rows.append([name, len(of), power, *(f"{quantile(of, part):.2f}" for part in (0.05, 0.1, 0.5, 0.9, 0.95))])
+    return markdown_table(["", "meshes", "power", "5 % take less than", "10 %", "median", "90 %", "95 %"], rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--limit", type=int, default=120, help="processor s of a run")
     parser.add_argument("--only", type=lambda text: [int(word) for word in text.split(",")])
+    parser.add_argument("--meshes", action="store_true")
     parser.add_argument("-o", dest="folder", type=Path, default=Path("results/strangers"))
     asked = parser.parse_args()
+    if asked.meshes:
+        return print(meshes_table(Path(__file__).with_name("now.jsonl"), 4))
     asked.folder.mkdir(parents=True, exist_ok=True)
     path = asked.folder / "forecasts.jsonl"
     rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []

@@ -187,14 +187,8 @@ cleanup:
 
 void field_frame_destroy(FieldFrame *frame)
 {
-    memory_free(frame->position);
-    memory_free(frame->displacement);
-    memory_free(frame->velocity);
-    memory_free(frame->stress_elastic);
-    memory_free(frame->stress);
-    memory_free(frame->von_mises);
-    memory_free(frame->kind);
-    memory_free(frame->first_node);
-    memory_free(frame->element_nodes);
+    memory_free_all(frame->position, frame->displacement, frame->velocity, frame->stress_elastic,
+                    frame->stress, frame->von_mises, frame->kind, frame->first_node,
+                    frame->element_nodes);
     *frame = (FieldFrame){0};
 }

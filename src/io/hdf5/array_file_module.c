@@ -113,8 +113,7 @@ static void destroy(Hdf5File *file)
     if (file->driver > 0) H5FDunregister(file->driver);
     array_disk_close(&file->disk);
     part_file_leave(&file->part);
-    memory_free(file->series);
-    memory_free(file);
+    memory_free_all(file->series, file);
 }
 
 // For writing. A second writer of the path is refused by part_file as long as this one is open.
@@ -125,8 +124,7 @@ static Hdf5File *begin_writing(const char *path, bool anew, Error *err)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   // HDF5 prints its error stack otherwise
     file->writing = true;
     file->series_capacity = FIRST_SERIES;
-    file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err);
-    if (!file->series) goto cleanup;
+    TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
     TRY(anew ? part_file_create(&file->part, path, err) : part_file_reopen(&file->part, path, err));
     snprintf(file->path, sizeof file->path, "%s", path);
     TRY(begin_hdf5(file, anew, err));
@@ -399,8 +397,7 @@ static bool hdf5_read(Hdf5File *file, const char *name, double **values, int64_t
     if (dataset < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
     TRY(read_shape(file, name, dataset, rows, width, err));
-    *values = NEW_ARRAY(double, *rows **width, err);
-    if (!*values) goto cleanup;
+    TRY((*values = NEW_ARRAY(double, *rows **width, err)));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
         FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));
 cleanup:

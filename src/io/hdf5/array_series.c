@@ -120,10 +120,9 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
     if (series->width < 1 || series->width % components != 0 || item_size(series->type) == 0)
         FAIL(err, ERROR_LIBRARY, "%s has no values or no type", series->name);
     writer->chunk_rows = chunk_rows(series->type, series->width);
-    writer->name = memory_text(series->name, err);
-    if (!writer->name) goto cleanup;
-    writer->buffer = memory_array(writer->chunk_rows * writer->width, item_size(writer->type), err);
-    if (!writer->buffer) goto cleanup;
+    TRY((writer->name = memory_text(series->name, err)));
+    TRY((writer->buffer =
+             memory_array(writer->chunk_rows * writer->width, item_size(writer->type), err)));
     writer->dataset = create_dataset(writer, id);
     if (writer->dataset < 0)
         FAIL(err, ERROR_LIBRARY, "HDF5 cannot make %s: %s", writer->name, hdf5_cause(cause));
@@ -201,8 +200,7 @@ cleanup:
 void series_destroy(SeriesWriter *writer)
 {
     if (writer->dataset > 0) H5Dclose(writer->dataset);
-    memory_free(writer->name);
-    memory_free(writer->buffer);
+    memory_free_all(writer->name, writer->buffer);
     *writer = (SeriesWriter){0};
 }
 

@@ -72,6 +72,14 @@ ResultColumns result_series_columns(ResultSeries series)
     return series_rows[series].columns;
 }
 
+bool result_series_written(const ResultHead *head, ResultSeries series)
+{
+    if (series == SERIES_ROD_WAY) return head->rod_on_spring;
+    if (series == SERIES_STATE) return head->remembers;
+    bool across = series == SERIES_PAD_SHEAR_ACROSS || series == SERIES_PAD_SLIP_ACROSS;
+    return !across || head->tangents > 1;
+}
+
 static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
 {
     int length = snprintf(path, PATH_MAX, "%s/history.h5", folder);
@@ -162,8 +170,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     if (head->contact_count < 1)
         FAIL(err, ERROR_INPUT, "a result needs contact nodes, not %d of them", head->contact_count);
     TRY(history_path(folder, path, err));
-    file = array_file_create(path, err);
-    if (!file) goto cleanup;
+    TRY((file = array_file_create(path, err)));
     TRY(write_attributes(file, head, err));
     for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
         if (!head->nodes[k]) continue;
@@ -177,8 +184,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
                               err));
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        if (k == SERIES_ROD_WAY && !head->rod_on_spring) continue;
-        if (k == SERIES_STATE && !head->remembers) continue;
+        if (!result_series_written(head, (ResultSeries)k)) continue;
         TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head->tangents,
                     err));
     }
@@ -195,8 +201,7 @@ ArrayFile *result_file_reopen(const char *folder, Error *err)
     char path[PATH_MAX];
     ArrayFile *file = NULL;
     TRY(history_path(folder, path, err));
-    file = array_file_reopen(path, err);
-    if (!file) goto cleanup;
+    TRY((file = array_file_reopen(path, err)));
     for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
         TRY(array_file_remove(file, table_rows[k].name, err));
     TRY(array_file_remove(file, number_rows[NUMBER_MU_M].name, err));
@@ -211,7 +216,7 @@ cleanup:
 bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
 {
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        bool may_lack = k == SERIES_ROD_WAY || k == SERIES_STATE;
+        bool may_lack = !result_series_written(&(ResultHead){0}, (ResultSeries)k);
         if (may_lack && !array_file_has(file, series_rows[k].name)) continue;
         TRY(array_file_cut(file, series_rows[k].name, rows, err));
     }

@@ -16,11 +16,13 @@ const char *result_series_name(ResultSeries series);
 const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);
+typedef struct ResultHead ResultHead;
+bool result_series_written(const ResultHead *head, ResultSeries series);
 
 // Writing: creates RESULT/history.h5(.part) with the series of the table, empty, and the fixed
 // arrays. `nodes[k]`: [contact_count] for each ResultNodes, y and line NULL in the plane;
 // nodes[NODES_PAD] says how many pads.
-typedef struct ResultHead {
+struct ResultHead {
     const char *title, *units, *version;
     const char *pads;   // NULL: without names
     double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
@@ -34,7 +36,7 @@ typedef struct ResultHead {
         int32_t rows, width;   // 0: the array is left out
         const double *values;   // [rows * width]
     } faces[RESULT_FACES_COUNT];
-} ResultHead;
+};
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err);
 // The history of RESULT, finished or not, to go on with; without the tables and numbers of an end.
 ArrayFile *result_file_reopen(const char *folder, Error *err);

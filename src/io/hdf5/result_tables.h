@@ -48,8 +48,12 @@ typedef enum ResultColumns {
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
       "friction on each pad, positive against the drive")                                          \
+    X(SERIES_PAD_SHEAR_ACROSS, "pads/shear_across", ARRAY_FLOAT64, PADS, "force/width",            \
+      "the same across the drive, towards -y; in space only")                                      \
     X(SERIES_PAD_SLIP, "pads/slip", ARRAY_FLOAT64, PADS, "length",                                 \
-      "interface/slip, mean over each pad")                                                        \
+      "interface/slip along the drive, mean over each pad")                                        \
+    X(SERIES_PAD_SLIP_ACROSS, "pads/slip_across", ARRAY_FLOAT64, PADS, "length",                   \
+      "the same across the drive; in space only")                                                  \
     X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length",                         \
       "how much of each pad slips")
 

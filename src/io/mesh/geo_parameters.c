@@ -241,9 +241,8 @@ bool geo_parameters_check(const GeoParameters *known, const char *path, const Me
                  item->name, given[k].text);
         if (strpbrk(given[k].text, "\"\n\\"))
             FAIL(err, ERROR_INPUT,
-                 "%s: the text of parameter '%s' holds a quote, a backslash or a "
-                 "line end",
-                 path, item->name);
+                 "%s: the text of parameter '%s' holds a quote, a backslash or a line end", path,
+                 item->name);
         if (!is_text && !isfinite(given[k].value))
             FAIL(err, ERROR_INPUT, "%s: parameter '%s' is not a finite number", path, item->name);
         if (!is_text && fabs(given[k].value) > LARGEST)

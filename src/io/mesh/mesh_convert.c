@@ -34,15 +34,11 @@ typedef struct NodeTable {
 void mesh_raw_destroy(MeshRaw *raw)
 {
     for (int32_t k = 0; k < raw->block_count; k++) {
-        memory_free(raw->blocks[k].number);
-        memory_free(raw->blocks[k].nodes);
+        memory_free_all(raw->blocks[k].number, raw->blocks[k].nodes);
     }
     for (int32_t k = 0; k < raw->group_count; k++) memory_free(raw->groups[k].entities);
-    memory_free(raw->blocks);
-    memory_free(raw->groups);
-    memory_free(raw->node_number);
-    memory_free(raw->node_dimension);
-    memory_free(raw->node_position);
+    memory_free_all(raw->blocks, raw->groups, raw->node_number, raw->node_dimension,
+                    raw->node_position);
     *raw = (MeshRaw){0};
 }
 
@@ -78,9 +74,7 @@ cleanup:
 
 static void table_destroy(NodeTable *table)
 {
-    memory_free(table->number);
-    memory_free(table->source);
-    memory_free(table->index);
+    memory_free_all(table->number, table->source, table->index);
 }
 
 // The place of a tag in the table, -1: none. Tags mostly have no holes: that is tried first.
@@ -152,8 +146,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
 {
     for (int32_t k = 0; k < table->count; k++)
         if (table->index[k] == 0) table->index[k] = mesh->node_count++;
-    mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err);
-    if (!mesh->position) goto cleanup;
+    TRY((mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err)));
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) goto cleanup;
     // From the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
@@ -175,11 +168,10 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         }
     }
     if (fabs(deepest) > PLANE_TOLERANCE * extent)
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block with x along "
-            "the drive and y upwards)",
-            path, (long long)worst, deepest);
+        FAIL(err, ERROR_INPUT,
+             "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block with x "
+             "along the drive and y upwards)",
+             path, (long long)worst, deepest);
 cleanup:
     return error_is_clean(err);
 }
@@ -190,11 +182,9 @@ static bool store_elements(const RawElements *elements, const NodeTable *table, 
 {
     int64_t total = 0;
     for (int32_t e = 0; e < elements->count; e++) total += elements->items[e].count;
-    mesh->element_number = NEW_ARRAY(int64_t, elements->count, err);
-    if (!mesh->element_number) goto cleanup;
+    TRY((mesh->element_number = NEW_ARRAY(int64_t, elements->count, err)));
     if (!(mesh->kind = NEW_ARRAY(uint8_t, elements->count, err))) goto cleanup;
-    mesh->first_node = NEW_ARRAY(int32_t, (int64_t)elements->count + 1, err);
-    if (!mesh->first_node) goto cleanup;
+    TRY((mesh->first_node = NEW_ARRAY(int32_t, (int64_t)elements->count + 1, err)));
     if (!(mesh->element_nodes = NEW_ARRAY(int32_t, total, err))) goto cleanup;
     mesh->element_count = elements->count;
     int32_t at = 0;
@@ -231,8 +221,7 @@ static bool store_group_nodes(const RawElements *elements, const NodeTable *tabl
                               Error *err)
 {
     int32_t count = 0;
-    group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * FACE_NODES_MAX, err);
-    if (!group->nodes) goto cleanup;
+    TRY((group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * FACE_NODES_MAX, err)));
     for (int32_t k = 0; k < elements->count; k++)
         for (int32_t a = 0; a < elements->items[k].count; a++) {
             int32_t at = table_find(table, elements->items[k].nodes[a]);
@@ -253,8 +242,7 @@ static bool store_group_faces(const char *path, const RawElements *faces, const 
 {
     int32_t width = group->dimension + 1;
     for (int32_t k = 0; k < faces->count; k++) width = (int32_t)fmax(width, faces->items[k].count);
-    group->face_nodes = NEW_ARRAY(int32_t, (int64_t)faces->count * width, err);
-    if (!group->face_nodes) goto cleanup;
+    TRY((group->face_nodes = NEW_ARRAY(int32_t, (int64_t)faces->count * width, err)));
     group->nodes_per_face = width;
     for (int32_t k = 0; k < faces->count; k++) {
         int32_t nodes = faces->items[k].count, first = faces->items[0].count;

@@ -52,17 +52,11 @@ int32_t element_vtk_node(ElementKind kind, int32_t k)
 void mesh_file_destroy(MeshFile *mesh)
 {
     for (int32_t k = 0; k < mesh->group_count; k++) {
-        memory_free(mesh->groups[k].face_nodes);
-        memory_free(mesh->groups[k].nodes);
-        memory_free(mesh->groups[k].elements);
+        memory_free_all(mesh->groups[k].face_nodes, mesh->groups[k].nodes,
+                        mesh->groups[k].elements);
     }
-    memory_free(mesh->position);
-    memory_free(mesh->node_number);
-    memory_free(mesh->element_number);
-    memory_free(mesh->kind);
-    memory_free(mesh->first_node);
-    memory_free(mesh->element_nodes);
-    memory_free(mesh->groups);
+    memory_free_all(mesh->position, mesh->node_number, mesh->element_number, mesh->kind,
+                    mesh->first_node, mesh->element_nodes, mesh->groups);
     *mesh = (MeshFile){0};
 }
 

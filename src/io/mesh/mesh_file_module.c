@@ -314,8 +314,7 @@ static bool fetch_group(const char *path, int dimension, int number, RawGroup *g
     if (name) snprintf(group->name, sizeof group->name, "%s", name);
     gmshModelGetEntitiesForPhysicalGroup(dimension, number, &entities, &count, &status);
     if (status) FAIL(err, ERROR_LIBRARY, "%s: gmsh does not give group %d", path, number);
-    group->entities = NEW_ARRAY(int32_t, (int64_t)count, err);
-    if (!group->entities) goto cleanup;
+    TRY((group->entities = NEW_ARRAY(int32_t, (int64_t)count, err)));
     group->entity_count = (int32_t)count;
     for (size_t k = 0; k < count; k++) group->entities[k] = entities[k];
 cleanup:
@@ -331,8 +330,7 @@ static bool fetch_groups(const char *path, MeshRaw *raw, Error *err)
     size_t count = 0;
     gmshModelGetPhysicalGroups(&pairs, &count, -1, &status);
     if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no physical groups (status %d)", status);
-    raw->groups = NEW_ARRAY(RawGroup, (int64_t)count / 2, err);
-    if (!raw->groups) goto cleanup;
+    TRY((raw->groups = NEW_ARRAY(RawGroup, (int64_t)count / 2, err)));
     for (size_t k = 0; k + 1 < count; k += 2)
         TRY(fetch_group(path, pairs[k], pairs[k + 1], &raw->groups[raw->group_count++], err));
 cleanup:

@@ -96,7 +96,6 @@ int32_t csv_column(const CsvTable *table, const char *name)
 
 void csv_destroy(CsvTable *table)
 {
-    memory_free(table->cells);
-    memory_free(table->text);
+    memory_free_all(table->cells, table->text);
     *table = (CsvTable){0};
 }

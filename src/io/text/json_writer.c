@@ -139,8 +139,7 @@ JsonWriter *json_create(const char *path, Error *err)
     if (!json) return NULL;
     if (path) TRY(part_file_create(&json->file, path, err));
     json->capacity = FIRST_CAPACITY;
-    json->text = NEW_ARRAY(char, json->capacity, err);
-    if (!json->text) goto cleanup;
+    TRY((json->text = NEW_ARRAY(char, json->capacity, err)));
     return json;
 cleanup:
     json_abandon(json);
@@ -252,6 +251,5 @@ void json_abandon(JsonWriter *json)
 {
     if (!json) return;
     part_file_discard(&json->file);
-    memory_free(json->text);
-    memory_free(json);
+    memory_free_all(json->text, json);
 }

@@ -191,9 +191,7 @@ bool yaml_refuse(const YamlDocument *document, YamlNode node, const char *name, 
 void yaml_destroy(YamlDocument *document)
 {
     if (!document) return;
-    memory_free(document->name);
-    memory_free(document->shown);
+    memory_free_all(document->name, document->shown);
     for (int32_t i = 0; i < document->node_count; i++) memory_free(document->nodes[i].text);
-    memory_free(document->nodes);
-    memory_free(document);
+    memory_free_all(document->nodes, document);
 }

@@ -238,8 +238,7 @@ static void stream_destroy(VideoStream *stream)
     if (stream->io) av_freep(&stream->io->buffer);
     avio_context_free(&stream->io);
     av_log_set_level(stream->log_level);
-    memory_free(stream->nearest);
-    memory_free(stream);
+    memory_free_all(stream->nearest, stream);
 }
 
 static VideoStream *stream_create(const VideoDef *def, const VideoTarget *target, Error *err)

@@ -64,18 +64,16 @@ static bool check_scene(const Scene *scene, Error *err)
              "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
              path);
     if (scene->materials.count > 0)
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: materials: the 1D model's line is of one material (`amontons stability` and `run` "
-            "take regions)",
-            path);
+        FAIL(err, ERROR_INPUT,
+             "%s: materials: the 1D model's line is of one material (`amontons stability` and "
+             "`run` take regions)",
+             path);
     if (friction_strengthens(&scene->friction))
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: friction.law: the 1D model's closed forms take a line that has slid to be left at "
-            "mu_kinetic; this `%s` strengthens again at faster slip (`amontons stability` and "
-            "`run` take it)",
-            path, friction_law_name(&scene->friction));
+        FAIL(err, ERROR_INPUT,
+             "%s: friction.law: the 1D model's closed forms take a line that has slid to be left "
+             "at mu_kinetic; this `%s` strengthens again at faster slip (`amontons stability` and "
+             "`run` take it)",
+             path, friction_law_name(&scene->friction));
     if (!(scene->load.pressure > 0))
         FAIL(err, ERROR_INPUT, "%s: the 1D model needs load.pressure above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)
@@ -119,8 +117,7 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
     TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
     if (mesh.dim > 2)
         FAIL(err, ERROR_INPUT,
-             "%s: is a mesh in space, and the 1D model a line along a block in the "
-             "plane",
+             "%s: is a mesh in space, and the 1D model a line along a block in the plane",
              scene->mesh.file);
     TRY(mesh_contact(&mesh, scene->groups.contact.name, scene->groups.contact.count, &contact,
                      err));

@@ -27,8 +27,7 @@ cleanup:
 
 void designs_destroy(Designs *designs)
 {
-    memory_free(designs->list);
-    memory_free(designs->points);
+    memory_free_all(designs->list, designs->points);
     *designs = (Designs){0};
 }
 

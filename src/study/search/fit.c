@@ -206,8 +206,7 @@ cleanup:
         search_close(&fit->search, err);
         measured_destroy(&fit->measured);
         response_destroy(&fit->response);
-        memory_free(fit->found);
-        memory_free(fit->own);
+        memory_free_all(fit->found, fit->own);
     }
     memory_free(fit);
     return error_is_clean(err);

@@ -154,7 +154,6 @@ bool front_draw(const Search *search, Error *err)
     curves[1].marker = "square";
     TRY(search_draw(search, &frame, curves, 2, err));
 cleanup:
-    memory_free(front);
-    memory_free(x);
+    memory_free_all(front, x);
     return error_is_clean(err);
 }

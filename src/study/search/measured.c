@@ -218,8 +218,7 @@ cleanup:
 void measured_destroy(Measured *measured)
 {
     for (int32_t k = 0; k < measured->condition_count; k++) memory_free(measured->conditions[k]);
-    memory_free(measured->conditions);
-    memory_free(measured->list);
+    memory_free_all(measured->conditions, measured->list);
     *measured = (Measured){0};
 }
 
@@ -256,8 +255,7 @@ static bool find_on_curve(const Datum *datum, const char *history, double *value
     *value = read_along(x, y, rows, datum->at);
 cleanup:
     array_file_close(file, &ignored);
-    memory_free(x);
-    memory_free(y);
+    memory_free_all(x, y);
     return error_is_clean(err);
 }
 

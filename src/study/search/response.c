@@ -133,8 +133,7 @@ static bool solve(const ResponseDef *def, const double *weights, Response *r, Er
         FAIL(err, ERROR_COMPUTE, "designs do not differ in all keys: there is nothing to fit");
     for (int32_t k = 0; k < r->data; k++) solve_datum(def, weights, rows, matrix, r, k);
 cleanup:
-    memory_free(rows);
-    memory_free(matrix);
+    memory_free_all(rows, matrix);
     return error_is_clean(err);
 }
 
@@ -165,8 +164,7 @@ cleanup:
 
 void response_destroy(Response *response)
 {
-    memory_free(response->coefficients);
-    memory_free(response->measured);
+    memory_free_all(response->coefficients, response->measured);
     *response = (Response){0};
 }
 

@@ -81,8 +81,7 @@ bool search_compute(Search *search, const int32_t *which, int32_t count, Error *
         TRY(take_design(search, which[k], err));
     }
 cleanup:
-    memory_free(list);
-    memory_free(text);
+    memory_free_all(list, text);
     return error_is_clean(err);
 }
 
@@ -322,9 +321,8 @@ bool search_open(Search *search, const char *path, const SweepOptions *options, 
     search->study = &search->sweep->study;
     if (search->study->search.node == YAML_NO_NODE)
         FAIL(err, ERROR_INPUT,
-             "%s: nothing to search: a study for `%s` has `search`, as in `search: "
-             "{%s}}`",
-             path, fits ? "fit" : "optimise",
+             "%s: nothing to search: a study for `%s` has `search`, as in `search: {%s}}`", path,
+             fits ? "fit" : "optimise",
              fits ? "material.eta1: {log: [0.1, 10]" : "mesh.set.n: {whole: [1, 12]");
     if (search->study->search.fits != fits)
         FAIL(err, ERROR_INPUT, "%s: %s", path,

@@ -32,6 +32,8 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     json_number(json, "U", summary->U_rod);
     json_text(json, "pad", summary->pads[summary->pad].name);
     json_number(json, "steady_contact", summary->steady_contact);
+    json_number(json, "nucleation_length", summary->nucleation_length);
+    json_number(json, "critical_stiffness", summary->pads[summary->pad].critical_stiffness);
     json_begin_list(json, "why");
     for (int32_t k = 0; k < summary->why_count; k++) json_text(json, NULL, summary->why[k]);
     json_end(json);
@@ -79,6 +81,7 @@ static void write_pads(JsonWriter *json, const StabilitySummary *summary)
         json_number(json, "mu_fall", pad->mu_fall);
         json_number(json, "drag", pad->drag);
         json_number(json, "stiffness", pad->stiffness);
+        json_number(json, "critical_stiffness", pad->critical_stiffness);
         json_end(json);
     }
     json_end(json);

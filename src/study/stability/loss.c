@@ -2,17 +2,21 @@
 // Where on the path stability is lost first: l, U and mu of each way to lose it, into the summary.
 #include "study/stability/stability.h"
 
+#include "contact/friction_state.h"
+
 #include <math.h>
 
 // Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
 // size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip
-// then runs away although the pair is still complex.
+// then runs away although the pair is still complex. Friction that is 0 at rest has no such end: an
+// oscillation that grows becomes a sliding.
 double stability_half_period(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
     double ratio = path->model->law.critical_velocity / path->model->scene->rod.velocity;
     if (!(point->rate_re > 0)) return -INFINITY;
     if (!(point->rate_im > 0)) return INFINITY;
+    if (friction_creeps(&path->model->law) || ratio < 1) ratio = 1;
     return M_PI * point->rate_re / point->rate_im - log(ratio);
 }
 
@@ -105,13 +109,16 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 }
 
 // The same, or the end of the block: there it slides, whether or not anything grows, at the largest
-// mu of the path (that of the end itself is what is left while it slides).
+// mu of the path (that of the end itself is what is left while it slides). What creeps gives way
+// before it runs away: of it that is the largest mu so far.
 static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = first_loss(path, margin);
-    if (!isnan(lost.front) || !path->at_end) return lost;
-    lost = path->points[path->count - 1];
-    for (int32_t k = 0; k < path->count - 1; k++) {
+    bool creeps = friction_creeps(&path->model->law), ends = isnan(lost.front);
+    if (!creeps && (!ends || !path->at_end)) return lost;
+    if (ends && !path->at_end) return lost;
+    if (ends) lost = path->points[path->count - 1];
+    for (int32_t k = 0; k < path->count - 1 && path->points[k].front <= lost.front; k++) {
         if (path->points[k].mu < lost.mu) continue;
         lost.mu = path->points[k].mu;
         lost.mu_at_V = path->points[k].mu_at_V;

@@ -24,6 +24,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/friction_state.h"
 #include "contact/slip.h"
 #include "record/pad_sums.h"
 
@@ -49,8 +50,7 @@ static bool work_create(StabilityPath *path, PadWork *work, Error *err)
     int64_t count = model->interface.contact_count;
     *work = (PadWork){.path = path, .interface = &model->interface};
     OperatorTerms terms = {.stiffness = 1, .lift = true};
-    work->stiffness = interface_operator_create(&model->system, terms, err);
-    if (!work->stiffness) goto cleanup;
+    TRY((work->stiffness = interface_operator_create(&model->system, terms, err)));
     TRY(state_create(&model->system, work->interface, &work->trial, err));
     work->nodes = NEW_ARRAY(int32_t, count, err);
     work->pivots = NEW_ARRAY(int32_t, count, err);
@@ -66,11 +66,7 @@ static void work_destroy(PadWork *work)
 {
     interface_operator_destroy(work->stiffness);
     state_destroy(&work->trial);
-    memory_free(work->nodes);
-    memory_free(work->pivots);
-    memory_free(work->matrix);
-    memory_free(work->values);
-    memory_free(work->work);
+    memory_free_all(work->nodes, work->pivots, work->matrix, work->values, work->work);
 }
 
 // The smallest eigenvalue of w^-1/2 S[T,T] w^-1/2 over the whole pad. condensed: NULL where the
@@ -114,10 +110,7 @@ static double ratio_of(PadWork *work, int32_t slipping)
     State *trial = &work->trial;
     hold_all(work);
     for (int32_t a = 0; a < slipping; a++) {
-        int32_t i = work->nodes[a];
-        trial->status[i] = CONTACT_SLIP_FORWARD;
-        for (int32_t c = 0; c < slip_tangents(work->interface); c++)
-            trial->slip_rate[interface_tangent(work->interface, i) + c] = 0;
+        stability_let_slip(work->path, trial, work->nodes[a]);
     }
     return growth_scan(work->path->growth, trial).ratio;
 }
@@ -145,20 +138,22 @@ static double critical_length(PadWork *work)
     return length + part * work->interface->weight[work->nodes[holds]];
 }
 
-// The fastest growth, Re lambda, when `touching` nodes in the middle of the pad are all of it that
-// is in contact, at the pad's mean pressure, its others free and the other pads held. A contact
-// ends at its outer nodes: half a weight.
-static bool growth_of_contact(PadWork *work, int32_t touching, double *rate, Error *err)
+// The fastest growth, Re lambda, when `slipping` nodes in the middle of the pad slip at the pad's
+// mean pressure, its others free or held and the other pads held. Beside free ones a contact ends
+// at its outer nodes: half a weight.
+static bool growth_of_part(PadWork *work, int32_t slipping, bool free, double *rate, Error *err)
 {
     State *trial = &work->trial;
-    int32_t first = (work->count - touching) / 2, last = first + touching - 1;
+    int32_t first = (work->count - slipping) / 2, last = first + slipping - 1;
     GrowthRates rates;
     hold_all(work);
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
-        bool inside = a >= first && a <= last, end = a == first || a == last;
-        trial->status[i] = inside ? CONTACT_SLIP_FORWARD : CONTACT_OPEN;
-        trial->slip_rate[interface_tangent(work->interface, i)] = 0;
+        bool inside = a >= first && a <= last, end = free && (a == first || a == last);
+        if (inside)
+            stability_let_slip(work->path, trial, i);
+        else if (free)
+            trial->status[i] = CONTACT_OPEN;
         trial->reaction[interface_normal(work->interface, i)] =
             work->pressure * work->interface->weight[i] * (end ? 0.5 : 1);
     }
@@ -168,24 +163,40 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The longest contact at which nothing grows, length; 0: none, as where the block then rocks.
-// Linear in Re lambda between the last number of elements that is steady and the next.
-static bool steady_contact(PadWork *work, double length, double *contact, Error *err)
+// The longest part at which nothing grows, in nodes and linear in Re lambda between the last number
+// that is steady and the next; `count`: all of it. The first node is taken as steady.
+static bool steady_nodes(PadWork *work, bool free, double *nodes, Error *err)
 {
     int32_t holds = 1, fails = work->count;
     double below = -INFINITY, above = 0;
-    *contact = length;
-    TRY(growth_of_contact(work, fails, &above, err));
+    *nodes = work->count;
+    TRY(growth_of_part(work, fails, free, &above, err));
     if (!(above > 0)) goto cleanup;
     while (fails - holds > 1) {
         int32_t middle = (holds + fails) / 2;
         double rate = 0;
-        TRY(growth_of_contact(work, middle, &rate, err));
+        TRY(growth_of_part(work, middle, free, &rate, err));
         *(rate > 0 ? &fails : &holds) = middle;
         *(rate > 0 ? &above : &below) = rate;
     }
-    double part = isfinite(below) ? below / (below - above) : 0;
-    *contact = length * (holds - 1 + part) / fmax(work->count - 1, 1);
+    *nodes = holds + (isfinite(below) ? below / (below - above) : 0);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The longest contact at which nothing grows, length; 0: none, as where the block then rocks. And
+// the longest part of a contact that is held elsewhere; NaN: all of it, or friction has no memory.
+static bool measure_lengths(PadWork *work, double length, StabilitySummary *summary, Error *err)
+{
+    double nodes = 0, elements = fmax(work->count - 1, 1);
+    if (work->path->grows && !work->path->options->at_end) {
+        TRY(steady_nodes(work, true, &nodes, err));
+        summary->steady_contact = length * (nodes - 1) / elements;
+    }
+    if (!work->path->laws) goto cleanup;
+    TRY(steady_nodes(work, false, &nodes, err));
+    // A part slips between its held neighbours.
+    if (nodes < work->count) summary->nucleation_length = length * nodes / elements;
 cleanup:
     return error_is_clean(err);
 }
@@ -202,7 +213,9 @@ static double fall_of_mu(PadWork *work)
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
         const FrictionLaw *own = friction_at(law, i);
-        double kinetic = fmax(own->mu_static - friction_drop(own), 0);
+        double kinetic = friction_has_memory(own) ? own->mu_kinetic
+                                                  : fmax(own->mu_static - friction_drop(own), 0);
+        if (friction_creeps(own)) return NAN;   // nothing ends its fall
         work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
                           kinetic * path->runaway.reaction[interface_normal(interface, i)];
         for (int32_t b = 0; b < work->count; b++)
@@ -242,6 +255,17 @@ static void sum_pad(const PadWork *work, StabilityPad *pad)
     pad->mode /= pad->length;
 }
 
+// Of all nodes at the pad's mean pressure, before lengths are over its breadth.
+static double critical_stiffness(const PadWork *work, const StabilityPad *pad)
+{
+    double sum = 0;
+    for (int32_t a = 0; a < work->count; a++) {
+        double pressing = pad->pressure * work->interface->weight[work->nodes[a]];
+        sum += stability_critical_spring(work->path, work->nodes[a], pressing);
+    }
+    return sum / pad->length;
+}
+
 // The work is on pad p from here on.
 static void take_pad(PadWork *work, int32_t p)
 {
@@ -262,6 +286,7 @@ static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
     TRY(softest_slip(work, work->path->control.certificate.damping, &pad->drag, err));
     TRY(softest_slip(work, work->stiffness, &pad->stiffness, err));
     pad->load = ratio_of(work, work->count);
+    pad->critical_stiffness = critical_stiffness(work, pad);
     pad->l_c = critical_length(work);
     pad->mu_fall = fall_of_mu(work);
     double breadth = pad_size(interface, p).breadth;
@@ -282,7 +307,7 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         path->at_rod = path->count - 1;
         state_copy(&path->last, &path->runaway);
     }
-    summary->steady_contact = NAN;
+    summary->steady_contact = summary->nucleation_length = NAN;
     TRY(work_create(path, &work, err));
     for (int32_t p = 0; p < interface->pad_count && p < STABILITY_PADS_MAX; p++) {
         TRY(measure_pad(&work, p, &summary->pads[p], err));
@@ -291,11 +316,10 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         summary->pad_count = p + 1;
     }
     for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;
-    if (path->grows && !path->options->at_end && interface->dim == 2) {
+    if (interface->dim == 2) {
         take_pad(&work, summary->pad);
         work.pressure = summary->pads[summary->pad].pressure;
-        double length = summary->pads[summary->pad].length;
-        TRY(steady_contact(&work, length, &summary->steady_contact, err));
+        TRY(measure_lengths(&work, summary->pads[summary->pad].length, summary, err));
     }
 cleanup:
     work_destroy(&work);

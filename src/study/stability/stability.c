@@ -25,6 +25,7 @@ static const double PATH_STEP_LIMIT = 10;
 // What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
 // some 4 of them), but not more than about this part of an element.
 static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
+static const double MEMORY_PART = 0.1;   // of a rate that friction's memory has: the slowest shift
 static const double SNAP_LIMIT =
     4;   // slip of a node in a step, over that of the rod (up to 1.5 elsewhere)
 enum {
@@ -48,12 +49,6 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
-    if (friction_remembers(&scene->friction, 0))
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: friction.law: growth rates are those of friction that depends on slip rate alone; "
-            "`%s` remembers (`amontons run` takes it)",
-            scene->path, friction_law_name(&scene->friction));
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
@@ -68,8 +63,7 @@ static bool stop_wanted(const StabilityPath *path, Error *err)
     if (options->stop && *options->stop)
         FAIL(err, ERROR_INTERRUPT,
              "stopped: the path is one answer, which is written when it has been followed to its "
-             "end; "
-             "nothing was written, and the same command begins anew");
+             "end; nothing was written, and the same command begins anew");
     return false;
 cleanup:
     return true;
@@ -102,6 +96,16 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A part of the rate at which steady slip at V forgets, 1/time: states grow or decay at about that.
+static double slowest_memory(const StabilityPath *path)
+{
+    const Model *model = path->model;
+    double slowest = INFINITY;
+    for (int32_t i = 0; i < model->interface.contact_count; i++)
+        slowest = fmin(slowest, MEMORY_PART * stability_forgets(path, i));
+    return slowest;
+}
+
 // The path's own steps, from the state of the simulation: tolerance and certificate off, so that
 // every step is PATH_STEP_LIMIT long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
@@ -112,7 +116,7 @@ static bool open_path(StabilityPath *path, Error *err)
     const Simulation *before = path->simulation;
     double elements = interface_nodes_along(interface);
     double slip = model_friction_slip(model) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
-    double step = PATH_STEP_LIMIT * model->scales.time;
+    double step = PATH_STEP_LIMIT * model->scales.time, velocity = slip / step;
     StepControlDef def = {.tolerance = INFINITY,
                           .step_max = step,
                           .step_min = 1e-12 * step,
@@ -120,21 +124,32 @@ static bool open_path(StabilityPath *path, Error *err)
                           .use_certificate = false};
     Block block = {
         .system = &model->system, .interface = interface, .law = &model->law, .rod = &path->rod};
+    Block paced = block;
+    path->scales = model->scales;
+    TRY(stability_set_pace(path, velocity, err));
+    if (path->laws) {
+        paced.law = &path->law;
+        paced.stage_laws = path->laws;
+    }
     TRY(model_build_rod(model, before->rod.kind, &path->rod, err));
-    TRY(step_control_create(&block, &def, &path->control, err));
+    TRY(step_control_create(&paced, &def, &path->control, err));
+    path->control.certificate.moving.law = &model->law;   // it is asked about states as seen
     TRY(state_create(&model->system, interface, &path->last, err));
     TRY(state_create(&model->system, interface, &path->runaway, err));
     state_copy(&before->control.now, &path->control.now);
+    stability_start_states(path);
     path->U_start = before->rod.velocity * path->control.now.time;
     for (int32_t j = 0; j < interface->rod_count; j++)
         path->rod.origin[j] = before->rod.origin[j] + path->U_start;
     if (path->rod.stiffness > 0) path->control.now.rod_way -= path->U_start;
-    path->rod.velocity = slip / step;
+    path->rod.velocity = velocity;
     step_control_restart(&path->control);
     double speed = materials_slip_speed(&model->materials);
     double mean = material_slip_speed(&model->materials.mean);   // with soft regions it is slower
     GrowthDef growth = growth_def(model->length, speed, (int32_t)elements);
     growth.slowest = fmin(growth.slowest * (mean / speed), mean / (4 * model->height));   // if tall
+    while (path->laws && growth.slowest > slowest_memory(path)) growth.slowest /= 2;
+    path->slowest = growth.slowest;
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
     path->points = NEW_ARRAY(StabilityPoint, path->room, err);
@@ -161,20 +176,21 @@ static int32_t between_points(const Interface *interface)
 }
 
 // Over all of it.
-static double slipping_area(const Interface *interface, const State *state)
+static double slipping_area(const Interface *interface, const Observation *seen)
 {
     double all = 0, slips = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         all += interface->weight[i];
-        if (state->status[i] != CONTACT_STICK) slips += interface->weight[i];
+        if (seen_status(seen, i) != CONTACT_STICK) slips += interface->weight[i];
     }
     return slips / all;
 }
 
-static int32_t count_slipping(const State *state)
+static int32_t count_slipping(const Observation *seen)
 {
     int32_t count = 0;
-    for (int32_t i = 0; i < state->contact_count; i++) count += state->status[i] != CONTACT_STICK;
+    for (int32_t i = 0; i < seen->state->contact_count; i++)
+        count += seen_status(seen, i) != CONTACT_STICK;
     return count;
 }
 
@@ -186,14 +202,17 @@ static double mu_at_V(const StabilityPath *path, const State *state, double mu)
 {
     const FrictionLaw *law = &path->model->law;
     double start = path->count > 0 ? path->points[0].mu : mu, lost = 0, pressed = 0;
-    if (path->options->at_end || !(friction_drop(law) > 0)) return mu;
-    double speed = path->model->scene->rod.velocity / path->rod.velocity;
+    // What creeps does so at V.
+    if (path->options->at_end || friction_creeps(law) || !(friction_drop(law) > 0)) return mu;
+    // With memory slip rates are those at V already.
+    double speed = path->laws ? 1 : path->model->scene->rod.velocity / path->rod.velocity;
     for (int32_t i = 0; i < state->contact_count; i++) {
         double pressure = state->reaction[interface_normal(&path->model->interface, i)];
         if (!status_slips(state->status[i])) continue;
         double rate = speed * slip_size(&path->model->interface, i, state->slip_rate);
         const FrictionLaw *own = friction_at(law, i);
-        lost += pressure * (own->mu_static - friction_coefficient(own, rate));
+        lost += pressure * (friction_rates(own, 0, state->theta[i]).mu -
+                            friction_rates(own, rate, state->theta[i]).mu);
         pressed += pressure * (friction_drop(own) / friction_drop(law));
     }
     return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction_drop(law)) : mu;
@@ -212,20 +231,24 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     const Interface *interface = &path->model->interface;
     StabilityPoint *point = &path->points[path->count];
     GrowthRates rates;
-    double started = clock_seconds();
+    Observation last = *seen;
+    last.state = &path->last;
+    last.creep /= path->pace;
+    // With memory: nothing grows that is as fast as the slowest rate that is looked for.
+    double reach = path->laws ? 1 / path->slowest : 0, started = clock_seconds();
     TRY(growth_rates(path->growth, &path->last, &rates, err));
-    *point =
-        (StabilityPoint){.front = seen->front - seen->trailing,
-                         .slipping = count_slipping(&path->last),
-                         .U = path->U_start + seen->U,
-                         .mu = seen->mu,
-                         .mu_at_V = mu_at_V(path, &path->last, seen->mu),
-                         .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
-                         .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
-                         .real_rate = rates.real.re,
-                         .load = growth_scan(path->growth, &path->last).ratio,
-                         .certified = certificate_holds(&path->control.certificate, &path->last, 0),
-                         .area = slipping_area(interface, &path->last)};
+    *point = (StabilityPoint){
+        .front = seen->front - seen->trailing,
+        .slipping = count_slipping(&last),
+        .U = path->U_start + seen->U,
+        .mu = seen->mu,
+        .mu_at_V = mu_at_V(path, &path->last, seen->mu),
+        .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
+        .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
+        .real_rate = rates.real.re,
+        .load = growth_scan(path->growth, &path->last).ratio,
+        .certified = certificate_holds(&path->control.certificate, &path->last, reach),
+        .area = slipping_area(interface, &last)};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);
     keep_slip(interface, rates.mode_im, mode + interface->contact_count);
@@ -256,7 +279,8 @@ static bool take_end(StabilityPath *path, Error *err)
     Observation seen = simulation->seen;
     TRY(open_path(path, err));
     state_copy(&simulation->control.now, &path->last);
-    if (count_slipping(&path->last) == 0)
+    seen.creep = 0;   // what creeps may grow
+    if (count_slipping(&seen) == 0)
         FAIL(err, ERROR_INPUT, "%s: nothing slips at the scene's end, t = %g: nothing can grow",
              simulation->scene.path, seen.t);
     seen.U = 0;   // add_point counts from where the path begins
@@ -290,10 +314,10 @@ static bool follow_path(StabilityPath *path, Error *err)
     int32_t more = between_points(interface);
     for (int32_t step = 0; step < PATH_STEPS_LIMIT; step++) {
         if (stop_wanted(path, err)) goto cleanup;
-        state_copy(&path->control.now, &path->last);
+        stability_look(path);
         TRY(step_control_advance(&path->control, INFINITY, err));
-        Observation seen = observe(&path->control, &path->model->scales);
-        int32_t slipping = count_slipping(&path->control.now);
+        Observation seen = observe(&path->control, &path->scales);
+        int32_t slipping = count_slipping(&seen);
         bool snaps = seen.max_slip_rate > SNAP_LIMIT * path->rod.velocity;
         if (snaps && step > 0 && isnan(path->mu_snap)) note_snap(path, before.mu);
         bool next = slipping >= most + more;
@@ -306,7 +330,7 @@ static bool follow_path(StabilityPath *path, Error *err)
         if (interface->dim > 2) crossed = slipping == interface->contact_count;
         if (!crossed) continue;
         path->at_end = true;
-        state_copy(&path->control.now, &path->last);
+        stability_look(path);
         TRY(add_point(path, &seen, err));
         break;
     }
@@ -324,9 +348,7 @@ static void path_destroy(StabilityPath *path)
     state_destroy(&path->runaway);
     rod_destroy(&path->rod);
     amontons_simulation_destroy(path->simulation);
-    memory_free(path->points);
-    memory_free(path->modes);
-    memory_free(path->critical_mode);
+    memory_free_all(path->laws, path->points, path->modes, path->critical_mode);
 }
 
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per
@@ -334,7 +356,8 @@ static void path_destroy(StabilityPath *path)
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err)
 {
-    StabilityPath path = {.options = options, .critical = -1, .at_rod = -1, .mu_snap = NAN};
+    StabilityPath path = {
+        .options = options, .pace = 1, .critical = -1, .at_rod = -1, .mu_snap = NAN};
     ResultFolder folder = {0};
     double started = clock_seconds();
     *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};

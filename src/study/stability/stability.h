@@ -4,6 +4,8 @@
 // the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
 // growth rates of the state just before are computed (stepping/growth). Or, without a path, those
 // of the state in which the scene's own run ends.
+// Friction that remembers is on the path's clock (contact/friction_pace): states and mu are those of
+// the scene's V.
 // amontons_stability is the entry; this is what its files share.
 #ifndef AMONTONS_STUDY_STABILITY_STABILITY_H
 #define AMONTONS_STUDY_STABILITY_STABILITY_H
@@ -17,9 +19,14 @@ typedef struct StabilityPath {
     Simulation *simulation;   // the run before the path; owned
     Model *model;   // the simulation's
     Rod rod;   // of the path; owned, like what follows
+    double pace;   // of friction that remembers: velocities of the path over the scene's; else 1
+    FrictionLaw law, *laws;   // at that pace: of all, [contact_count] of the nodes; NULL: none has
+        // memory
+    ObservationScales scales;   // of the path
     StepControl control;   // of the path
-    State last;   // before the newest step
+    State last;   // before the newest step, in the scene's time
     Growth *growth;
+    double slowest;   // rate that it looks for, 1/time
     double U_start;   // of the rod, where the path begins, length
     int32_t count, room;   // points
     StabilityPoint *points;   // [room]
@@ -34,6 +41,21 @@ typedef struct StabilityPath {
     int32_t snap_node;   // that node
     double seconds_growth;
 } StabilityPath;
+
+// Laws of the path's pace, and the path's state as it begins; does nothing without memory
+// (remembers.c).
+bool stability_set_pace(StabilityPath *path, double velocity, Error *err);
+void stability_start_states(StabilityPath *path);
+// path->last is what the path has come to, in the scene's time.
+void stability_look(StabilityPath *path);
+// How fast node i forgets that slips steadily at V, 1/time; INFINITY: it remembers nothing.
+double stability_forgets(const StabilityPath *path, int32_t i);
+// Node i of `trial` slips forward: slowly, or where friction remembers steadily at the scene's V.
+void stability_let_slip(const StabilityPath *path, State *trial, int32_t i);
+// Of a node that slips steadily at V, pressed by `pressing`: the stiffness of a massless body, force
+// / length, below which its slip is not stable; NaN: nothing is remembered, or weakening with slip
+// rate makes it unstable on any spring.
+double stability_critical_spring(const StabilityPath *path, int32_t i, double pressing);
 
 // pi Re/Im - ln(v_c/V) of point k: from 0 on slip runs away at the scene's V.
 double stability_half_period(const StabilityPath *path, int32_t k);

@@ -3,6 +3,7 @@
 // so alone, what would hold it, and why a run of the same scene may differ.
 #include "study/stability/stability.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -93,6 +94,22 @@ static void say_whether_alone(StabilitySummary *summary)
             pad->load);
 }
 
+// Of friction that remembers: how stiff a body must be, and on what length slip sets out.
+static void say_what_memory_asks(const StabilityPath *path, StabilitySummary *summary)
+{
+    const StabilityPad *pad = &summary->pads[summary->pad];
+    char length[120] = "";
+    if (!path->laws || isnan(pad->critical_stiffness)) return;
+    if (!isnan(summary->nucleation_length))
+        snprintf(length, sizeof length,
+                 " Slip that all else holds grows on a part longer than %.3g (nucleation length).",
+                 summary->nucleation_length);
+    say(summary,
+        "Slip of a massless body at V is steady on a stiffness above %.3g (critical); that of %s, "
+        "all else held, is %.3g.%s",
+        pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
+}
+
 // What a run may show before: oscillations, and jumps.
 static void say_what_comes_before(const StabilityPath *path, StabilitySummary *summary)
 {
@@ -101,8 +118,7 @@ static void say_what_comes_before(const StabilityPath *path, StabilitySummary *s
     if (summary->mu_sc < same)
         say(summary,
             "From mu %.4f on (l_sc) oscillations grow, at first too slowly for this V: precursors "
-            "may "
-            "come in bursts, and a run may slide somewhat earlier.",
+            "may come in bursts, and a run may slide somewhat earlier.",
             summary->mu_sc);
     if (summary->mu_snap < summary->mu_rod * (1 + EARLIER)) {
         int32_t pad = interface->pad[path->snap_node];
@@ -121,8 +137,7 @@ static void say_what_follows(StabilitySummary *summary)
     if (!alone || !(fall < LEAST_DROP * summary->mu_rod)) return;
     say(summary,
         "If the other pads hold, mu falls by %.1f %% at most, less than the %.0f %% of a load "
-        "drop: "
-        "then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
+        "drop: then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
         100 * fall / summary->mu_rod, 100 * LEAST_DROP);
 }
 
@@ -137,11 +152,11 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
         say(summary, "The path ended before anything ran away.");
     else
         say_what_decides(path, summary);
-    if (path->grows) say_whether_alone(summary);
+    if (path->grows && !path->laws) say_whether_alone(summary);
+    say_what_memory_asks(path, summary);
     say_what_comes_before(path, summary);
     if (path->grows) say_what_follows(summary);
     if (summary->l_c_scan < summary->l_sc - summary->element)
         say(summary, "l_c (scan) is shorter than l_sc as it leaves out that slip shifts pressure, "
-                     "which here "
-                     "steadies it.");
+                     "which here steadies it.");
 }

@@ -35,8 +35,7 @@ static bool choose(Sweep *sweep, const RankRow *row, PointMesh *mesh, bool *chos
     TRY(scene);
     TRY(point_scene(sweep, k, scene, err));
     double accuracy = next_accuracy(scene->accuracy.mu, row, sweep->study.rank.refine);
-    *chosen = accuracy > 0;
-    if (!*chosen) goto cleanup;
+    TRY((*chosen = accuracy > 0));
     point->accuracy = scene->accuracy.mu = accuracy;
     TRY(point_hash(scene, mesh, point->hash, err));
     report = point_report(sweep, k, err);
@@ -44,8 +43,7 @@ static bool choose(Sweep *sweep, const RankRow *row, PointMesh *mesh, bool *chos
     point->status = sweep->options->fresh ? POINT_PENDING : point_status(report);
     point->reused = point->status != POINT_PENDING;
 cleanup:
-    memory_free(scene);
-    memory_free(report);
+    memory_free_all(scene, report);
     return error_is_clean(err);
 }
 

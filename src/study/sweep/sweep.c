@@ -82,8 +82,7 @@ static bool take_folder(Sweep *sweep, Error *err)
     if (sweep->lock < 0) FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, why);
     if (!take_lock(sweep->lock))
         FAIL(err, ERROR_FILE,
-             "another sweep is running in %s: wait for it, or choose another "
-             "folder (-o)",
+             "another sweep is running in %s: wait for it, or choose another folder (-o)",
              sweep->folder);
     TRY(refuse_taken(sweep, err));
 cleanup:

@@ -79,6 +79,37 @@ TEST(test_block)
     }
 }
 
+// The inside of a contact of T6 is bent in its plane, its rim stays: corners have a share of the
+// area then, and must not become contact nodes by it. Area and its middle stay.
+TEST(test_bent_faces)
+{
+    Error err = {0};
+    Drawn drawn;
+    const InterfaceDef def = {.has_rod = false};
+    const MeshParameter with[] = {
+        {"nx", 4, ""}, {"ny", 4, ""}, {"nz", 2, ""}, {"shape", 0, "tet"}, {"order", 2, ""}};
+    const double pi = 3.14159265358979;
+    draw("block3d.geo", with, 5, &drawn);
+    int32_t count = drawn.interface.contact_count;
+    for (int32_t i = 0; i < drawn.mesh.node_count; i++) {
+        double *at = &drawn.mesh.position[3 * i];
+        at[0] += 0.06 * sin(pi * at[0]) * sin(2 * pi * at[1]);
+    }
+    interface_destroy(&drawn.interface);
+    assert_true(interface_build(&drawn.mesh, &def, &drawn.interface, &err));
+    assert_int_equal(drawn.interface.contact_count, count);
+    double area = 0, middle = 0, least = 1;
+    for (int32_t i = 0; i < count; i++) {
+        area += drawn.interface.weight[i];
+        middle += drawn.interface.weight[i] * drawn.interface.x[i];
+        least = fmin(least, drawn.interface.weight[i]);
+    }
+    assert_near("area", area, 1, 1e-12);
+    assert_near("middle", middle, 0.5, 2e-4);   // what three points leave of a bent face
+    assert_true(least > 0.2 / 6 / 32);   // of 32 faces; of a corner it would be 1e-4
+    destroy(&drawn);
+}
+
 // 3 x 2 pads over 0.6 of 1 and 0.5 of 0.8.
 TEST(test_pads)
 {

@@ -110,7 +110,8 @@ static void check_series(ArrayFile *file)
 {
     Error err = {0};
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
-        if (series == SERIES_STATE) continue;   // LAW remembers nothing
+        ResultHead head = head_of("");   // LAW remembers nothing; in the plane nothing is across
+        if (!result_series_written(&head, series)) continue;
         double *values = NULL;
         int64_t rows = 0;
         int32_t width = 0;

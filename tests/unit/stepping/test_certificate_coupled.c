@@ -222,7 +222,7 @@ TEST(test_load)
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        double ratio = certificate_ratio(&on.certificate, &on.seen, rung);
+        double ratio = certificate_ratio(&on.certificate, &on.seen, rung, 1);
         assert_true(isfinite(ratio) && ratio >= 0);
         if (ratio == 0) continue;
         assert_int_equal(sign_at(&slip, 0.999 / ratio), 1);
@@ -243,7 +243,7 @@ static double largest_ratio(CertificateRig *on, Ladder *ladder)
     double largest = 0;
     for (int32_t k = 0; k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung));
+        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung, 1));
     }
     return largest;
 }
@@ -292,7 +292,9 @@ static void check_holes(int32_t apart)
         if (largest == 0) continue;
         press(&on.rig.interface, wanted / largest, &on.seen);
         bool seen = largest_ratio(&on, &on.ladder) >= 1;
-        bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder);
+        RungRange whole = {0, on.ladder.rung_count};
+        bool excludes =
+            certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder, whole);
         if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
         excluded += excludes;
         hidden += !excludes && !seen;
@@ -349,7 +351,7 @@ TEST(test_load_of_nodes_alike)
         ContactMatrix *rung = certificate_rig_rung(&on, k);
         for (double spread = 1e-1; spread > 1e-5; spread /= 3) {
             double largest = alike_state(&on.rig, rung->schur, 0.1, spread, &on.seen);
-            double ratio = certificate_ratio(&on.certificate, &on.seen, rung);
+            double ratio = certificate_ratio(&on.certificate, &on.seen, rung, 1);
             least = fmin(least, ratio / largest);
             most = fmax(most, ratio / largest);
         }

@@ -94,7 +94,8 @@ static double least_angle(const Fixture *fixture, double weak)
 static bool oscillates_less(Fixture *fixture, double growth)
 {
     return certificate_oscillates_less(&fixture->built.certificate, &fixture->built.seen,
-                                       &fixture->built.ladder, growth);
+                                       &fixture->built.ladder,
+                                       (RungRange){0, fixture->built.ladder.rung_count}, growth);
 }
 
 // What is cleared does grow by less, and what grows by much less is cleared: the test loses little.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Growth rates against a dense eigensolver of the whole companion form, a rigid block's rate, and
-// the exact dispersion relation of a shear column.
+// Growth rates against a dense eigensolver of the whole companion form, a rigid block's rate, with
+// memory Ruina's, and the exact dispersion relation of a shear column.
 #include "stepping/growth.h"
 
 #include "base/dense.h"
 #include "block_mesh.h"
+#include "contact/friction_make.h"
 #include "reduction/symmetry_reduction.h"
 #include "dense_by_hand.h"
 
@@ -365,6 +366,66 @@ TEST(test_rigid_block)
     check_rigid_block(70, 0, 0);
     check_rigid_block(70, 0.01, 0);
     check_rigid_block(70, 0.01, 0.02);
+}
+
+// Ruina's analysis (J. Geophys. Res. 88, 1983) with inertia: a rigid block on a spring k, pressed by
+// N, slips steadily at V with rate and state. Its rates are the roots of
+//
+//     (m s^2 + s a N/V + k) (s + V/D_c) - s b N/D_c = 0,
+//
+// a pair that decays above k = (b - a) N/D_c + m V^2 b/(a D_c^2) about, and grows below.
+static double complex ruina(double complex s, double mass, double spring, double load,
+                            const FrictionMemory *law)
+{
+    double speed = law->reference_velocity, fades = speed / law->slip_distance;
+    return (mass * s * s + s * law->direct * load / speed + spring) * (s + fades) -
+           s * law->healing * load / law->slip_distance;
+}
+
+static GrowthRate ruina_rate(double spring_part, bool slip_law, double *off)
+{
+    Error err = {0};
+    const double speed = 1e-3, pressure = 4, load = pressure * 0.8, mass = 1.7 * 0.3 * 0.8;
+    Material stiff = {.young = 1e7, .poisson = 0.3, .density = 1.7, .eta1 = 1e4, .eta2 = 1e4};
+    FrictionMemory memory = {.kind = MEMORY_RATE_STATE,
+                             .slip_distance = 5e-3,
+                             .healing = 0.018,
+                             .direct = 0.012,
+                             .reference = 0.6,
+                             .reference_velocity = speed,
+                             .slip_law = slip_law};
+    Case test = {.law = {.kind = FRICTION_RATE_STATE}};
+    friction_make_memory(&memory, &test.law);
+    BlockDef def = {ELEMENT_Q4, .nx = 2, .nz = 2, .length = 0.8, .height = 0.3};
+    case_build_block(&test, &def, &stiff);
+    double critical = (memory.healing - memory.direct) * load / memory.slip_distance;
+    test.stiffness = spring_part * critical;
+    case_open(&test, (GrowthDef){.slowest = 0.01, .fastest = 10});
+    for (int32_t i = 0; i < 3; i++)
+        slip(&test.state, i, CONTACT_SLIP_FORWARD, speed, pressure * test.interface.weight[i]);
+    GrowthRates rates;
+    assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+    double complex s = rates.rate[0].re + rates.rate[0].im * I, step = 1e-7 * s;
+    double complex here = ruina(s, mass, test.stiffness, load, &memory);
+    *off = cabs(here / (ruina(s + step, mass, test.stiffness, load, &memory) - here) * step / s);
+    case_close(&test);
+    return rates.rate[0];
+}
+
+// Both evolution laws are one at steady slip.
+TEST(test_rate_and_state_on_a_spring)
+{
+    for (double part = 0.3; part < 2; part += 0.23) {
+        double off, aged = 0;
+        for (int32_t slip_law = 0; slip_law < 2; slip_law++) {
+            GrowthRate rate = ruina_rate(part, slip_law == 1, &off);
+            assert_near("off Ruina's rate", off, 0, 1e-6);
+            assert_true((rate.re > 0) == (part < 1));
+            assert_true(rate.im > 0);
+            if (slip_law) assert_near("the same", rate.re, aged, 1e-6 * rate.im);
+            aged = rate.re;
+        }
+    }
 }
 
 // --- a shear column -----------------------------------------------------------------------------

@@ -216,8 +216,7 @@ cleanup:
         if (point_status(report) == POINT_PENDING)
             point_write_failure(sweep, point, "not begun", err->message, &ignored);
     }
-    memory_free(report);
-    memory_free(text);
+    memory_free_all(report, text);
     if (sweep) {
         memory_free(sweep->points);
         study_destroy(&sweep->study);

@@ -284,8 +284,7 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
     json_compact(report);
     TRY(point_keep(sweep, point, report, err));
 cleanup:
-    memory_free(report);
-    memory_free(scene);
+    memory_free_all(report, scene);
     return error_is_clean(err);
 }
 

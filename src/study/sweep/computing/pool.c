@@ -272,7 +272,6 @@ bool pool_run(Sweep *sweep, const PoolDef *def, Error *err)
     } while (running > 0);
 cleanup:
     if (pool.workers) end_workers(&pool);
-    memory_free(pool.workers);
-    memory_free(pool.polled);
+    memory_free_all(pool.workers, pool.polled);
     return error_is_clean(err);
 }

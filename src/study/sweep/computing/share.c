@@ -74,8 +74,7 @@ static bool read_points(Sweep *sweep, const char *path, Error *err)
     TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
     for (char *line = text; *line;) TRY(add_point(sweep, &line, &mesh, scene, err));
 cleanup:
-    memory_free(text);
-    memory_free(scene);
+    memory_free_all(text, scene);
     return error_is_clean(err);
 }
 

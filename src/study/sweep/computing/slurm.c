@@ -250,10 +250,7 @@ static void take_finished(SlurmRun *run)
 
 static void end(SlurmRun *run)
 {
-    memory_free(run->waiting);
-    memory_free(run->elements);
-    memory_free(run->arrays);
-    memory_free(run->points.list);
+    memory_free_all(run->waiting, run->elements, run->arrays, run->points.list);
     slurm_jobs_close(&run->jobs);
 }
 

@@ -77,9 +77,7 @@ void study_destroy(Study *study)
         memory_free(study->designs[k]);
         yaml_destroy(study->design_files[k]);
     }
-    memory_free(study->designs);
-    memory_free(study->design_files);
-    memory_free(study->case_list);
+    memory_free_all(study->designs, study->design_files, study->case_list);
     yaml_destroy(study->file);
     scene_source_close(study->source);
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};

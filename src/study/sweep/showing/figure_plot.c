@@ -423,8 +423,7 @@ bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plo
     figure_end(&self.figure, err);
 cleanup:
     for (int32_t k = 0; self.sources && k < self.source_count; k++) source_close(&self.sources[k]);
-    memory_free(self.sources);
-    memory_free(self.work);
+    memory_free_all(self.sources, self.work);
     words_destroy(&self.doubts);
     words_destroy(&self.curves);
     words_destroy(&self.panels);

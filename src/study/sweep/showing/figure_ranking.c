@@ -151,8 +151,7 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
     write_figure(&self, err);
     figure_end(&self.figure, err);
 cleanup:
-    memory_free(self.scene);
-    memory_free(self.bits);
+    memory_free_all(self.scene, self.bits);
     words_destroy(&self.doubts);
     return error_is_clean(err);
 }

@@ -67,8 +67,8 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
     TRY(read_values(table, "result/warned", &table->warned, err));
     if (!table->warned || !array_file_get_text(table->file, "units", units, sizeof units, &missing))
         FAIL(err, ERROR_INPUT,
-             "%s was written by an earlier version: `amontons sweep` on its "
-             "study writes it anew, and computes nothing again",
+             "%s was written by an earlier version: `amontons sweep` on its study writes it anew, "
+             "and computes nothing again",
              table->path);
     table->is_si = strcmp(units, "si") == 0;
     TRY(read_words(table, "warned words", &table->kinds, err));
@@ -78,8 +78,7 @@ cleanup:
 
 void quantity_destroy(Quantity *quantity)
 {
-    memory_free(quantity->values);
-    memory_free(quantity->errors);
+    memory_free_all(quantity->values, quantity->errors);
     words_destroy(&quantity->words);
     *quantity = (Quantity){0};
 }
@@ -109,9 +108,8 @@ static void refuse_name(PlotTable *table, const char *name, Error *err)
         if (*at == '|') *at = ' ';
     if (nearest >= 0)
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s has no column `%.60s`; did you mean "
-                  "`%s`?",
-                  table->path, name, names[nearest]);
+                  "%s has no column `%.60s`; did you mean `%s`?", table->path, name,
+                  names[nearest]);
     else if (all)
         error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`; it has: %s",
                   table->path, name, all);

@@ -345,11 +345,10 @@ cleanup:
 static void print_refined(const Ranking *ranking, FILE *out)
 {
     if (ranking->refined == 0) return;
-    fprintf(
-        out,
-        "  %d of %d points were computed again with smaller error bars, and moved by up to %.1f "
-        "of those before",
-        ranking->refined, ranking->ranked, ranking->moved);
+    fprintf(out,
+            "  %d of %d points were computed again with smaller error bars, and moved by up to "
+            "%.1f of those before",
+            ranking->refined, ranking->ranked, ranking->moved);
     if (ranking->moved > 1 && ranking->refined < ranking->ranked)
         fprintf(out, ": bars of the others count as %.1f times as long in ranks", ranking->moved);
     fprintf(out, "\n");

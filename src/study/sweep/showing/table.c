@@ -404,8 +404,7 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
     write_head(&writer);
     for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, scene, err));
 cleanup:
-    memory_free(writer.cell);
-    memory_free(scene);
+    memory_free_all(writer.cell, scene);
     if (error_is_clean(err)) return csv_finish(writer.csv, err) && write_h5(sweep, table, err);
     csv_abandon(writer.csv);
     return false;
@@ -413,12 +412,8 @@ cleanup:
 
 void table_destroy(SweepTable *table)
 {
-    memory_free(table->keys);
-    memory_free(table->records);
-    memory_free(table->errors);
-    memory_free(table->known_to);
-    memory_free(table->status);
-    memory_free(table->warnings);
+    memory_free_all(table->keys, table->records, table->errors, table->known_to, table->status,
+                    table->warnings);
     for (int32_t k = 0; table->words && k < table->column_count; k++)
         words_destroy(&table->words[k]);
     memory_free(table->words);

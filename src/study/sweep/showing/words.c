@@ -60,7 +60,6 @@ char *words_join(const WordList *list, Error *err)
 void words_destroy(WordList *list)
 {
     for (int32_t k = 0; k < list->count; k++) memory_free(list->words[k]);
-    memory_free(list->words);
-    memory_free(list->slots);
+    memory_free_all(list->words, list->slots);
     *list = (WordList){0};
 }

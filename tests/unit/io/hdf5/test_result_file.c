@@ -72,6 +72,7 @@ TEST(a_result_comes_back)
     assert_clean(&err);
     for (int32_t step = 0; step < STEPS; step++)
         for (int32_t s = 0; s < RESULT_SERIES_COUNT; s++) {
+            if (!result_series_written(&head, s)) continue;   // in the plane nothing is across
             double row[NODES];
             for (int32_t i = 0; i < NODES; i++) row[i] = value_at(s, step, i);
             assert_true(array_file_append(file, result_series_name(s), row, 1, &err));
@@ -88,6 +89,7 @@ TEST(a_result_comes_back)
     static const int32_t widths[] = {
         [COLUMNS_ONE] = 1, [COLUMNS_NODES] = NODES, [COLUMNS_PADS] = PADS};
     for (int32_t s = 0; s < RESULT_SERIES_COUNT; s++) {
+        if (!result_series_written(&head, s)) continue;
         int64_t rows;
         int32_t width;
         assert_true(result_file_read_series(file, s, &values, &rows, &width, &err));

@@ -122,7 +122,7 @@ TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
     const int32_t expected[6] = {0, 255, 255, 77, 255, 128};   // 255 in a hole: white
     for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
     canvas_set_map(canvas, map, (Color){77 / 255.0f, 0, 0, 1});
-    canvas_heat(canvas, &(Box){100, 100, 160, 140}, values, 3, 2);
+    canvas_heat(canvas, &(Box){100, 100, 160, 140}, &(HeatMap){3, 2, values, NULL, 0});
     uint8_t *pixels = pixels_read();
     for (int32_t k = 0; k < 6; ++k) {
         int32_t column = 110 + 20 * (k % 3), row = 110 + 20 * (k / 3);
@@ -143,7 +143,7 @@ TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
     for (int32_t k = 0; k < COUNT; ++k) values[k] = (float)k / 99;
     values[7] = NAN;
     canvas_set_map(canvas, map, BLACK);
-    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, values, COUNT, 1);
+    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, &(HeatMap){COUNT, 1, values, NULL, 0});
     uint8_t *pixels = pixels_read();
     for (int32_t k = 0; k < COUNT; ++k)
         assert_int_equal(pixels[3 * (30 * SIZE + 20 + k)],
@@ -156,7 +156,7 @@ TEST_BETWEEN(a_heat_map_too_large_is_reported, canvas_begin, canvas_end)
     Error err = {0};
     uint8_t *pixels = NULL;
     const float value = 0;
-    canvas_heat(canvas, &(Box){0, 0, 9, 9}, &value, 1 << 28, 1);
+    canvas_heat(canvas, &(Box){0, 0, 9, 9}, &(HeatMap){1 << 28, 1, &value, NULL, 0});
     assert_false(canvas_read(canvas, &pixels, &err));
     assert_null(pixels);
     assert_int_equal(err.code, ERROR_LIBRARY);

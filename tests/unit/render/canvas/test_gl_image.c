@@ -14,6 +14,8 @@
 
 enum { WIDTH = 40, HEIGHT = 30, STRIDE = 48, COLORS = 101, BELOW = 7, FIRST = 1000 };
 
+static const uint32_t UNTOUCHED = 0xeeeeeeee;
+
 static uint32_t colors[COLORS], pixels[HEIGHT * STRIDE];
 
 static GlImageDef image_def(void)
@@ -54,16 +56,38 @@ static void draw_values(GlSource source)
     values[3] = NAN;
     values[WIDTH] = 0.126F;
     def.values = values;
+    def.columns = WIDTH;
+    def.rows = HEIGHT;
     assert_true(gl_image_draw(source, &def, pixels, &err));
     assert_int_equal(pixels[0], FIRST + COLORS - 1);
     assert_int_equal(pixels[1], BELOW);
-    assert_int_equal(pixels[2], 0);
-    assert_int_equal(pixels[3], 0);
+    assert_int_equal(pixels[2], UNTOUCHED);
+    assert_int_equal(pixels[3], UNTOUCHED);
     assert_int_equal(pixels[STRIDE], FIRST + 13);
     for (int32_t k = 4; k < HEIGHT * WIDTH; ++k)
         if (k != WIDTH)
             assert_int_equal(pixels[k / WIDTH * STRIDE + k % WIDTH], FIRST + k % COLORS);
-    for (int32_t k = WIDTH; k < STRIDE; ++k) assert_int_equal(pixels[k], 0xeeeeeeee);
+    for (int32_t k = WIDTH; k < STRIDE; ++k) assert_int_equal(pixels[k], UNTOUCHED);
+}
+
+// Values are stretched over the pixels; the rows that are shown are listed: the last one twice as
+// high as the middle one, the first one not at all.
+static void draw_rows(GlSource source)
+{
+    Error err = {0};
+    GlImageDef def = image_def();
+    const float values[6] = {0.5F, 0.5F, 0, 0.1F, 0.2F, 0.3F};
+    const int32_t shown[3] = {2, 2, 1};
+    def.values = values;
+    def.columns = 2;
+    def.rows = 3;
+    def.row_shown = shown;
+    def.shown_count = 3;
+    assert_true(gl_image_draw(source, &def, pixels, &err));
+    for (int32_t row = 0; row < HEIGHT; ++row)
+        for (int32_t column = 0; column < WIDTH; ++column)
+            assert_int_equal(pixels[row * STRIDE + column],
+                             FIRST + (row < 20 ? 20 : 0) + (column < 20 ? 0 : 10));
 }
 
 // value = x / 40 + y / 60 - 0.2 over the half of the image left of its diagonal: from -0.2, drawn
@@ -82,7 +106,7 @@ static void draw_triangle(GlSource source)
             double place = (COLORS - 1) * fmax(x / 40 + y / 60 - 0.2, 0);
             double pixel = pixels[row * STRIDE + column];
             if (side < 1 - 1e-3) assert_true(fabs(pixel - FIRST - place) < 0.501);
-            if (side > 1 + 1e-3) assert_true(pixel == 0);
+            if (side > 1 + 1e-3) assert_true(pixel == UNTOUCHED);
         }
 }
 
@@ -91,6 +115,7 @@ static void osmesa_draws(void **state)
     (void)state;
     draw_values(GL_OSMESA);
     draw_triangle(GL_OSMESA);
+    draw_rows(GL_OSMESA);
 }
 
 static void egl_draws_without_a_surface(void **state)
@@ -99,6 +124,7 @@ static void egl_draws_without_a_surface(void **state)
     skip_without(GL_EGL);
     draw_triangle(GL_EGL);
     draw_values(GL_EGL);
+    draw_rows(GL_EGL);
 }
 
 // A process that is forked after images does not wait for ever for threads that are not there: it
@@ -128,7 +154,7 @@ static void no_corners_no_pixels(void **state)
     Error err = {0};
     GlImageDef def = image_def();
     assert_true(gl_image_draw(GL_OSMESA, &def, pixels, &err));
-    assert_int_equal(pixels[0], 0);
+    assert_int_equal(pixels[0], UNTOUCHED);
 }
 
 static void what_is_too_large_is_an_error(void **state)

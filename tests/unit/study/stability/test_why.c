@@ -75,8 +75,19 @@ TEST(test_what_else_is_said)
     expect(&rig, 4, "a node of left, at x = 0,");
     rig.summary.l_c_scan = 0.1;
     expect(&rig, 5, "l_c (scan) is shorter than l_sc");
-    rig.summary.steady_contact = 1;   // as much as can be said
-    expect(&rig, STABILITY_WHY_MAX, "would be steady");
+    rig.summary.steady_contact = 1;   // as much as can be said without memory
+    expect(&rig, 6, "would be steady");
+    FrictionLaw laws[NODES] = {0};
+    rig.path.laws = laws;
+    rig.summary.pads[1].critical_stiffness = 1.25;
+    rig.summary.pads[1].stiffness = 0.5;
+    rig.summary.nucleation_length = NAN;
+    expect(&rig, 6,
+           "steady on a stiffness above 1.25 (critical); that of right, all else held, is 0.5.");
+    rig.summary.nucleation_length = 0.75;
+    expect(&rig, 6, "grows on a part longer than 0.75 (nucleation length)");
+    rig.summary.pads[1].critical_stiffness = NAN;
+    expect(&rig, 5, "l_c (scan) is shorter than l_sc");
 }
 
 TEST(test_nothing_runs_away)
