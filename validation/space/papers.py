@@ -159,8 +159,9 @@ def points(rows):
 
 def draw(rows, folder):
     """The two figures: mu_M against breadth at each pressure, and against the critical area."""
-    def series(label, places, found):
-        return {"label": label, "x": places, "y": [f[0] for f in found], "low": [f[0] - f[1] for f in found], "high": [f[0] + f[1] for f in found]}
+    def series(number, label, places, found):
+        return {"label": label, "x": places, "y": [f[0] for f in found], "low": [f[0] - f[1] for f in found], "high": [f[0] + f[1] for f in found],
+                "color": number + 1, "marker": ("circle", "square", "triangle", "down", "cross")[number]}
     mu = {"label": "~{μ}_{M}"}
     across = []
     for study, name, keys in [("breadth", f"~{{P}} = {p:g}", [f"{w:g}, P {p:g}" for w in BREADTHS]) for p in PRESSURES] + [
@@ -168,17 +169,17 @@ def draw(rows, folder):
         found = [(w, with_bar(rows.get((study, key), []), "mu_M")) for w, key in zip(BREADTHS, keys)]
         found = [(w, f) for w, f in found if f]
         if found:
-            across.append(series(name, [w for w, _ in found], [f for _, f in found]))
+            across.append(series(len(across), name, [w for w, _ in found], [f for _, f in found]))
     plots = {"papers-breadth": {"x": {"label": "~{W}/~{H}", "scale": "log", "range": [0.4, 2.5]}, "y": mu, "legend": "outside", "series": across}}
     kinds = {}
     for area, value, bar, study, _ in points(rows):
         kinds.setdefault(study, []).append((area, value, bar))
     plots["papers-area"] = {"x": {"label": "~{A}_{c}/~{A}"}, "y": mu, "legend": "outside", "series": [
-        series(study, [p[0] for p in at], [p[1:] for p in at]) | {"line": "none"} for study, at in kinds.items()]}
+        series(k, study, [p[0] for p in at], [p[1:] for p in at]) | {"line": "none"} for k, (study, at) in enumerate(kinds.items())]}
     for name, plot in plots.items():
         path = folder / f"{name}.yaml"
         path.write_text(json.dumps(plot, ensure_ascii=False))
-        subprocess.run([PROGRAM, "render", path, "-o", folder / f"{name}.png", "--overwrite"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "render", path, "--dpi", "200", "--overwrite"], check=True, stdout=subprocess.DEVNULL)
         path.unlink()
 
 
