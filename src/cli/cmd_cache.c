@@ -11,9 +11,7 @@
 
 enum { SHOWN_MAX = 20 };
 
-static const CommandText text = {
-    .name = "cache",
-    .help = cache_txt};
+static const CommandText text = {.name = "cache", .help = cache_txt};
 
 // The last ones of the list: those used last.
 typedef struct Shown {

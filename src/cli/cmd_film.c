@@ -14,12 +14,11 @@
 enum { RATE_MAX = 240, NAME_SIZE = 256 };
 static const double STILL_MOST = 0.5;   // s: what stands for longer looks as if it were at rest
 
-static const CommandText text = {
-    .name = "film",
-    .argument = "RESULT",
-    .what = "result folder",
-    .example = "amontons film fig1-result -o fig1.mp4",
-    .help = film_txt};
+static const CommandText text = {.name = "film",
+                                 .argument = "RESULT",
+                                 .what = "result folder",
+                                 .example = "amontons film fig1-result -o fig1.mp4",
+                                 .help = film_txt};
 
 // A number above 0, with nothing behind it.
 static int read_number(const char *name, const char *word, double *number)

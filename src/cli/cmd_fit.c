@@ -7,12 +7,11 @@
 #include "cli_help.h"
 
 static const char ENDING[] = "-fit";
-static const CommandText text = {
-    .name = "fit",
-    .argument = "STUDY",
-    .what = "study",
-    .example = "amontons fit docs/examples/viscosity.yaml",
-    .help = fit_txt};
+static const CommandText text = {.name = "fit",
+                                 .argument = "STUDY",
+                                 .what = "study",
+                                 .example = "amontons fit docs/examples/viscosity.yaml",
+                                 .help = fit_txt};
 
 int command_fit(int argc, char **argv)
 {

@@ -10,12 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const CommandText text = {
-    .name = "info",
-    .argument = "FILE\nkeys",
-    .what = "file",
-    .example = "amontons info validation/paper/fig1.yaml",
-    .help = info_txt};
+static const CommandText text = {.name = "info",
+                                 .argument = "FILE\nkeys",
+                                 .what = "file",
+                                 .example = "amontons info validation/paper/fig1.yaml",
+                                 .help = info_txt};
 
 int command_info(int argc, char **argv)
 {

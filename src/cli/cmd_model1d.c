@@ -10,12 +10,11 @@
 
 #include <stdlib.h>
 
-static const CommandText text = {
-    .name = "model1d",
-    .argument = "SCENE",
-    .what = "scene",
-    .example = "amontons model1d validation/paper/fig1.yaml",
-    .help = model1d_txt};
+static const CommandText text = {.name = "model1d",
+                                 .argument = "SCENE",
+                                 .what = "scene",
+                                 .example = "amontons model1d validation/paper/fig1.yaml",
+                                 .help = model1d_txt};
 
 typedef struct Model1dWords {
     SceneWords common;

@@ -7,12 +7,11 @@
 #include "cli_help.h"
 
 static const char ENDING[] = "-best";
-static const CommandText text = {
-    .name = "optimise",
-    .argument = "STUDY",
-    .what = "study",
-    .example = "amontons optimise docs/examples/best_pads.yaml",
-    .help = optimise_txt};
+static const CommandText text = {.name = "optimise",
+                                 .argument = "STUDY",
+                                 .what = "study",
+                                 .example = "amontons optimise docs/examples/best_pads.yaml",
+                                 .help = optimise_txt};
 
 int command_optimise(int argc, char **argv)
 {

@@ -19,12 +19,11 @@ enum {
 #undef X
 };
 
-static const CommandText text = {
-    .name = "render",
-    .argument = "RESULT\nSWEEP\nPLOT.yaml",
-    .what = "result folder",
-    .example = "amontons render fig1-result",
-    .help = render_txt};
+static const CommandText text = {.name = "render",
+                                 .argument = "RESULT\nSWEEP\nPLOT.yaml",
+                                 .what = "result folder",
+                                 .example = "amontons render fig1-result",
+                                 .help = render_txt};
 
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)

@@ -8,12 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const CommandText text = {
-    .name = "report",
-    .argument = "RESULT...",
-    .what = "result folder",
-    .example = "amontons report fig1-result",
-    .help = report_txt};
+static const CommandText text = {.name = "report",
+                                 .argument = "RESULT...",
+                                 .what = "result folder",
+                                 .example = "amontons report fig1-result",
+                                 .help = report_txt};
 
 // A path with slashes behind it; at most one argument's length.
 static void default_file(const OptionWords *results, char *file, size_t size)

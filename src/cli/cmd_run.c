@@ -15,12 +15,11 @@
 
 enum { SETTING_SIZE = 80 };
 
-static const CommandText text = {
-    .name = "run",
-    .argument = "SCENE",
-    .what = "scene",
-    .example = "amontons run validation/paper/fig1.yaml",
-    .help = run_txt};
+static const CommandText text = {.name = "run",
+                                 .argument = "SCENE",
+                                 .what = "scene",
+                                 .example = "amontons run validation/paper/fig1.yaml",
+                                 .help = run_txt};
 
 // A line for each mesh, above the progress bar.
 static void show_level(const LevelView *view, void *context)

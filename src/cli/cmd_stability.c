@@ -14,12 +14,11 @@
 
 enum { SLIDINGS_STANDARD = 2 };   // the second peak already belongs to the periodic regime
 
-static const CommandText text = {
-    .name = "stability",
-    .argument = "SCENE",
-    .what = "scene",
-    .example = "amontons stability validation/paper/fig1.yaml",
-    .help = stability_txt};
+static const CommandText text = {.name = "stability",
+                                 .argument = "SCENE",
+                                 .what = "scene",
+                                 .example = "amontons stability validation/paper/fig1.yaml",
+                                 .help = stability_txt};
 
 typedef struct StabilityWords {
     SceneWords common;

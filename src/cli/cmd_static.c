@@ -7,12 +7,11 @@
 
 #include <math.h>
 
-static const CommandText text = {
-    .name = "static",
-    .argument = "SCENE",
-    .what = "scene",
-    .example = "amontons static validation/freefem/friction.yaml",
-    .help = static_txt};
+static const CommandText text = {.name = "static",
+                                 .argument = "SCENE",
+                                 .what = "scene",
+                                 .example = "amontons static validation/freefem/friction.yaml",
+                                 .help = static_txt};
 
 // Of a force, an energy and a moment, each per width, and of a length; empty: normalised.
 typedef struct Units {

@@ -11,12 +11,11 @@
 #include <unistd.h>
 
 static const char ENDING[] = "-sweep";
-static const CommandText text = {
-    .name = "sweep",
-    .argument = "STUDY",
-    .what = "study",
-    .example = "amontons sweep validation/paper/fig2a.yaml",
-    .help = sweep_txt};
+static const CommandText text = {.name = "sweep",
+                                 .argument = "STUDY",
+                                 .what = "study",
+                                 .example = "amontons sweep validation/paper/fig2a.yaml",
+                                 .help = sweep_txt};
 
 // One point, in a job of a Slurm array. list: the file that the sweep wrote for the array; Slurm
 // puts into the environment which element this process is, and keeps its exit status.

@@ -97,17 +97,13 @@ static bool write_scene(const char *folder, const char *path, Error *err)
 {
     char report[AMONTONS_PATH_SIZE], *text = NULL;
     int32_t size = 0, length = 0;
-    PartFile file = {0};
     if (snprintf(report, sizeof report, "%s/run.json", folder) >= (int)sizeof report)
         FAIL(err, ERROR_INPUT, "the path of the result is too long");
     TRY(text_file_read(report, INT32_MAX / 2, &text, &size, err));
     const char *scene = json_find_raw(text, "scene", &length);
     if (!scene) FAIL(err, ERROR_INPUT, "%s holds no scene to be computed again", report);
-    TRY(part_file_create(&file, path, err));
-    TRY(part_file_write(&file, scene, length, err));
-    TRY(part_file_commit(&file, err));
+    TRY(part_file_put(path, scene, length, err));
 cleanup:
-    part_file_discard(&file);
     memory_free(text);
     return error_is_clean(err);
 }

@@ -306,13 +306,7 @@ bool saved_state_take_back(Simulation *simulation, const SavedState *state, Erro
 
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)
 {
-    PartFile file = {0};
-    TRY(part_file_create(&file, path, err));
-    TRY(part_file_write(&file, state->bytes, state->size, err));
-    TRY(part_file_commit(&file, err));
-cleanup:
-    part_file_discard(&file);
-    return error_is_clean(err);
+    return part_file_put(path, state->bytes, state->size, err);
 }
 
 // Checked when it is restored.

@@ -111,15 +111,13 @@ static bool read_item(const SceneValue *value, const Scene *scene, Scene *own,
         return yaml_refuse(document, value->node, "friction.contacts", "a map {group: NAME, ...}",
                            err);
     *own = *scene;
-    for (YamlNode part = yaml_first(document, value->node); part != YAML_NO_NODE;
-         part = yaml_next(document, part)) {
+    YAML_EACH (part, document, value->node) {
         // Numbers of another formula are not those of the scene's law.
         if (strcmp(yaml_key(document, part), "formula") == 0)
             own->friction.mu_static = own->friction.mu_kinetic = own->friction.critical_velocity =
                 0;
     }
-    for (YamlNode part = yaml_first(document, value->node); part != YAML_NO_NODE;
-         part = yaml_next(document, part)) {
+    YAML_EACH (part, document, value->node) {
         SceneValue one = {.document = document, .node = part};
         TRY(set_part(&one, own, item, err));
     }
@@ -145,8 +143,7 @@ bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
     laws->count = 0;
     if (!value->document) return true;
     TRY((own = NEW_ARRAY(Scene, 1, err)));
-    for (YamlNode node = yaml_first(value->document, value->node); node != YAML_NO_NODE;
-         node = yaml_next(value->document, node)) {
+    YAML_EACH (node, value->document, value->node) {
         SceneValue one = {.document = value->document, .node = node};
         SceneContactLaw *item = &laws->item[laws->count];
         if (laws->count == SCENE_CONTACT_LAWS_MAX) {

@@ -129,8 +129,7 @@ static bool set_region(const char *name, const SceneValue *value, Scene *scene, 
                  word < 0 ? "" : "`)");
         return yaml_refuse(document, value->node, path, allowed, err);
     }
-    for (YamlNode part = yaml_first(document, value->node); part != YAML_NO_NODE;
-         part = yaml_next(document, part)) {
+    YAML_EACH (part, document, value->node) {
         SceneValue one = {.document = document, .node = part};
         TRY(set_number(yaml_key(document, part), &one, region, scene, err));
     }
@@ -154,8 +153,7 @@ bool scene_materials_set(const SceneValue *value, Scene *scene, Error *err)
     if (kind != YAML_MAP && kind != YAML_NOTHING)
         return yaml_refuse(document, value->node, MAP,
                            "a map, as in {pads: {young: 0.01, eta1: 0.1}}", err);
-    for (YamlNode item = yaml_first(document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, value->node) {
         one.node = item;
         TRY(set_region(yaml_key(document, item), &one, scene, err));
     }

@@ -74,8 +74,7 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
     YamlKind kind = yaml_kind(document, value->node);
     if (kind != YAML_MAP && kind != YAML_NOTHING)
         return yaml_refuse(document, value->node, name, "a map of keys", err);
-    for (YamlNode item = yaml_first(document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, value->node) {
         char path[KEY_NAME_SIZE];
         SceneValue child = {.document = document, .node = item};
         snprintf(path, sizeof path, "%s%s%.60s", name, *name ? "." : "", yaml_key(document, item));

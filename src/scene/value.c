@@ -44,8 +44,7 @@ static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kin
         report_wrong(key, value, err);
         goto cleanup;
     }
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
+    YAML_EACH (item, value->document, value->node) {
         SceneValue one = {.document = value->document, .node = item};
         TRY(set(key, &one, scene, err));
     }

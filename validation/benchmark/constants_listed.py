@@ -277,7 +277,8 @@ NOT_A_CHOICE = {
         "SPACE_ENTRIES": "the same",
         "SPACE_COLUMNS": "counted"},
     "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
-    "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
+    "study/stability/remembers.c": {"LONG": "of D_c; a stage so long ends in the steady state"},
+    "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},
     "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
 }

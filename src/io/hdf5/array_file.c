@@ -13,48 +13,36 @@ struct ArrayFile {
     Hdf5File *hdf5;   // owned
 };
 
-// With the module, and without a file in it yet.
-static ArrayFile *begin(Error *err)
+typedef enum Way { CREATE, OPEN, REOPEN } Way;
+
+static ArrayFile *begin(const char *path, Way way, Error *err)
 {
     ArrayFileModuleFunction module =
         (ArrayFileModuleFunction)module_function("hdf5", "amontons_array_file_module", err);
-    if (!module) return NULL;
-    ArrayFile *file = NEW_ARRAY(ArrayFile, 1, err);
-    if (file) file->module = module();
-    return file;
-}
-
-// The file, or NULL where the module has made none.
-static ArrayFile *whole(ArrayFile *file)
-{
+    ArrayFile *file = module ? NEW_ARRAY(ArrayFile, 1, err) : NULL;
+    if (!file) return NULL;
+    const ArrayFileModule *calls = file->module = module();
+    file->hdf5 = (way == CREATE ? calls->create
+                  : way == OPEN ? calls->open
+                                : calls->reopen)(path, err);
     if (file->hdf5) return file;
     memory_free(file);
     return NULL;
 }
 
-// Written as `path`.part until it is closed.
 ArrayFile *array_file_create(const char *path, Error *err)
 {
-    ArrayFile *file = begin(err);
-    if (!file) return NULL;
-    file->hdf5 = file->module->create(path, err);
-    return whole(file);
+    return begin(path, CREATE, err);
 }
 
 ArrayFile *array_file_open(const char *path, Error *err)
 {
-    ArrayFile *file = begin(err);
-    if (!file) return NULL;
-    file->hdf5 = file->module->open(path, err);
-    return whole(file);
+    return begin(path, OPEN, err);
 }
 
 ArrayFile *array_file_reopen(const char *path, Error *err)
 {
-    ArrayFile *file = begin(err);
-    if (!file) return NULL;
-    file->hdf5 = file->module->reopen(path, err);
-    return whole(file);
+    return begin(path, REOPEN, err);
 }
 
 bool array_file_close(ArrayFile *file, Error *err)

@@ -15,52 +15,21 @@ enum {
     DEFLATE_LEVEL = 2   // 4 saves 4 % of the size and costs 20 % more time
 };
 
-// Bytes of a value, and its HDF5 types in the file (little-endian everywhere) and in memory.
-static size_t item_size(ArrayType type)
-{
-    switch (type) {
-    case ARRAY_FLOAT64:
-        return sizeof(double);
-    case ARRAY_FLOAT32:
-        return sizeof(float);
-    case ARRAY_UINT8:
-        return sizeof(uint8_t);
-    case ARRAY_INT32:
-        return sizeof(int32_t);
-    }
-    return 0;
-}
+// Bytes of a value, and its HDF5 types: in the file little-endian, whatever the machine, in the
+// buffer the machine's own; HDF5 converts on the way.
+typedef struct TypeRow {
+    size_t size;
+    hid_t stored, memory;
+} TypeRow;
 
-// In the file: little-endian, whatever the machine.
-static hid_t stored_type(ArrayType type)
+// HDF5 makes its types when it is first used, so the table cannot be a constant.
+static TypeRow type_row(ArrayType type)
 {
-    switch (type) {
-    case ARRAY_FLOAT64:
-        return H5T_IEEE_F64LE;
-    case ARRAY_FLOAT32:
-        return H5T_IEEE_F32LE;
-    case ARRAY_UINT8:
-        return H5T_STD_U8LE;
-    case ARRAY_INT32:
-        return H5T_STD_I32LE;
-    }
-    return -1;
-}
-
-// In the buffer: the machine's own; HDF5 converts on the way.
-static hid_t memory_type(ArrayType type)
-{
-    switch (type) {
-    case ARRAY_FLOAT64:
-        return H5T_NATIVE_DOUBLE;
-    case ARRAY_FLOAT32:
-        return H5T_NATIVE_FLOAT;
-    case ARRAY_UINT8:
-        return H5T_NATIVE_UINT8;
-    case ARRAY_INT32:
-        return H5T_NATIVE_INT32;
-    }
-    return -1;
+    const TypeRow rows[] = {[ARRAY_FLOAT64] = {sizeof(double), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE},
+                            [ARRAY_FLOAT32] = {sizeof(float), H5T_IEEE_F32LE, H5T_NATIVE_FLOAT},
+                            [ARRAY_UINT8] = {sizeof(uint8_t), H5T_STD_U8LE, H5T_NATIVE_UINT8},
+                            [ARRAY_INT32] = {sizeof(int32_t), H5T_STD_I32LE, H5T_NATIVE_INT32}};
+    return rows[type];
 }
 
 // Scalars have one dimension, so that h5py users need not index a column.
@@ -84,7 +53,7 @@ static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
     shape_of(writer, 0, shape);
     shape_of(writer, H5S_UNLIMITED, shape_max);
     shape_of(writer, (hsize_t)writer->chunk_rows, chunk);
-    size_t chunk_bytes = (size_t)(writer->chunk_rows * writer->width) * item_size(writer->type);
+    size_t chunk_bytes = (size_t)(writer->chunk_rows * writer->width) * type_row(writer->type).size;
     hid_t space = H5Screate_simple(rank_of(writer), shape, shape_max);
     hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
     hid_t links = H5Pcreate(H5P_LINK_CREATE);
@@ -95,8 +64,8 @@ static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
                  // Only the last chunk is ever touched again; a full one leaves memory first (1.0).
                  H5Pset_chunk_cache(cache, CACHE_SLOTS, chunk_bytes, 1.0) >= 0;
     hid_t dataset = !ready ? -1
-                           : H5Dcreate2(id, writer->name, stored_type(writer->type), space, links,
-                                        creation, cache);
+                           : H5Dcreate2(id, writer->name, type_row(writer->type).stored, space,
+                                        links, creation, cache);
     H5Pclose(cache);
     H5Pclose(links);
     H5Pclose(creation);
@@ -106,7 +75,7 @@ static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
 
 static int64_t chunk_rows(ArrayType type, int32_t width)
 {
-    int64_t rows = CHUNK_BYTES / ((int64_t)item_size(type) * width);
+    int64_t rows = CHUNK_BYTES / ((int64_t)type_row(type).size * width);
     return rows < 1 ? 1 : rows > CHUNK_ROWS_MAX ? CHUNK_ROWS_MAX : rows;
 }
 
@@ -117,12 +86,12 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
     char cause[HDF5_CAUSE_SIZE];
     *writer =
         (SeriesWriter){.type = series->type, .width = series->width, .components = components};
-    if (series->width < 1 || series->width % components != 0 || item_size(series->type) == 0)
+    if (series->width < 1 || series->width % components != 0 || series->type > ARRAY_INT32)
         FAIL(err, ERROR_LIBRARY, "%s has no values or no type", series->name);
     writer->chunk_rows = chunk_rows(series->type, series->width);
     TRY((writer->name = memory_text(series->name, err)));
     TRY((writer->buffer =
-             memory_array(writer->chunk_rows * writer->width, item_size(writer->type), err)));
+             memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err)));
     writer->dataset = create_dataset(writer, id);
     if (writer->dataset < 0)
         FAIL(err, ERROR_LIBRARY, "HDF5 cannot make %s: %s", writer->name, hdf5_cause(cause));
@@ -133,11 +102,8 @@ cleanup:
 // What is stored, as ours; false: no such type.
 static bool find_type(hid_t stored, ArrayType *type)
 {
-    static const ArrayType types[] = {ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32};
-    for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
-        *type = types[k];
-        if (H5Tequal(stored, stored_type(*type)) > 0) return true;
-    }
+    for (*type = ARRAY_FLOAT64; *type <= ARRAY_INT32; ++*type)
+        if (H5Tequal(stored, type_row(*type).stored) > 0) return true;
     return false;
 }
 
@@ -175,7 +141,7 @@ bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
     if (!read_layout(writer)) FAIL(err, ERROR_FILE, "%s is not as it was written", name);
     writer->chunk_rows = chunk_rows(writer->type, writer->width);
     TRY((writer->buffer =
-             memory_array(writer->chunk_rows * writer->width, item_size(writer->type), err)));
+             memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err)));
 cleanup:
     H5Pclose(cache);
     return error_is_clean(err);
@@ -219,7 +185,7 @@ bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
     if (status >= 0) to = H5Dget_space(writer->dataset);
     if (to >= 0) status = H5Sselect_hyperslab(to, H5S_SELECT_SET, start, NULL, count, NULL);
     if (to >= 0 && status >= 0)
-        status = H5Dwrite(writer->dataset, memory_type(writer->type), from, to, H5P_DEFAULT,
+        status = H5Dwrite(writer->dataset, type_row(writer->type).memory, from, to, H5P_DEFAULT,
                           writer->buffer);
     if (to >= 0) H5Sclose(to);
     H5Sclose(from);

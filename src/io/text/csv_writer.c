@@ -4,7 +4,7 @@
 #include "io/text/csv_writer.h"
 
 #include "base/memory.h"
-#include "io/files/part_file.h"
+#include "io/text/text_writer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,41 +16,21 @@ enum { DIGITS = 9, PLAIN = 4 };   // PLAIN: zeros before the first digit of 0.00
 static const double LEAST = 1e-290;   // smaller is 0
 
 struct CsvWriter {
-    PartFile file;
-    Error first;   // the first failure
+    TextWriter out;
     bool in_row;   // a cell stands on the line already
-    size_t waiting;   // bytes of `bytes` that are not written yet
-    char bytes[1 << 16];
 };
 
 CsvWriter *csv_create(const char *path, Error *err)
 {
     CsvWriter *csv = NEW_ARRAY(CsvWriter, 1, err);
-    if (!csv) return NULL;
-    if (part_file_create(&csv->file, path, err)) return csv;
+    if (csv && text_writer_open(&csv->out, path, false, err)) return csv;
     memory_free(csv);
     return NULL;
 }
 
-// After the first failure nothing is written.
-static void flush(CsvWriter *csv)
-{
-    if (error_is_clean(&csv->first))
-        part_file_write(&csv->file, csv->bytes, (int64_t)csv->waiting, &csv->first);
-    csv->waiting = 0;
-}
-
 static void put(CsvWriter *csv, const char *bytes, size_t count)
 {
-    while (count > 0) {
-        size_t fits = sizeof csv->bytes - csv->waiting;
-        if (fits > count) fits = count;
-        memcpy(csv->bytes + csv->waiting, bytes, fits);
-        csv->waiting += fits;
-        bytes += fits;
-        count -= fits;
-        if (csv->waiting == sizeof csv->bytes) flush(csv);
-    }
+    text_writer_put(&csv->out, bytes, count);
 }
 
 static void begin_cell(CsvWriter *csv)
@@ -118,16 +98,13 @@ void csv_end_row(CsvWriter *csv)
 
 bool csv_finish(CsvWriter *csv, Error *err)
 {
-    flush(csv);
-    bool good = error_is_clean(&csv->first);
-    if (!good) *err = csv->first;
-    good = good && part_file_commit(&csv->file, err);
+    bool good = text_writer_finish(&csv->out, err);
     csv_abandon(csv);
     return good;
 }
 
 void csv_abandon(CsvWriter *csv)
 {
-    if (csv) part_file_discard(&csv->file);
+    if (csv) text_writer_close(&csv->out);
     memory_free(csv);
 }

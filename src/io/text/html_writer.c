@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "io/files/part_file.h"
+#include "io/text/text_writer.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -11,44 +11,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BUFFER_SIZE = 1 << 16, MARKUP_SIZE = 2000, CHUNK = 3 * 1000 };
+enum { MARKUP_SIZE = 2000, CHUNK = 3 * 1000 };
 
 struct HtmlWriter {
-    PartFile file;
-    Error first;   // the first failure
-    int64_t size;   // bytes so far
-    int32_t used;   // bytes of the buffer
-    char buffer[BUFFER_SIZE];
+    TextWriter out;
 };
 
 HtmlWriter *html_create(const char *path, bool any, Error *err)
 {
     HtmlWriter *html = NEW_ARRAY(HtmlWriter, 1, err);
-    if (!html) return NULL;
-    if (part_file_replace(&html->file, path, any, err)) return html;
+    if (html && text_writer_open(&html->out, path, any, err)) return html;
     memory_free(html);
     return NULL;
 }
 
-// After the first failure nothing is written.
-static void flush(HtmlWriter *html)
-{
-    if (error_is_clean(&html->first))
-        part_file_write(&html->file, html->buffer, html->used, &html->first);
-    html->used = 0;
-}
-
 static void put(HtmlWriter *html, const char *bytes, size_t count)
 {
-    html->size += (int64_t)count;
-    while (count > 0) {
-        size_t room = (size_t)(BUFFER_SIZE - html->used), part = count < room ? count : room;
-        memcpy(html->buffer + html->used, bytes, part);
-        html->used += (int32_t)part;
-        bytes += part;
-        count -= part;
-        if (html->used == BUFFER_SIZE) flush(html);
-    }
+    text_writer_put(&html->out, bytes, count);
 }
 
 void html_markup(HtmlWriter *html, const char *format, ...)
@@ -59,7 +38,8 @@ void html_markup(HtmlWriter *html, const char *format, ...)
     int length = vsnprintf(words, sizeof words, format, arguments);
     va_end(arguments);
     if (length < 0 || length >= MARKUP_SIZE)
-        error_set(&html->first, ERROR_COMPUTE, __FILE__, __LINE__, "markup of %d bytes", length);
+        error_set(&html->out.first, ERROR_COMPUTE, __FILE__, __LINE__, "markup of %d bytes",
+                  length);
     else
         put(html, words, (size_t)length);
 }
@@ -149,21 +129,18 @@ void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t si
 
 int64_t html_size(const HtmlWriter *html)
 {
-    return html->size;
+    return html->out.size;
 }
 
 bool html_finish(HtmlWriter *html, Error *err)
 {
-    flush(html);
-    bool good = error_is_clean(&html->first);
-    if (!good) *err = html->first;
-    good = good && part_file_commit(&html->file, err);
+    bool good = text_writer_finish(&html->out, err);
     html_abandon(html);
     return good;
 }
 
 void html_abandon(HtmlWriter *html)
 {
-    if (html) part_file_discard(&html->file);
+    if (html) text_writer_close(&html->out);
     memory_free(html);
 }

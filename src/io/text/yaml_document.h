@@ -53,6 +53,9 @@ int32_t yaml_column(const YamlDocument *document, YamlNode node);   // from 1, i
 // The children of a list or a map in the order of the text; YAML_NO_NODE after the last.
 YamlNode yaml_first(const YamlDocument *document, YamlNode node);
 YamlNode yaml_next(const YamlDocument *document, YamlNode node);
+#define YAML_EACH(child, document, node)                                                           \
+    for (YamlNode child = yaml_first(document, node); child != YAML_NO_NODE;                       \
+         child = yaml_next(document, child))
 const char *yaml_key(const YamlDocument *document, YamlNode node);   // of a map's child, else ""
 
 // The value under a path of keys ("material.young"), from the root; YAML_NO_NODE if none.

@@ -208,9 +208,7 @@ bool measured_read(const Study *study, Measured *measured, Error *err)
     YamlNode node = study->search.measured;
     *measured = (Measured){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
-    for (YamlNode one = yaml_first(study->file, node); one != YAML_NO_NODE;
-         one = yaml_next(study->file, one))
-        TRY(read_named(study, one, measured, err));
+    YAML_EACH (one, study->file, node) TRY(read_named(study, one, measured, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -50,8 +50,7 @@ bool study_is_chosen(const Study *study, const char *key)
         if (sets(study->axes[k].key, key)) return true;
     for (int32_t k = 0; study->case_list && k < study->case_count; k++) {
         const YamlDocument *document = study->case_list[k].document;
-        for (YamlNode item = yaml_first(document, study->case_list[k].map); item != YAML_NO_NODE;
-             item = yaml_next(document, item))
+        YAML_EACH (item, document, study->case_list[k].map)
             if (sets(yaml_key(document, item), key)) return true;
     }
     return false;
@@ -61,9 +60,7 @@ bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, 
 {
     int32_t count = 0;
     TRY((*values = NEW_ARRAY(YamlNode, yaml_count(document, list), err)));
-    for (YamlNode value = yaml_first(document, list); value != YAML_NO_NODE;
-         value = yaml_next(document, value))
-        (*values)[count++] = value;
+    YAML_EACH (value, document, list) (*values)[count++] = value;
 cleanup:
     return error_is_clean(err);
 }

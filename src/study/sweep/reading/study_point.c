@@ -60,8 +60,7 @@ cleanup:
 static bool add_map(PointSettings *settings, const YamlDocument *document, YamlNode map, Error *err)
 {
     if (map == YAML_NO_NODE) return true;
-    for (YamlNode item = yaml_first(document, map); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, map) {
         SceneSetting setting = {
             .key = yaml_key(document, item), .document = document, .node = item};
         TRY(add(settings, &setting, err));

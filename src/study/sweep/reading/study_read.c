@@ -18,8 +18,7 @@ static bool check_keys(const Study *study, Error *err)
                                         "record", "keep",  "rank", "search", "where",
                                         "best",   "fit",   "plot"};
     enum { COUNT = sizeof known / sizeof known[0] };
-    for (YamlNode item = yaml_first(study->file, YAML_ROOT); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
+    YAML_EACH (item, study->file, YAML_ROOT) {
         const char *key = yaml_key(study->file, item);
         bool is_known = false;
         for (int32_t k = 0; k < COUNT; k++) is_known = is_known || strcmp(key, known[k]) == 0;

@@ -75,9 +75,7 @@ static bool read_where(Study *study, Error *err)
     if (yaml_kind(study->file, where) != YAML_LIST ||
         yaml_count(study->file, where) > STUDY_LIMITS_MAX)
         return yaml_refuse(study->file, where, "where", "a list of at most 16 limits", err);
-    for (YamlNode item = yaml_first(study->file, where); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
-        TRY(read_limit(study, item, err));
+    YAML_EACH (item, study->file, where) TRY(read_limit(study, item, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -176,9 +174,7 @@ bool study_read_search(Study *study, Error *err)
                    "cases: a study with `search` makes its own; conditions go under `vary`");
         return false;
     }
-    for (YamlNode item = yaml_first(study->file, search->node); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
-        TRY(read_key(study, item, err));
+    YAML_EACH (item, study->file, search->node) TRY(read_key(study, item, err));
     TRY(read_where(study, err));
     TRY(check_goal(study, err));
     TRY(read_goal(study, err));

@@ -23,8 +23,7 @@ static bool add_columns(Study *study, const char *key, const YamlDocument *docum
                           strcmp(key, "materials") == 0 || strncmp(key, "materials.", 10) == 0 ||
                           (scene_key_is_group(key) && scene_key_index(key) < 0);
     if (!opens || !is_map_of_keys) return study_add_column(study, key, err);
-    for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, node) {
         char path[STUDY_NAME_SIZE];
         snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
         TRY(add_columns(study, path, document, item, err));
@@ -59,8 +58,7 @@ static bool read_set(Study *study, Error *err)
     if (study->set == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, study->set) != YAML_MAP)
         return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
-    for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
+    YAML_EACH (item, study->file, study->set) {
         TRY(study_check_key(study->file, item, err));
         if (scene_is_formula(study->file, item))
             TRY(study_add_column(study, yaml_key(study->file, item), err));
@@ -77,8 +75,7 @@ static bool add_case(Study *study, const YamlDocument *document, YamlNode map, E
     study->case_list = list;
     study->case_list[count] = (StudyCase){document, map};
     study->case_count = count + 1;
-    for (YamlNode item = yaml_first(document, map); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, map) {
         TRY(study_check_key(document, item, err));
         TRY(add_columns(study, yaml_key(document, item), document, item, err));
     }
@@ -91,8 +88,7 @@ static bool read_cases(Study *study, const YamlDocument *document, YamlNode case
 {
     if (yaml_kind(document, cases) != YAML_LIST || yaml_count(document, cases) == 0)
         return yaml_refuse(document, cases, "cases", "a list of maps of the scene's keys", err);
-    for (YamlNode one = yaml_first(document, cases); one != YAML_NO_NODE;
-         one = yaml_next(document, one)) {
+    YAML_EACH (one, document, cases) {
         if (yaml_kind(document, one) != YAML_MAP)
             return yaml_refuse(document, one, "cases", "a map of the scene's keys", err);
         TRY(add_case(study, document, one, err));
@@ -142,8 +138,7 @@ static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
     bool is_log = false, is_known = true;
     double bounds[2] = {0, 0}, count = 0;
     char *text = NULL, name[SCENE_TEXT_SIZE + 80];
-    for (YamlNode item = yaml_first(study->file, node); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
+    YAML_EACH (item, study->file, node) {
         const char *key = yaml_key(study->file, item);
         if (strcmp(key, "log") == 0 || strcmp(key, "linear") == 0) {
             is_known = is_known && ends == YAML_NO_NODE;
@@ -198,8 +193,7 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
         return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
     TRY(study_list(axis->document, axis->list, &axis->values, err));
     study->axis_count++;
-    for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
-         value = yaml_next(axis->document, value))
+    YAML_EACH (value, axis->document, axis->list)
         TRY(add_columns(study, axis->key, axis->document, value, err));
 cleanup:
     return error_is_clean(err);
@@ -211,9 +205,7 @@ static bool read_vary(Study *study, Error *err)
     if (vary == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, vary) != YAML_MAP || yaml_count(study->file, vary) > STUDY_AXES_MAX)
         return yaml_refuse(study->file, vary, "vary", "a map of at most 16 keys of the scene", err);
-    for (YamlNode item = yaml_first(study->file, vary); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
-        TRY(read_axis(study, item, err));
+    YAML_EACH (item, study->file, vary) TRY(read_axis(study, item, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -225,8 +217,7 @@ static bool gives(const YamlDocument *document, const char *key, YamlNode node, 
     char path[STUDY_NAME_SIZE];
     if (strcmp(key, wanted) == 0) return true;
     if (strncmp(wanted, key, length) != 0 || wanted[length] != '.') return false;
-    for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, node) {
         snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
         if (gives(document, path, item, wanted)) return true;
     }
@@ -236,8 +227,7 @@ static bool gives(const YamlDocument *document, const char *key, YamlNode node, 
 // Whether any of its values gives it; the values of a range are numbers.
 static bool axis_gives(const StudyAxis *axis, const char *wanted)
 {
-    for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
-         value = yaml_next(axis->document, value))
+    YAML_EACH (value, axis->document, axis->list)
         if (gives(axis->document, axis->key, value, wanted)) return true;
     return false;
 }
@@ -248,8 +238,7 @@ static bool check_map(const Study *study, const char *what, YamlNode map, const 
                       Error *err)
 {
     if (map == YAML_NO_NODE) return true;
-    for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
+    YAML_EACH (item, study->file, map) {
         if (!gives(study->file, yaml_key(study->file, item), item, wanted)) continue;
         if (strcmp(what, "cases") == 0 && scene_is_formula(study->file, item) &&
             strstr(yaml_text(study->file, item), wanted))
@@ -279,9 +268,7 @@ static bool check_twice(const Study *study, Error *err)
         if (given == 0) continue;
         TRY(check_map(study, "set", study->set, wanted, err));
         if (study->cases == YAML_NO_NODE) continue;
-        for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
-             one = yaml_next(study->file, one))
-            TRY(check_map(study, "cases", one, wanted, err));
+        YAML_EACH (one, study->file, study->cases) TRY(check_map(study, "cases", one, wanted, err));
     }
 cleanup:
     return error_is_clean(err);

@@ -143,8 +143,7 @@ static bool read_records(Study *study, Error *err)
     int32_t count = yaml_count(study->file, list);
     if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
         return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
-    for (YamlNode item = yaml_first(study->file, list); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
+    YAML_EACH (item, study->file, list)
         if (!is_always_there(yaml_text(study->file, item)))
             TRY(read_record(study, item, "record", &ignored, err));
 cleanup:
@@ -169,8 +168,7 @@ static bool read_against(Study *study, const WantedKey *key, Error *err)
                            "first, best, or a map of varied keys, as in {mesh.set.n: 1}", err);
     study->rank.against = AGAINST_KEYS;
     study->rank.baseline = key->node;
-    for (YamlNode item = yaml_first(study->file, key->node); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
+    YAML_EACH (item, study->file, key->node) {
         if (study_is_chosen(study, yaml_key(study->file, item))) continue;
         yaml_key_error(study->file, item, err,
                        "against: neither `vary` nor `cases` has the key `%.60s`",
@@ -196,19 +194,44 @@ static bool read_refine(Study *study, const WantedKey *key, Error *err)
     return study_add_column(study, "accuracy.mu", err);
 }
 
+// {mu_first_pad: highest, scene.mesh.set.pad_height: lowest}
+static bool read_also(Study *study, const WantedKey *also, Error *err)
+{
+    static const char *const orders[] = {"highest", "lowest"};
+    StudyRank *rank = &study->rank;
+    if (also->node == YAML_NO_NODE) return true;
+    if (study->search.node == YAML_NO_NODE || study->search.over != OVER_FRONT) {
+        yaml_error(study->file, also->node, err, "also: only of a search with `over: front`");
+        return false;
+    }
+    if (yaml_kind(study->file, also->node) != YAML_MAP ||
+        yaml_count(study->file, also->node) > STUDY_ALSO_MAX)
+        return yaml_refuse(study->file, also->node, "also",
+                           "at most 3 results, as in {mu_first_pad: highest}", err);
+    YAML_EACH (item, study->file, also->node) {
+        int32_t order = 0;
+        StudyAim *aim = &rank->also[rank->also_count++];
+        WantedKey key = {yaml_key(study->file, item), item};
+        WantedName name = {key.name, "also", item};
+        TRY(wanted_choice(study->file, &key, orders, 2, &order, err));
+        TRY(find_record(study, &name, &aim->record, err));
+        study->records[aim->record].is_shown = true;
+        aim->lowest = order == 1;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // What is ranked by becomes a column of the table where it is none yet.
 static bool read_rank(Study *study, Error *err)
 {
     static const char *const orders[] = {"highest", "lowest"};
-    WantedKey keys[] = {{.name = "by"},
-                        {.name = "order"},
-                        {.name = "top"},
-                        {.name = "against"},
-                        {.name = "refine"}};
+    WantedKey keys[] = {{.name = "by"},      {.name = "order"},  {.name = "top"},
+                        {.name = "against"}, {.name = "refine"}, {.name = "also"}};
     StudyRank *rank = &study->rank;
     int32_t order = 0;
     if (yaml_look_up(study->file, "rank") == YAML_NO_NODE) return true;
-    TRY(wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 5, err));
+    TRY(wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 6, err));
     if (keys[0].node == YAML_NO_NODE) {
         yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
                    "rank: `by` must be given, as in {by: mu_M}");
@@ -219,6 +242,7 @@ static bool read_rank(Study *study, Error *err)
     TRY(wanted_choice(study->file, &keys[1], orders, 2, &order, err));
     TRY(read_against(study, &keys[3], err));
     TRY(read_refine(study, &keys[4], err));
+    TRY(read_also(study, &keys[5], err));
     double top = TOP_STANDARD;
     bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
     if (!good || top != floor(top) || top < 1 || top > TOP_MAX)
@@ -304,9 +328,7 @@ static bool read_plots(Study *study, Error *err)
     YamlNode plots = yaml_look_up(study->file, "plot");
     if (plots == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, plots) != YAML_LIST) return read_plot(study, plots, err);
-    for (YamlNode node = yaml_first(study->file, plots); node != YAML_NO_NODE;
-         node = yaml_next(study->file, node))
-        TRY(read_plot(study, node, err));
+    YAML_EACH (node, study->file, plots) TRY(read_plot(study, node, err));
 cleanup:
     return error_is_clean(err);
 }

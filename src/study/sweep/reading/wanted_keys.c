@@ -15,8 +15,7 @@ bool wanted_find(const YamlDocument *file, YamlNode map, const char *what, Wante
     }
     if (yaml_kind(file, map) != YAML_MAP)
         return yaml_refuse(file, map, what, "a map, as in {by: mu_M}, {x: load.pressure}", err);
-    for (YamlNode item = yaml_first(file, map); item != YAML_NO_NODE;
-         item = yaml_next(file, item)) {
+    YAML_EACH (item, file, map) {
         int32_t k = 0;
         while (k < count && strcmp(yaml_key(file, item), keys[k].name) != 0) k++;
         if (k == count) {

@@ -332,8 +332,7 @@ static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *er
     }
     if (study->rank.against == AGAINST_KEYS) {
         fprintf(out, "the same point with");
-        for (YamlNode item = yaml_first(study->file, study->rank.baseline); item != YAML_NO_NODE;
-             item = yaml_next(study->file, item))
+        YAML_EACH (item, study->file, study->rank.baseline)
             fprintf(out, " %s=%s", yaml_key(study->file, item), yaml_text(study->file, item));
     }
     fprintf(out, "%s\n", has_error ? "" : "; no errors are known of it");

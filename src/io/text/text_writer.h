@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A text on its way into a file, many bytes at once: what csv_writer and html_writer are made of.
+// The file gets its name at the end, and the first failure is told there, so that who writes a
+// thousand cells asks once. Called by io/text/csv_writer and io/text/html_writer.
+#ifndef AMONTONS_IO_TEXT_TEXT_WRITER_H
+#define AMONTONS_IO_TEXT_TEXT_WRITER_H
+
+#include "base/error.h"
+#include "io/files/part_file.h"
+
+#include <stddef.h>
+
+typedef struct TextWriter {
+    PartFile file;
+    Error first;   // the first failure
+    int64_t size;   // bytes so far
+    size_t waiting;   // of `bytes`, not written yet
+    char bytes[1 << 16];
+} TextWriter;
+
+// any: also over a file that is not ours. *writer is zeroed.
+bool text_writer_open(TextWriter *writer, const char *path, bool any, Error *err);
+void text_writer_put(TextWriter *writer, const char *bytes, size_t count);
+// fsync and rename. The part is left to text_writer_close, as after a failure.
+bool text_writer_finish(TextWriter *writer, Error *err);
+void text_writer_close(TextWriter *writer);
+
+#endif
