@@ -6,7 +6,7 @@ area that slips before and grooves, with error bars.
     validation/space/papers.py [--seconds S] [--only STUDY ...] [--page] [-o FOLDER]
 
 Each point is run on meshes of 8, 10, 12, 14 and 16 cells to the height, as long as one may be expected to take S seconds of processor
-time (default 110; it goes up with the sixth power). A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
+time (default 40; it goes up with the sixth power). A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
 that was stopped goes on behind the last one. Bars are those of the program's rule (src/record/error_bars.c) on these meshes: of blocks
 in space 98 of 100 held (priors.md). Writes papers.md and its two figures beside it."""
 import argparse
@@ -203,7 +203,7 @@ s: processor time of all meshes of a point. What it means: [README.md](README.md
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=110, help="of processor time for one mesh")
+    parser.add_argument("--seconds", type=float, default=40, help="of processor time for one mesh")
     parser.add_argument("--only", nargs="+", choices=STUDIES)
     parser.add_argument("--page", action="store_true", help="write the page from what was computed, and compute nothing")
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent)
