@@ -253,6 +253,7 @@ NOT_A_CHOICE = {
     "contact/contact_matrix.c": {"TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
     "model/model.c": {
+        "FLOOR_PART": "of the contact: as mean widths are exact for upright layers and pads, any above a half",
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
         "REDUCTION_TOLERANCES": "draft and fine: as standard"},
@@ -262,6 +263,7 @@ NOT_A_CHOICE = {
         "STAGES_CYCLE": "the same, forecasts.py", "STAGES_SLIDING": "the same, forecasts.py",
         "BY_SLOWNESS": "the same, forecasts.py", "BY_RUNAWAY": "the same, forecasts.py",
         "RUNAWAY_LEAST": "the same, forecasts.py", "STAGES_STEP": "of SDIRK2",
+        "STAGES_WATCHED": "the same, five scenes of rubber under PMMA (validation/strangers)",
         "PERIODIC_SLIDINGS": "stages of a run, counted", "STEADY_FROM": "the same, forecasts.py",
         "CYCLES_UP_TO": "the same, forecasts.py"},
     "model/choice.c": {
