@@ -97,7 +97,8 @@ static void print_open(const Search *search, int32_t best, FILE *out)
     if (settled > 0)
         fprintf(out,
                 "  %d of them missed the error bar asked for by far, or have none: only more time "
-                "for a run (accuracy.within) would tell\n",
+                "for a run (accuracy.within), or a bar asked of what is ranked (accuracy.of), would "
+                "tell\n",
                 settled);
     if (open == settled) return;
     if (search->study->rank.refine > 0)
