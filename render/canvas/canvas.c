@@ -17,6 +17,7 @@ enum { POINTS_AN_INCH = 72 };
 
 struct Canvas {
     CanvasDef def;
+    uint8_t *pixels;   // [4 * width * height] of a PNG; owned
     cairo_surface_t *surface;   // owned
     cairo_t *cairo;   // owned
     uint32_t map[MAP_SIZE], below;   // as Cairo stores pixels: alpha, red, green, blue
@@ -71,7 +72,8 @@ static cairo_surface_t *surface_create(Canvas *canvas)
         break;
     case CANVAS_PNG:
     case CANVAS_FORMATS:
-        return cairo_image_surface_create(CAIRO_FORMAT_RGB24, def->width, def->height);
+        return cairo_image_surface_create_for_data(canvas->pixels, CAIRO_FORMAT_RGB24, def->width,
+                                                   def->height, 4 * def->width);
     }
     cairo_surface_set_device_scale(surface, points, points);
     return surface;
@@ -87,6 +89,8 @@ Canvas *canvas_create(const CanvasDef *def, Error *err)
              def->width, def->height, CANVAS_SIZE_MIN, CANVAS_SIZE_MAX);
     TRY(canvas = NEW_ARRAY(Canvas, 1, err));
     canvas->def = *def;
+    if (def->format == CANVAS_PNG)
+        TRY(canvas->pixels = memory_bytes(4 * (int64_t)def->width * def->height, err));
     TRY(canvas->bytes = NEW_ARRAY(char, 1, err));
     canvas->room = 1;
     canvas->surface = surface_create(canvas);
@@ -109,6 +113,7 @@ void canvas_destroy(Canvas *canvas)
     if (!canvas) return;
     cairo_destroy(canvas->cairo);   // NULL is fine, here and below
     cairo_surface_destroy(canvas->surface);
+    memory_free(canvas->pixels);
     memory_free(canvas->bytes);
     memory_free(canvas);
 }
@@ -186,6 +191,15 @@ static uint32_t *pixels_of_box(Canvas *canvas, const Box *box, GlImageDef *def)
            (int64_t)box->top * def->stride + (int64_t)box->left;
 }
 
+// Whether an image covers all of its box: then it needs no second image of where it does.
+static bool is_opaque(const GlImageDef *def)
+{
+    if (!def->values) return false;
+    for (int64_t k = 0; k < (int64_t)def->rows * def->columns; ++k)
+        if (!(def->values[k] > (float)HEAT_MISSING)) return false;
+    return true;
+}
+
 // OpenGL draws on the page itself, or, in PDF and SVG, an image of its own which Cairo places.
 static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
 {
@@ -201,7 +215,8 @@ static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted
         cairo_surface_mark_dirty(canvas->surface);
         return;
     }
-    image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, def.width, def.height);
+    image = cairo_image_surface_create(is_opaque(&def) ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32,
+                                       def.width, def.height);
     if (cairo_surface_status(image))
         FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
              cairo_status_to_string(cairo_surface_status(image)));
@@ -241,8 +256,8 @@ bool canvas_is_vector(const Canvas *canvas)
     return canvas->def.format != CANVAS_PNG;
 }
 
-// In a PDF or SVG a little larger than asked: viewers leave a hair of paper between shapes that only
-// touch.
+// In a PDF or SVG a little larger than asked: viewers leave a hair of paper between shapes that
+// only touch.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 {
     static const double over = 0.04;   // points
@@ -268,7 +283,8 @@ void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image)
                 height / cairo_image_surface_get_height(image));
     cairo_set_source_surface(cairo, image, 0, 0);
     cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
-    cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+    if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
+        cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
     cairo_fill(cairo);
     cairo_restore(cairo);
 }

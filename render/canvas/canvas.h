@@ -74,7 +74,7 @@ void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map);
 // corner; between the corners values are linear. Below 0 is drawn as 0.
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count);
 
-// Fills `box` with the colour of one value, or of HEAT_BELOW; in a PDF or SVG a shape, not an image.
+// Fills `box` with the colour of one value, or of HEAT_BELOW; in a PDF or SVG a shape, no image.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 

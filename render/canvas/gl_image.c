@@ -52,6 +52,7 @@ enum { UNIT_COLORS, UNIT_VALUES, UNIT_ROWS, UNIT_TARGET, UNITS };   // textures
     X(void, TexImage2D, \
       (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *)) \
     X(void, TexParameteri, (GLenum, GLenum, GLint)) \
+    X(void, Uniform1f, (GLint, GLfloat)) \
     X(void, Uniform1i, (GLint, GLint)) \
     X(void, Uniform1ui, (GLint, GLuint)) \
     X(void, Uniform2f, (GLint, GLfloat, GLfloat)) \
@@ -59,6 +60,8 @@ enum { UNIT_COLORS, UNIT_VALUES, UNIT_ROWS, UNIT_TARGET, UNITS };   // textures
     X(void, VertexAttribPointer, (GLuint, GLint, GLenum, GLboolean, GLsizei, const void *)) \
     X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
 // clang-format on
+
+typedef enum GlKind { BY_CORNERS, BY_VALUES, PROGRAMS } GlKind;
 
 typedef void (*GlFunction)(void);
 
@@ -79,7 +82,7 @@ typedef struct Gl {
     GL_CALLS(X)
 #undef X
     GlContext context;
-    GLuint program, texture[UNITS];
+    GLuint program[PROGRAMS], texture[UNITS];   // a program is made when it is needed
     bool tried, ready;
     pid_t process;   // that it was opened in
     Error failure;   // of the only try
@@ -179,63 +182,69 @@ static bool context_use(GlContext *context, bool use)
 // --- shaders and buffers -------------------------------------------------------------------------
 
 // Rows are read back from the bottom: y downwards in both makes the first row the top one.
-static const char VERTEX_SOURCE[] =
-    "#version 330 core\n"
-    "uniform vec2 size;\n"
-    "layout(location = 0) in vec3 corner;\n"
-    "out float at;\n"
-    "void main() {\n"
-    "    at = corner.z;\n"
-    "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
-    "}\n";
+static const char VERSION[] = "#version 330 core\n",
+                  VERTEX_SOURCE[] =
+                      "uniform vec2 size;\n"
+                      "layout(location = 0) in vec3 corner;\n"
+                      "out float at;\n"
+                      "void main() {\n"
+                      "    at = corner.z;\n"
+                      "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
+                      "}\n";
+
+// What a pixel shows between corners, and of a table of values.
+static const char *const VALUE_SOURCE[PROGRAMS] = {
+    [BY_CORNERS] = "in float at;\n"
+                   "float value_here() { return max(at, 0.0); }\n",
+    [BY_VALUES] = "uniform vec2 scale;\n"   // values over pixels
+                  "uniform int listed;\n"
+                  "uniform sampler2D values;\n"
+                  "uniform isampler2D rows;\n"
+                  "float value_here() {\n"
+                  "    ivec2 place = ivec2(gl_FragCoord.xy * scale);\n"
+                  "    if (listed != 0) place.y = texelFetch(rows, ivec2(place.y, 0), 0).r;\n"
+                  "    float value = texelFetch(values, place, 0).r;\n"
+                  "    if (!(value >= -1.5)) discard;\n"
+                  "    return value;\n"
+                  "}\n"};
 
 static const char FRAGMENT_SOURCE[] =
-    "#version 330 core\n"
-    "uniform vec2 scale;\n"   // values over pixels; 0: triangles
-    "uniform int listed;\n"
     "uniform uint below;\n"
+    "uniform float last;\n"   // color
     "uniform usampler2D colors;\n"
-    "uniform sampler2D values;\n"
-    "uniform isampler2D rows;\n"
-    "in float at;\n"
     "out uint color;\n"
     "void main() {\n"
-    "    float value = max(at, 0.0);\n"
-    "    if (scale.x > 0.0) {\n"
-    "        ivec2 place = ivec2(gl_FragCoord.xy * scale);\n"
-    "        if (listed != 0) place.y = texelFetch(rows, ivec2(place.y, 0), 0).r;\n"
-    "        value = texelFetch(values, place, 0).r;\n"
-    "    }\n"
-    "    if (!(value >= -1.5)) discard;\n"
-    "    float last = float(textureSize(colors, 0).x - 1);\n"
-    "    int place = int(floor(clamp(value, 0.0, 1.0) * last + 0.5));\n"
+    "    float value = value_here();\n"
+    "    int place = int(clamp(value, 0.0, 1.0) * last + 0.5);\n"
     "    color = value < 0.0 ? below : texelFetch(colors, ivec2(place, 0), 0).r;\n"
     "}\n";
 
-static void shader_add(const Gl *gl, GLenum stage, const char *source)
+static void shader_add(const Gl *gl, GLuint program, GLenum stage, const char *source[3])
 {
     GLuint shader = gl->CreateShader(stage);
-    gl->ShaderSource(shader, 1, &source, NULL);
+    gl->ShaderSource(shader, 3, source, NULL);
     gl->CompileShader(shader);
-    gl->AttachShader(gl->program, shader);
+    gl->AttachShader(program, shader);
 }
 
 // What a compiler says shows when its shader is linked.
-static bool program_create(Gl *gl, Error *err)
+static bool program_use(Gl *gl, GlKind kind, Error *err)
 {
     GLint done = GL_FALSE;
     GLchar said[300] = "";
-    gl->program = gl->CreateProgram();
-    shader_add(gl, GL_VERTEX_SHADER, VERTEX_SOURCE);
-    shader_add(gl, GL_FRAGMENT_SHADER, FRAGMENT_SOURCE);
-    gl->LinkProgram(gl->program);
-    gl->GetProgramiv(gl->program, GL_LINK_STATUS, &done);
-    gl->GetProgramInfoLog(gl->program, sizeof said, NULL, said);
-    if (!done) FAIL(err, ERROR_LIBRARY, "OpenGL does not take the shaders: %s", said);
-    gl->UseProgram(gl->program);
-    gl->Uniform1i(gl->GetUniformLocation(gl->program, "colors"), UNIT_COLORS);
-    gl->Uniform1i(gl->GetUniformLocation(gl->program, "values"), UNIT_VALUES);
-    gl->Uniform1i(gl->GetUniformLocation(gl->program, "rows"), UNIT_ROWS);
+    GLuint program = gl->program[kind];
+    if (program == 0) {
+        program = gl->CreateProgram();
+        shader_add(gl, program, GL_VERTEX_SHADER, (const char *[]){VERSION, VERTEX_SOURCE, ""});
+        shader_add(gl, program, GL_FRAGMENT_SHADER,
+                   (const char *[]){VERSION, VALUE_SOURCE[kind], FRAGMENT_SOURCE});
+        gl->LinkProgram(program);
+        gl->GetProgramiv(program, GL_LINK_STATUS, &done);
+        gl->GetProgramInfoLog(program, sizeof said, NULL, said);
+        if (!done) FAIL(err, ERROR_LIBRARY, "OpenGL does not take the shaders: %s", said);
+        gl->program[kind] = program;
+    }
+    gl->UseProgram(program);
 cleanup:
     return error_is_clean(err);
 }
@@ -279,7 +288,6 @@ static bool gl_open(Gl *gl, GlSource source, Error *err)
     if (!context_use(&gl->context, true))
         FAIL(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
     TRY(calls_find(gl, err));
-    TRY(program_create(gl, err));
     buffers_create(gl);
     gl->ready = true;
     gl->process = getpid();
@@ -323,6 +331,11 @@ static void corners_draw(const Gl *gl, const GlCorner *corners, int64_t count)
     gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)count);
 }
 
+static GLint uniform(const Gl *gl, GlKind kind, const char *name)
+{
+    return gl->GetUniformLocation(gl->program[kind], name);
+}
+
 static void values_load(const Gl *gl, const GlImageDef *def)
 {
     int32_t shown = def->row_shown ? def->shown_count : def->rows;
@@ -332,25 +345,30 @@ static void values_load(const Gl *gl, const GlImageDef *def)
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_ROWS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32I, def->row_shown ? shown : 1, 1, 0, GL_RED_INTEGER,
                    GL_INT, def->row_shown);
-    gl->Uniform1i(gl->GetUniformLocation(gl->program, "listed"), def->row_shown != NULL);
-    gl->Uniform2f(gl->GetUniformLocation(gl->program, "scale"),
-                  (float)def->columns / (float)def->width, (float)shown / (float)def->height);
+    gl->Uniform1i(uniform(gl, BY_VALUES, "values"), UNIT_VALUES);
+    gl->Uniform1i(uniform(gl, BY_VALUES, "rows"), UNIT_ROWS);
+    gl->Uniform1i(uniform(gl, BY_VALUES, "listed"), def->row_shown != NULL);
+    gl->Uniform2f(uniform(gl, BY_VALUES, "scale"), (float)def->columns / (float)def->width,
+                  (float)shown / (float)def->height);
 }
 
 // Values that are a texture fill the image by one triangle that is larger than it.
-static bool image_draw(const Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *err)
+static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *err)
 {
     float width = (float)def->width, height = (float)def->height;
     GLenum status = GL_NO_ERROR;
+    GlKind kind = def->values ? BY_VALUES : BY_CORNERS;
     const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
     TRY(target_make(gl, def, pixels, err));
+    TRY(program_use(gl, kind, err));
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
                    GL_UNSIGNED_INT, def->colors);
-    gl->Uniform2f(gl->GetUniformLocation(gl->program, "scale"), 0, 0);
+    gl->Uniform1i(uniform(gl, kind, "colors"), UNIT_COLORS);
+    gl->Uniform1f(uniform(gl, kind, "last"), (float)(def->color_count - 1));
+    gl->Uniform1ui(uniform(gl, kind, "below"), def->below);
+    gl->Uniform2f(uniform(gl, kind, "size"), width, height);
     if (def->values) values_load(gl, def);
-    gl->Uniform2f(gl->GetUniformLocation(gl->program, "size"), width, height);
-    gl->Uniform1ui(gl->GetUniformLocation(gl->program, "below"), def->below);
     if (def->values)
         corners_draw(gl, all, 3);
     else

@@ -18,6 +18,7 @@ enum {
     CODE_BITS = 15,   // of the longest code
     SYMBOL_BITS = 9,   // of an entry; what follows a length stands above
     ENTRY_BYTES = 4,   // of a block for one entry at most, header included
+    WORD = 32,   // bits that are written at once
     FILTER_UP = 2,
     ADLER = 65521
 };
@@ -38,8 +39,20 @@ static void put_bits(RunDeflate *stream, uint32_t bits, int32_t count)
 {
     stream->bits |= (uint64_t)bits << stream->bit_count;
     stream->bit_count += count;
-    for (; stream->bit_count >= 8; stream->bit_count -= 8, stream->bits >>= 8)
+    if (stream->bit_count < WORD) return;
+    for (int32_t byte = 0; byte < WORD / 8; ++byte)
+        stream->bytes[stream->size++] = (uint8_t)(stream->bits >> 8 * byte);
+    stream->bits >>= WORD;
+    stream->bit_count -= WORD;
+}
+
+// Up to a whole byte.
+static void put_rest(RunDeflate *stream)
+{
+    for (; stream->bit_count > 0; stream->bit_count -= 8, stream->bits >>= 8)
         stream->bytes[stream->size++] = (uint8_t)stream->bits;
+    stream->bit_count = 0;
+    stream->bits = 0;
 }
 
 // --- codes of a block ----------------------------------------------------------------------------
@@ -140,14 +153,13 @@ static void put_block(RunDeflate *stream, bool last)
     put_header(stream, &codes, last);
     for (int32_t k = 0; k < stream->count; ++k) {
         int32_t symbol = stream->entry[k] & ((1 << SYMBOL_BITS) - 1);
-        put_bits(stream, codes.code[symbol], codes.length[symbol]);
-        if (symbol < LENGTH_FIRST) continue;
-        put_bits(stream, stream->entry[k] >> SYMBOL_BITS, length_bits(symbol));
-        put_bits(stream, 0, 1);   // the distance
+        uint32_t extra = stream->entry[k] >> SYMBOL_BITS;
+        int32_t bits = codes.length[symbol];   // of a match: and those of its length and distance
+        int32_t more = symbol < LENGTH_FIRST ? 0 : length_bits(symbol) + 1;
+        put_bits(stream, codes.code[symbol] | extra << bits, bits + more);
     }
     put_bits(stream, codes.code[END_OF_BLOCK], codes.length[END_OF_BLOCK]);
     stream->count = 0;
-    if (last) put_bits(stream, 0, 7);   // up to a whole byte
 }
 
 static void hand_over(RunDeflate *stream)
@@ -183,61 +195,49 @@ static void sum_byte(RunDeflate *stream, uint8_t byte)
     stream->sums += stream->sum;
 }
 
-// How many of the next `most` pixels are the same in both rows; two at a time.
-static int32_t same_pixels(const uint8_t *row, const uint8_t *above, int32_t most)
+// Of a pixel: each byte less that of the pixel above, without carries from one to the next.
+static uint32_t change_of(const uint8_t *row, const uint8_t *above)
 {
-    static const uint8_t used[8] = {0xff, 0xff, 0xff, 0, 0xff, 0xff, 0xff, 0};
-    uint64_t mask, pair[2];
-    int32_t k = 0;
-    memcpy(&mask, used, sizeof mask);
-    for (; k + 2 <= most; k += 2) {
-        memcpy(&pair[0], row + 4 * k, sizeof mask);
-        memcpy(&pair[1], above + 4 * k, sizeof mask);
-        if ((pair[0] ^ pair[1]) & mask) break;
-    }
-    while (k < most && memcmp(row + 4 * k, above + 4 * k, PIXEL) == 0) ++k;
-    return k;
-}
-
-// Of a pixel: red, green, blue less those above it.
-static void find_change(const uint8_t *row, const uint8_t *above, uint8_t change[PIXEL])
-{
-    for (int32_t c = 0; c < PIXEL; ++c)
-        change[c] = (uint8_t)(row[PIXEL - 1 - c] - above[PIXEL - 1 - c]);
+    static const uint32_t high = 0x00808080, low = 0x007f7f7f;
+    uint32_t to, from;
+    memcpy(&to, row, sizeof to);
+    memcpy(&from, above, sizeof from);
+    return (((to | high) & 0x00ffffff) - (from & low)) ^ (~(to ^ from) & high);
 }
 
 // How many pixels from the first of `most` on change as that one does.
-static int32_t run_length(const uint8_t *row, const uint8_t *above, int32_t most,
-                          const uint8_t first[PIXEL])
+static int32_t run_length(const uint8_t *row, const uint8_t *above, int32_t most, uint32_t change)
 {
-    static const uint8_t none[PIXEL] = {0};
-    uint8_t change[PIXEL];
+    static const uint64_t used = 0x00ffffff00ffffff;   // of two pixels
     int32_t k = 1;
-    if (memcmp(first, none, PIXEL) == 0) return same_pixels(row, above, most);
-    for (; k < most; ++k) {
-        find_change(row + 4 * k, above + 4 * k, change);
-        if (memcmp(change, first, PIXEL) != 0) break;
+    for (uint64_t to, from; change == 0 && k + 2 <= most; k += 2) {
+        memcpy(&to, row + 4 * k, sizeof to);
+        memcpy(&from, above + 4 * k, sizeof from);
+        if ((to ^ from) & used) break;
     }
+    while (k < most && change_of(row + 4 * k, above + 4 * k) == change) ++k;
     return k;
 }
 
-static void add_run(RunDeflate *stream, const uint8_t change[PIXEL], int32_t pixels)
+// Bytes of a pixel in memory are blue, green, red, so in a PNG the last one is the first.
+static void add_run(RunDeflate *stream, uint32_t change, int32_t pixels)
 {
-    bool blank = !change[0] && !change[1] && !change[2];
-    if (blank) stream->sums += stream->sum * (uint64_t)pixels * PIXEL;
-    for (int32_t k = 0; k < (blank ? 0 : pixels * PIXEL); ++k) sum_byte(stream, change[k % PIXEL]);
-    for (int32_t c = 0; c < PIXEL; ++c) add_entry(stream, change[c], 0);
+    const uint8_t colors[PIXEL] = {(uint8_t)(change >> 16), (uint8_t)(change >> 8),
+                                   (uint8_t)change};
+    if (change == 0) stream->sums += stream->sum * (uint64_t)pixels * PIXEL;
+    for (int32_t k = 0; change != 0 && k < pixels; ++k)
+        for (int32_t c = 0; c < PIXEL; ++c) sum_byte(stream, colors[c]);
+    for (int32_t c = 0; c < PIXEL; ++c) add_entry(stream, colors[c], 0);
     for (int32_t left = PIXEL * (pixels - 1); left > 0; left -= LENGTH_MOST)
         add_match(stream, left < LENGTH_MOST ? left : LENGTH_MOST);
 }
 
 void run_deflate_row(RunDeflate *stream, const uint8_t *row, const uint8_t *above, int32_t width)
 {
-    uint8_t change[PIXEL];
     sum_byte(stream, FILTER_UP);
     add_entry(stream, FILTER_UP, 0);
     for (int32_t k = 0, pixels = 0; k < width; k += pixels) {
-        find_change(row + 4 * k, above + 4 * k, change);
+        uint32_t change = change_of(row + 4 * k, above + 4 * k);
         pixels = run_length(row + 4 * k, above + 4 * k, width - k, change);
         add_run(stream, change, pixels);
     }
@@ -261,6 +261,7 @@ void run_deflate_end(RunDeflate *stream)
 {
     uint32_t check = (uint32_t)(stream->sums << 16 | stream->sum);
     put_block(stream, true);
+    put_rest(stream);
     for (int32_t byte = 3; byte >= 0; --byte)
         stream->bytes[stream->size++] = (uint8_t)(check >> 8 * byte);
     hand_over(stream);

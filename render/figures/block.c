@@ -281,8 +281,9 @@ static double wanted_magnification(const Block *block)
     return power;
 }
 
-// The determinant at corner k of an element, deformed.
-static double corner_size(const FieldFrame *frame, int32_t e, int32_t k, double magnification)
+// The determinant at a place of an element, deformed.
+static double size_at(const FieldFrame *frame, int32_t e, const ShapeValues *shape,
+                      double magnification)
 {
     const int32_t *nodes = frame->element_nodes + frame->first_node[e];
     ElementKind kind = (ElementKind)frame->kind[e];
@@ -292,19 +293,24 @@ static double corner_size(const FieldFrame *frame, int32_t e, int32_t k, double 
             int64_t at = 3 * (int64_t)nodes[a] + d;
             place[a][d] = frame->position[at] + magnification * frame->displacement[at];
         }
-    ShapeValues shape = shape_at(kind, shape_node(kind, k));
-    return shape_jacobian(kind, &shape, (const MeshPlace *)place);
+    return shape_jacobian(kind, shape, (const MeshPlace *)place);
 }
 
 // Whether an element drawn so would be thinner than FOLDED of what it is at a corner, or folded.
 static bool deformation_folds(const FieldFrame *frame, double magnification)
 {
-    for (int32_t e = 0; e < frame->element_count; ++e)
-        for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k) {
-            double before = corner_size(frame, e, k, 0);
-            double after = corner_size(frame, e, k, magnification);
+    ShapeValues shape[ELEMENT_NODES_MAX];
+    for (int32_t e = 0; e < frame->element_count; ++e) {
+        ElementKind kind = (ElementKind)frame->kind[e];
+        int32_t corners = element_corner_count(kind);
+        for (int32_t k = 0; k < corners && (e == 0 || frame->kind[e - 1] != frame->kind[e]); ++k)
+            shape[k] = shape_at(kind, shape_node(kind, k));
+        for (int32_t k = 0; k < corners; ++k) {
+            double before = size_at(frame, e, &shape[k], 0);
+            double after = size_at(frame, e, &shape[k], magnification);
             if (!(after * before > FOLDED * before * before)) return true;
         }
+    }
     return false;
 }
 

@@ -9,10 +9,11 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { PARTS_MAX = 16, LATTICE_MAX = (PARTS_MAX + 1) * (PARTS_MAX + 1) };
 
-static const double PART_SIZE = 8;   // pixels: a part's side
+static const double PART_SIZE = 12;   // pixels: a part's side, half a millimetre in print
 
 typedef struct Corner {
     Point at;   // pixels
@@ -73,26 +74,51 @@ static void lattice_place(const Parts *parts, bool triangle, int32_t i, int32_t 
     }
 }
 
-// lattice: [(inside + 1)^2], row by row along eta; of a triangle only where i + j <= inside.
-static void fill_lattice(const Block *block, const Axes *axes, int32_t e, const Parts *parts,
-                         Corner *lattice)
+// Shape functions where the parts of an element meet: of the one before, if it is alike.
+typedef struct Lattice {
+    int32_t kind;   // -1: of none yet
+    Parts parts;
+    double weight[LATTICE_MAX][ELEMENT_NODES_MAX];
+} Lattice;
+
+// Row by row along eta; of a triangle only where i + j <= inside.
+static void lattice_weigh(ElementKind kind, const Parts *parts, Lattice *lattice)
 {
-    const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
-    ElementKind kind = (ElementKind)block->frame.kind[e];
-    int32_t count = element_node_count(kind), last = parts->inside;
+    int32_t last = parts->inside;
     bool triangle = element_corner_count(kind) == 3;
+    if (lattice->kind == (int32_t)kind && memcmp(&lattice->parts, parts, sizeof *parts) == 0)
+        return;
+    lattice->kind = (int32_t)kind;
+    lattice->parts = *parts;
     for (int32_t j = 0; j <= last; ++j)
         for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
-            double at[2], x = 0, z = 0, value = 0;
+            double at[2];
             lattice_place(parts, triangle, i, j, at);
             for (int32_t d = 0; d < 2 && !triangle; ++d) at[d] = 2 * at[d] - 1;
             ShapeValues shape = shape_at(kind, at);
+            memcpy(lattice->weight[j * (last + 1) + i], shape.value,
+                   (size_t)element_node_count(kind) * sizeof(double));
+        }
+}
+
+// corners: [(inside + 1)^2], as the lattice.
+static void fill_corners(const Block *block, const Axes *axes, int32_t e, const Lattice *lattice,
+                         Corner *corners)
+{
+    const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
+    ElementKind kind = (ElementKind)block->frame.kind[e];
+    int32_t count = element_node_count(kind), last = lattice->parts.inside;
+    bool triangle = element_corner_count(kind) == 3;
+    for (int32_t j = 0; j <= last; ++j)
+        for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
+            const double *weight = lattice->weight[j * (last + 1) + i];
+            double x = 0, z = 0, value = 0;
             for (int32_t a = 0; a < count; ++a) {
-                x += shape.value[a] * block->place[nodes[a]][0];
-                z += shape.value[a] * block->place[nodes[a]][1];
-                value += shape.value[a] * block->value[nodes[a]];
+                x += weight[a] * block->place[nodes[a]][0];
+                z += weight[a] * block->place[nodes[a]][1];
+                value += weight[a] * block->value[nodes[a]];
             }
-            lattice[j * (last + 1) + i] = (Corner){axes_place(axes, x, z), value};
+            corners[j * (last + 1) + i] = (Corner){axes_place(axes, x, z), value};
         }
 }
 
@@ -114,17 +140,19 @@ static bool may_reach(const Block *block, int32_t e, double level)
 static bool each_triangle(const Block *block, const Axes *axes, const double *level,
                           TriangleFunction work, void *context)
 {
-    Corner lattice[LATTICE_MAX];
+    Corner corners[LATTICE_MAX];
+    Lattice lattice = {.kind = -1};
     bool going = true;
     for (int32_t e = 0; going && e < block->frame.element_count; ++e) {
         if (level && !may_reach(block, e, *level)) continue;
         Parts chosen = choose_parts(block, axes, e);
         int32_t parts = chosen.inside, row = parts + 1;
         bool triangle = element_corner_count((ElementKind)block->frame.kind[e]) == 3;
-        fill_lattice(block, axes, e, &chosen, lattice);
+        lattice_weigh((ElementKind)block->frame.kind[e], &chosen, &lattice);
+        fill_corners(block, axes, e, &lattice, corners);
         for (int32_t j = 0; going && j < parts; ++j)
             for (int32_t i = 0; going && i < (triangle ? parts - j : parts); ++i) {
-                const Corner *low = lattice + j * row + i, *high = low + row;
+                const Corner *low = corners + j * row + i, *high = low + row;
                 const Corner lower[3] = {low[0], low[1], high[0]};
                 going = work(context, lower);
                 if (!going || (triangle && i + j == parts - 1)) continue;

@@ -277,13 +277,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-void block_page_legend(const Page *page, Point place)
+void block_page_legend(const Page *page, Point place, double below)
 {
-    double point = page->point;
+    double point = page->point, first = place.x;
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
     text_draw(page->text, &style, place, "contact");
     place.x += text_width(page->text, style.size, "contact") + 5 * point;
     for (int32_t k = STATUSES - 1; k >= 0; --k) {
+        if (below > 0) place = (Point){first, place.y + below * point};
         Box patch = {place.x, place.y - 2 * point, place.x + 6 * point, place.y + 2 * point};
         draw_fill(page->canvas, STATUS[k].color, &patch);
         text_draw(page->text, &style, (Point){patch.right + 2 * point, place.y}, STATUS[k].name);

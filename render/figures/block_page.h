@@ -49,7 +49,8 @@ void block_page_contact(const Page *page, const BlockPage *map, const Block *blo
 // Frame, numbers and names; of a block in space along its edges.
 void block_page_axes(const Page *page, const BlockPage *map, const Block *block, const Axes *axes);
 
-// What the colours of the contact mean, from `place` to the right.
-void block_page_legend(const Page *page, Point place);
+// What the colours of the contact mean, from `place` to the right; below > 0: four lines so many
+// points apart under one that says "contact".
+void block_page_legend(const Page *page, Point place, double below);
 
 #endif

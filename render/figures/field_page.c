@@ -67,7 +67,7 @@ bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *
     beside.left = round(axes.box.right + BAR_GAP * point);
     colorbar_draw(page, &map->bar, &beside);
     double below = axes.box.bottom + (axes_bottom_margin(&axes) + 0.5 * LEGEND_HEIGHT) * point;
-    block_page_legend(page, (Point){axes.box.left, below});
+    block_page_legend(page, (Point){axes.box.left, below}, 0);
 cleanup:
     return error_is_clean(err);
 }

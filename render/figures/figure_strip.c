@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { FRAMES_MAX = 6, FRAMES_MIN = 2, COLUMNS = 2, WORDS_SIZE = 160 };
+enum { FRAMES_MAX = 6, FRAMES_MIN = 2, COLUMNS = 2, LEGEND_LINES = 6, WORDS_SIZE = 160 };
 
 static const double SHARE = 0.55;   // of marks, letters aside
 static const double RIGHT = 58;   // points: the colour bar
@@ -17,6 +17,7 @@ static const double LEFT = 4, GAP = 5;   // points: beside and between frames
 static const double WORDS_HEIGHT = 12;   // points above each frame
 static const double LEGEND_HEIGHT = 12, NOTE_HEIGHT = 9;   // points below all: two lines
 static const double BOTTOM = 4;   // points
+static const double FREE_MARGIN = 10;   // points around a legend in the place of a frame
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
 
 typedef struct Strip {
@@ -131,6 +132,14 @@ static void lay_out(const FigureInput *input, Strip *strip)
     strip->height = block_page_height(strip->extent, strip->scale, SHARE);
 }
 
+// Of an odd number of frames the last one has nothing beside it: there the legend stands, if it is
+// high enough for all of its lines.
+static bool has_free_place(const Strip *strip)
+{
+    return strip->count % COLUMNS == 1 &&
+           strip->height > FREE_MARGIN + (LEGEND_LINES + 1) * NOTE_HEIGHT;
+}
+
 // "(a) U / L_0 = 0.011491", the part of the page that frame k takes.
 static Axes frame_axes(const Page *page, const FigureInput *input, const Strip *strip, int32_t k)
 {
@@ -179,10 +188,15 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     }
     Box beside = {.left = all.right + GAP * point, .top = all.top, .bottom = all.bottom};
     colorbar_draw(page, &map.bar, &beside);
+    bool free = has_free_place(strip);
+    double line = free ? NOTE_HEIGHT : 0;
     Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
-    block_page_legend(page, place);
+    if (free)
+        place = (Point){all.right - (strip->width - FREE_MARGIN) * point,
+                        all.bottom - (strip->height - FREE_MARGIN) * point};
+    block_page_legend(page, place, line);
     snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
-    place.y += NOTE_HEIGHT * point;
+    place.y += (NOTE_HEIGHT + (LEGEND_LINES - 2) * line) * point;
     text_draw(page->text, &style, place, words);
 cleanup:
     return error_is_clean(err);
@@ -198,8 +212,8 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err)
     TRY(read_strip(input, strip, quantity, err));
     lay_out(input, strip);
     int32_t rows = (strip->count + COLUMNS - 1) / COLUMNS;
-    def.height = (rows * (strip->height + WORDS_HEIGHT) + LEGEND_HEIGHT + NOTE_HEIGHT + BOTTOM) /
-                 page_width(def.style);
+    double below = has_free_place(strip) ? 0 : LEGEND_HEIGHT + NOTE_HEIGHT;
+    def.height = (rows * (strip->height + WORDS_HEIGHT) + below + BOTTOM) / page_width(def.style);
     TRY(page_begin(page, &def, err));
     TRY(draw_strip(page, input, strip, quantity, err));
 cleanup:

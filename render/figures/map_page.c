@@ -14,6 +14,8 @@ static const double FRONT_WIDTH = 0.6;   // points
 static const double EVENT_WIDTH = 0.4;   // points: what is thinner would not be seen in print
 static const double EVENTS_SHARE = 0.2;   // of the frame's width that so wide events may take
 
+static const double ROW_SLACK = 0.25;   // pixels by which a row may be off
+
 static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
@@ -55,6 +57,27 @@ static int32_t event_columns(const Page *page, const ResultView *view, double U_
     return (double)shown * wide < EVENTS_SHARE * columns ? wide : 1;
 }
 
+// In a PDF or SVG an image has no more rows than it needs: nodes that are evenly spaced stand on so
+// many rows, to a part of a pixel, that each begins where a row does.
+static int32_t rows_needed(const Page *page, const ResultView *view, const Axes *axes)
+{
+    SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
+    int32_t pixels = (int32_t)(axes->box.bottom - axes->box.top);
+    double least = INFINITY, from = 0, to = 0, height = axes->y.high - axes->y.low;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        node_extent(&data, i, &from, &to);
+        if (to > from) least = fmin(least, to - from);
+    }
+    double rows = round(height / least);
+    if (!canvas_is_vector(page->canvas) || !(rows >= 2 && rows < pixels)) return pixels;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        node_extent(&data, i, &from, &to);
+        double row = (from - axes->y.low) / height * rows;
+        if (fabs(row - round(row)) * pixels > ROW_SLACK * rows) return pixels;
+    }
+    return (int32_t)rows;
+}
+
 void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
                      MapPage *map)
 {
@@ -83,7 +106,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
                             .x_high = x_high,
                             .columns = columns,
                             .event_columns = event_columns(page, view, U_low, U_high, columns),
-                            .rows = (int32_t)(axes->box.bottom - axes->box.top)};
+                            .rows = rows_needed(page, view, axes)};
 }
 
 // What space_time needs of a result; the statuses only where a figure asks for them.

@@ -9,8 +9,9 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { ALIGNMENT = 64, FIRST_ROOM = 16 };
+enum { ALIGNMENT = 64, FIRST_ROOM = 16, LARGE_PAGE = 1 << 21 };
 
 static _Thread_local MemoryTally own_tally = {.until_failure = -1};
 
@@ -36,6 +37,16 @@ static bool fault_is_due(MemoryTally *tally)
     return false;
 }
 
+// Where the system has larger pages it is asked for them: each page that is touched for the first
+// time costs as much as 10 000 additions.
+static void *aligned(size_t bytes)
+{
+    if (bytes < 2 * LARGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
+    void *array = aligned_alloc(LARGE_PAGE, bytes);
+    if (array) madvise(array, bytes, MADV_HUGEPAGE);
+    return array;
+}
+
 // *padded: the bytes that were allocated, whole lines of ALIGNMENT.
 // NULL with ERROR_MEMORY: also where count * size does not fit into size_t.
 static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
@@ -48,7 +59,7 @@ static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
              (long long)count, size);
     *padded = (bytes / ALIGNMENT + 1) * ALIGNMENT;
     MemoryTally *tally = tally_now();
-    if (!fault_is_due(tally)) array = aligned_alloc(ALIGNMENT, *padded);
+    if (!fault_is_due(tally)) array = aligned(*padded);
     if (!array)
         FAIL(err, ERROR_MEMORY, "no memory for %lld items of %zu bytes", (long long)count, size);
     tally->counters.allocations++;

@@ -293,8 +293,7 @@ static void check_holes(int32_t apart)
         press(&on.rig.interface, wanted / largest, &on.seen);
         bool seen = largest_ratio(&on, &on.ladder) >= 1;
         RungRange whole = {0, on.ladder.rung_count};
-        bool excludes =
-            certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder, whole);
+        bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder, whole);
         if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
         excluded += excludes;
         hidden += !excludes && !seen;

@@ -109,8 +109,7 @@ TEST(a_window_sees_what_surrounds_it)
 {
     Error err = {0};
     PixelGrid grid = {0.4, 0.6, 0, 1, COLUMNS, ROWS, 1, 0, NULL, NULL};
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL,
-                      NULL,  1,       0, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL};
     assert_true(space_time_to_pixels(&data, &grid, &err));
     for (int32_t column = 0; column < COLUMNS; ++column)
         assert_float_equal(at(&grid, column, 2), 6, 0);   // inside the step that ends at 0.85

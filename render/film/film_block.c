@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/film/film_block.h"
+
+#include "base/memory.h"
+#include "render/figures/figures.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+enum { SAMPLES_MAX = 24, WORDS_SIZE = 200 };
+
+static const double BAR_GAP = 5, BAR_ROOM = 58;   // points: block to colour bar; what that takes
+static const double WORDS_HEIGHT = 11, LEGEND_HEIGHT = 11;   // points: over and below the block
+static const double LEGEND_LEFT = 12;   // points: block's frame to the words over and below it
+static const double BAR_LONGEST = 130;   // points
+static const double BAR_MARGIN = 4;   // points: above and below the bar, at least
+
+// --- fields --------------------------------------------------------------------------------------
+
+static bool has_fields(const char *folder)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/fields.pvd", folder);
+    return access(path, R_OK) == 0;
+}
+
+// For each frame the field stored nearest to it in time; none where all are outside of the film.
+bool film_block_open(FilmBlock *film, Error *err)
+{
+    const FilmClock *clock = film->clock;
+    const BlockTimes *times = &film->times;
+    bool inside = false;
+    film->shown = film->pair_index[0] = film->pair_index[1] = -1;
+    film->map = (BlockPage){.view = film->view, .share = 1};
+    if (!has_fields(film->folder)) return true;
+    TRY(block_times_read(film->folder, film->view, &film->times, err));
+    for (int32_t k = 0; k < times->count; ++k)
+        inside = inside || (times->times[k].t >= clock->t[0] &&
+                            times->times[k].t <= clock->t[clock->frames - 1]);
+    if (!inside) return true;
+    TRY(film->stored = NEW_ARRAY(int32_t, clock->frames, err));
+    int32_t at = 0;
+    for (int32_t k = 0; k < clock->frames; ++k) {
+        while (at + 1 < times->count &&
+               fabs(times->times[at + 1].t - clock->t[k]) <= fabs(times->times[at].t - clock->t[k]))
+            ++at;
+        film->stored[k] = at;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_stored(const FilmBlock *film, int32_t index, Block *block, Error *err)
+{
+    TRY(block_read(film->folder, film->view, &film->times, index, block, err));
+    TRY(block_take(block, film->quantity, err));
+    block_deform(block, film->magnification);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Colours and size hold for the whole film: they are those of some of its fields, evenly spaced in
+// its time.
+static bool fit_fields(FilmBlock *film, double extent[4], Error *err)
+{
+    Block sample[SAMPLES_MAX] = {0};
+    int32_t count = 0, frames = film->clock->frames;
+    bool asked = film->magnification > 0;
+    for (int32_t k = 0; k < SAMPLES_MAX; ++k) {
+        int32_t index = film->stored[(int64_t)k * (frames - 1) / (SAMPLES_MAX - 1)];
+        if (k > 0 && index == film->stored[(int64_t)(k - 1) * (frames - 1) / (SAMPLES_MAX - 1)])
+            continue;
+        TRY(read_stored(film, index, &sample[count++], err));
+    }
+    for (int32_t k = 0; k < count && !asked; ++k) {
+        double own = block_magnification(&sample[k]);
+        if (k == 0 || own < film->magnification) film->magnification = own;
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        double own[4];
+        block_deform(&sample[k], film->magnification);
+        block_extent(&sample[k], own);
+        for (int32_t d = 0; d < 4; ++d)
+            extent[d] = k == 0 ? own[d] : d % 2 ? fmax(extent[d], own[d]) : fmin(extent[d], own[d]);
+    }
+    TRY(block_page_fit(&film->map, sample, count, film->quantity, err));
+cleanup:
+    for (int32_t k = 0; k < SAMPLES_MAX; ++k) block_destroy(&sample[k]);
+    return error_is_clean(err);
+}
+
+// --- layout --------------------------------------------------------------------------------------
+
+// The block in the middle of its cell.
+bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error *err)
+{
+    double extent[4] = {0};
+    if (!fit_fields(film, extent, err)) return false;
+    double point = page->point, words = WORDS_HEIGHT + LEGEND_HEIGHT;
+    double width = (cell->right - cell->left) / point - BAR_ROOM;
+    double height = (cell->bottom - cell->top) / point - words;
+    double scale = block_page_scale(extent, width, 1);
+    double needed = block_page_height(extent, scale, 1);
+    if (needed > height) {
+        scale *= (height - (needed - scale * (extent[3] - extent[2]))) /
+                 (scale * (extent[3] - extent[2]));
+        needed = block_page_height(extent, scale, 1);
+    }
+    block_page_ranges(extent, scale, 1, &film->axes);
+    width = scale * (film->axes.x.high - film->axes.x.low);
+    double left = cell->left,
+           top = cell->top + (cell->bottom - cell->top - (needed + words) * point) / 2;
+    film->axes.box.left = round(left);
+    film->axes.box.right = film->axes.box.left + round(width * point);
+    film->axes.box.top = round(top + WORDS_HEIGHT * point);
+    film->axes.box.bottom = film->axes.box.top + round(needed * point);
+    return true;
+}
+
+// --- what is drawn -------------------------------------------------------------------------------
+
+static void set_map(const Page *page)
+{
+    uint8_t colors[3 * MAP_SIZE];
+    color_map_fill(colors);
+    canvas_set_map(page->canvas, colors, PAPER);
+}
+
+void film_block_draw(const Page *page, const FilmBlock *film)
+{
+    const Box *box = &film->axes.box;
+    double point = page->point, middle = (box->top + box->bottom) / 2;
+    double half = fmin(BAR_LONGEST * point, box->bottom - box->top - 2 * BAR_MARGIN * point) / 2;
+    Box beside = {.left = round(box->right + BAR_GAP * point),
+                  .top = round(middle - half),
+                  .bottom = round(middle + half)};
+    set_map(page);
+    colorbar_draw(page, &film->map.bar, &beside);
+    block_page_legend(
+        page, (Point){box->left + LEGEND_LEFT * point, box->bottom + 0.5 * LEGEND_HEIGHT * point},
+        0);
+}
+
+// Over the block: when its field was stored, and how much the deformation is enlarged.
+static void draw_words(const Page *page, const FilmBlock *film, const Block *block, bool mixed)
+{
+    char words[WORDS_SIZE];
+    double point = page->point;
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
+    Axis U = figure_length_axis(film->view, "U", 0, block->U);
+    Box line = {film->axes.box.left, film->axes.box.top - WORDS_HEIGHT * point,
+                film->axes.box.right, film->axes.box.top};
+    draw_fill(page->canvas, PAPER, &line);
+    int length = mixed ? 0
+                       : snprintf(words, sizeof words, "stored at %s = %.*f,  ", U.label,
+                                  film->U_decimals, block->U * U.factor);
+    snprintf(words + length, sizeof words - (size_t)length, "deformation \u00d7 %g",
+             film->magnification);
+    style.size *= fmin(1, (line.right - line.left - LEGEND_LEFT * point) /
+                              text_width(page->text, style.size, words));
+    text_draw(page->text, &style, (Point){line.left + LEGEND_LEFT * point, line.bottom - 3 * point},
+              words);
+}
+
+static bool put_block(const Page *page, const FilmBlock *film, const Block *block, bool mixed,
+                      Error *err)
+{
+    set_map(page);
+    draw_fill(page->canvas, PAPER, &film->axes.box);
+    if (!block_page_draw(page, &film->map, block, &film->axes, err)) return false;
+    draw_words(page, film, block, mixed);
+    return true;
+}
+
+// Only where a frame shows another stored field than the one before.
+static bool draw_stored(const Page *page, FilmBlock *film, int32_t index, Error *err)
+{
+    Block *block = &film->block;
+    if (index == film->shown) return true;
+    block_destroy(block);
+    TRY(read_stored(film, index, block, err));
+    TRY(put_block(page, film, block, false, err));
+    film->shown = index;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Both of a pair, the one that is there already kept.
+static bool read_pair(FilmBlock *film, int32_t first, Error *err)
+{
+    if (film->pair_index[1] == first) {
+        Block kept = film->pair[1];
+        film->pair[1] = film->pair[0];
+        film->pair[0] = kept;
+        film->pair_index[1] = film->pair_index[0];
+        film->pair_index[0] = first;
+    }
+    for (int32_t k = 0; k < 2; ++k) {
+        if (film->pair_index[k] == first + k) continue;
+        block_destroy(&film->pair[k]);
+        film->pair_index[k] = -1;
+        TRY(read_stored(film, first + k, &film->pair[k], err));
+        film->pair_index[k] = first + k;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What is drawn of two stored fields, linear in time, in the place of the first: its own is read
+// again where it is wanted.
+static bool draw_mixture(const Page *page, FilmBlock *film, int32_t first, double t, Error *err)
+{
+    TRY(read_pair(film, first, err));
+    Block *a = &film->pair[0], *b = &film->pair[1];
+    double part = (t - a->t) / (b->t - a->t);
+    if (a->frame.node_count != b->frame.node_count)
+        FAIL(err, ERROR_FILE, "two fields of the film have %d and %d nodes", a->frame.node_count,
+             b->frame.node_count);
+    block_mix(a, b, part);
+    a->t = t;   // from here on to the second
+    film->shown = -1;
+    TRY(put_block(page, film, a, true, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// From one step to the next the block is linear in time, as all else is in the film; where steps
+// between two stored fields are not known it shows the nearer one, and says when that was stored.
+bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Error *err)
+{
+    const BlockTimes *times = &film->times;
+    int32_t first = film->stored[k];
+    if (times->times[first].t > t && first > 0) --first;
+    bool neighbours = first + 1 < times->count && times->times[first].t <= t &&
+                      times->row[first + 1] == times->row[first] + 1;
+    film->still = !neighbours && film->shown == film->stored[k] ? film->still + 1 : 1;
+    if (film->still > film->still_most) film->still_most = film->still;
+    return neighbours ? draw_mixture(page, film, first, t, err)
+                      : draw_stored(page, film, film->stored[k], err);
+}
+
+void film_block_contact(const Page *page, const FilmBlock *film, int64_t row)
+{
+    block_page_contact(page, &film->map, film->shown >= 0 ? &film->block : &film->pair[0], row,
+                       &film->axes);
+}
+
+void film_block_close(FilmBlock *film)
+{
+    block_times_destroy(&film->times);
+    block_destroy(&film->block);
+    for (int32_t k = 0; k < 2; ++k) block_destroy(&film->pair[k]);
+    memory_free(film->stored);
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The block in a film: which stored field each frame shows, or which two of them mixed, and how
+// long it stands still. Called by film_page.
+#ifndef AMONTONS_RENDER_FILM_FILM_BLOCK_H
+#define AMONTONS_RENDER_FILM_FILM_BLOCK_H
+
+#include "render/figures/block_page.h"
+#include "render/film/film_clock.h"
+
+typedef struct FilmBlock {
+    const char *folder;   // of the result
+    ResultView *view;
+    const FilmClock *clock;
+    BlockQuantity quantity;
+    double magnification;   // 0: to be chosen
+    BlockPage map;
+    int32_t U_decimals;
+    BlockTimes times;   // owned
+    int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
+    int32_t still, still_most;   // frames for which the block has stood, and did at most
+    int32_t shown;   // the one that stands on the page; -1: none, or a mixture
+    Block pair[2];   // of neighbouring steps, to be mixed; owned
+    int32_t pair_index[2];   // of `times`; -1: none
+    Block block;   // that which is shown, its field; owned
+    Axes axes;
+} FilmBlock;
+
+// The first five are given; finds the fields, `stored` NULL where there are none.
+bool film_block_open(FilmBlock *film, Error *err);
+void film_block_close(FilmBlock *film);   // zeroed is fine
+
+// Scale and place in `cell`, to scale, with its colour bar at its right.
+bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error *err);
+void film_block_draw(const Page *page, const FilmBlock *film);   // what stands: bar and legend
+
+// The block at frame k, at time t: over what is on the page of it.
+bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Error *err);
+// What the contact does at a step.
+void film_block_contact(const Page *page, const FilmBlock *film, int64_t row);
+
+#endif
