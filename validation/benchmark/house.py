@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the source looks like and what runs cost, of one version beside another.
 
-    validation/benchmark/house.py [--turns 3] [--page validation/benchmark/house.md] BEFORE AFTER
+    validation/benchmark/house.py BEFORE AFTER [--turns 3] [--cases CASE ...] [--page validation/benchmark/house.md]
 
 BEFORE and AFTER are checkouts, each with its build/bin. Lines and files by folder are those of the checkouts. Runs take
 turns, each a process by itself on one processor; of several turns the least processor time stands in the table, so that
