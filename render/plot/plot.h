@@ -82,9 +82,7 @@ typedef struct Plot {
     double found[2];   // least and largest value of the maps
     bool has_inset;
     PlotPanel inset;
-    // [count of main's last series, which is measured] what the only curve has there; NULL: nothing is
-    // compared; owned
-    double *computed;
+    double *computed;   // [count] at main's last series, which is measured; NULL: nothing is; owned
     double place[4];   // of the inset in the frame: left, top, right, bottom; 0 to 1
 } Plot;
 
