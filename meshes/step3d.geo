@@ -6,7 +6,7 @@
 // Physical groups: body (all volumes), contact (z = 0; where it is in several pieces contact_1,
 // contact_2, ...), top, rod (x = 0), leading, left (y = 0) and right (surfaces).
 //
-//   In a scene:   mesh: {file: step3d.geo, set: {file: /home/me/part.step, unit: 1e-3}}
+//   In a scene:   mesh: {file: step3d.geo, set: {file: ../part.step, unit: 1e-3}}
 //   By hand:      gmsh -3 step3d.geo -setstring file part.step
 
 DefineConstant[

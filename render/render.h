@@ -70,13 +70,14 @@ bool amontons_render_film(const char *folder, const FilmRequest *request, Error 
 typedef struct RenderMesh {
     const char *title, *note;   // two lines above the picture; NULL or empty: none
     int32_t node_count;
-    const double *position;   // [node_count * 2] (x, z), length
+    int32_t dim;
+    const double *position;   // [node_count * dim] (x, z), in space (x, y, z), length
     int32_t element_count;
     const uint8_t *kind;   // [element_count] ElementKind
     const int32_t *first_node;   // [element_count + 1] offsets into element_nodes
     const int32_t *element_nodes;
     int32_t group_count;
-    const MeshGroup *groups;   // [group_count]; curves are drawn and named
+    const MeshGroup *groups;   // [group_count]; curves are drawn and named, in space surfaces
     const char *unit;   // of lengths: "m" (drawn with a prefix), "~{L}_{0}"; NULL: not known
     double rod_low, rod_high;   // strip of the face x = least that the rod pushes, z; NaN: none
     PictureStyle style;   // but its format

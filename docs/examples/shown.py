@@ -9,7 +9,7 @@ stand, in a folder of its own.
 
 `<!-- small: KEY=VALUE -->` above a block says what is coarse there. A line `<!-- from FILE -->` above a picture names the file that a command made: it is kept in docs/pictures, small enough
 for a page. A block that begins with `# docs/examples/NAME` (or `//`) shows that file. In a sentence, `0.329 +- 0.003<!-- mu_M of results/NAME -->` is what
-the command with `-o results/NAME` prints behind mu_M. --check: each mu within the larger of both bars, 1 of the last digit shown, or 1 % (runs differ by that
+the command with `-o results/NAME` prints behind mu_M; `mu_M of ./amontons run SCENE ...` names a command that the page does not show. --check: each mu within the larger of both bars, 1 of the last digit shown, or 1 % (runs differ by that
 from processor to processor, as slip goes one cell farther or not); only what prints a mu is run, and what it needs.
 """
 import argparse
@@ -31,7 +31,7 @@ VALUE = r"[\d.]+(?:e[-+]?\d+)?"
 MU = re.compile(rf"^ +(mu_\w+) +(({VALUE})(?: \+- ({VALUE}))?)(?=[ :,]|$)", re.M)   # a line of what a run ends with
 BLOCK = r"^(?:<!-- small: (\S+) -->\n)?```console\n(.*?)^```\n"
 RESULT = re.compile(r" -o (\S+)")
-IN_SENTENCE = re.compile(rf"(({VALUE})(?:\s\+-\s({VALUE}))?)(<!-- (mu_\w+) of (\S+) -->)")
+IN_SENTENCE = re.compile(rf"(({VALUE})(?:\s\+-\s({VALUE}))?)(<!-- (mu_\w+) of (\./amontons [^>]+|\S+) -->)")
 # Coarse meshes, wide error bars or none, whatever the command asks for.
 SMALL = r"""#!/bin/bash
 words=()
@@ -120,6 +120,8 @@ def sentences(text, printed_by, small, apart):
     def number(found):
         shown, value, bar, mark, name, result = found.groups()
         made = mu_lines(printed_by.get(result, "")).get(name)
+        if small and result.startswith("./"):
+            return found[0]
         if not made:
             raise SystemExit(f"no command prints {name} of {result}")
         if not small and not agree((value, bar), made[1:]):
@@ -174,6 +176,9 @@ def run_page(page, folder, environment, options):
             written = written.replace(mark + shown, mark + (SOURCE / name).read_text())
             if small:
                 raise SystemExit(f"{page.name} shows another {name}")
+    for *_, source in [] if small else IN_SENTENCE.findall(text):
+        if source.startswith("./"):
+            printed_by[source] = printed_by.get(source) or printed(f"{source} -o results/sentence --overwrite", folder, environment)
     written = sentences(written, printed_by, small, apart)
     if not small and not options.check:
         page.write_text(written)

@@ -3,7 +3,9 @@
 // names, the strip the rod pushes. Drawn to scale from the arrays handed in.
 #include "render/render.h"
 
+#include "base/memory.h"
 #include "render/canvas/key.h"
+#include "render/figures/mesh_space.h"
 #include "render/figures/rod_mark.h"
 
 #include <math.h>
@@ -101,6 +103,11 @@ static int32_t region_count(const RenderMesh *mesh)
 static double picture_shape(const RenderMesh *mesh)
 {
     Axes axes = {0};
+    if (mesh->dim > 2) {
+        double broad = page_width(&mesh->style);
+        double tall = mesh_space_shape(mesh) * (broad - 2 * RIGHT) + key_line_height();
+        return fmin((tall + head_points(mesh) + 2 * RIGHT) / broad, SIDE_MAX);
+    }
     choose_ranges(mesh, &axes);
     double width = page_width(&mesh->style), key = region_count(mesh) > 1 ? key_line_height() : 0;
     double frame = (width - LEFT - RIGHT) * frame_shape(&axes);
@@ -328,6 +335,39 @@ static void draw_page(const RenderMesh *mesh, Page *page)
     axes_draw(page, &map.axes);
 }
 
+// Groups of surfaces in colours, which a key names; in the middle of what is left.
+static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
+{
+    enum { NAMES = 12 };
+    KeyEntry entries[NAMES];
+    int32_t count = 0, contact = 0;
+    Color *color = NEW_ARRAY(Color, mesh->group_count, err);
+    if (!color) return false;
+    for (int32_t g = 0; g < mesh->group_count; ++g) {
+        const MeshGroup *group = &mesh->groups[g];
+        if (group->dimension != 2) continue;
+        bool known = is_contact(group) || strcmp(group->name, "top") == 0 ||
+                     strcmp(group->name, "rod") == 0;
+        color[g] = known ? group_color(group, contact) : REGION[1 + count % (REGIONS - 1)];
+        contact += is_contact(group);
+        if (count < NAMES) entries[count++] = (KeyEntry){KEY_PATCH, color[g], group->name};
+    }
+    key_draw(page, entries, count);
+    MeshPage map = {.mesh = mesh, .page = page};
+    double margin = RIGHT * page->point, width = canvas_width(page->canvas) - 2 * margin;
+    double top = head_points(mesh) * page->point, height = page->room.bottom - margin - top;
+    double shape = mesh_space_shape(mesh), narrow = fmin(width, height / shape);
+    map.axes.box.left = margin + (width - narrow) / 2;
+    map.axes.box.right = map.axes.box.left + narrow;
+    map.axes.box.top = top;
+    map.axes.box.bottom = top + narrow * shape;
+    bool done = mesh_space_draw(mesh, page, &map.axes.box, color, err);
+    map.axes.box.left = margin;
+    draw_head(&map);
+    memory_free(color);
+    return done;
+}
+
 __attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMesh *mesh,
                                                                  const char *path, Error *err)
 {
@@ -336,7 +376,10 @@ __attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMes
     TRY(page_style_of_name(path, &style, err));
     PageDef def = {.style = &style, .height = picture_shape(mesh)};
     TRY(page_begin(&page, &def, err));
-    draw_page(mesh, &page);
+    if (mesh->dim > 2)
+        TRY(draw_space(mesh, &page, err));
+    else
+        draw_page(mesh, &page);
     TRY(page_finish(&page, path, mesh->title ? mesh->title : "mesh", err));
 cleanup:
     error_context(err, "picture %s", path);

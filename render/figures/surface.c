@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A face of one element alone is boundary. It is cut into a lattice on which places and values are
+// A face on the outside is cut into a lattice on which places and values are
 // those of the shape functions. What is left of a block that is cut by several planes is the part
 // behind the first, the part before the first and behind the second, and so on.
 #include "render/figures/surface.h"
 
 #include "base/memory.h"
-#include "io/mesh/element_faces.h"
 #include "io/mesh/shape_functions.h"
+#include "render/figures/outer_faces.h"
 #include "render/figures/surface_cut.h"
 
 #include <math.h>
@@ -17,73 +17,15 @@ enum { PARTS_FLAT = 3, PARTS_CURVED = 6, LATTICE = PARTS_CURVED + 1 };
 
 static const double BEND = 0.87;   // cosine of the angle from which on two faces have an edge
 
-typedef struct BoundaryFace {
-    int32_t key[FACE_CORNERS_MAX];   // its corners, ascending; -1: no more
-    int32_t element, side;
-} BoundaryFace;
-
 typedef struct FaceSide {
     int32_t low, high, through;   // its ends; the node between them, -1: none
     double normal[3];   // of the face as it was
 } FaceSide;
 
-static int compare_indices(const void *left, const void *right)
+static ElementList elements_of(const FieldFrame *frame)
 {
-    int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
-    return a < b ? -1 : a > b;
-}
-
-static int compare_faces(const void *left, const void *right)
-{
-    return memcmp(left, right, sizeof(int32_t[FACE_CORNERS_MAX]));
-}
-
-// Nodes of the face in the frame, in its kind's order; returns how many.
-static int32_t face_nodes(const FieldFrame *frame, const BoundaryFace *face, ElementKind *kind,
-                          int32_t nodes[FACE_NODES_MAX])
-{
-    ElementFace own = element_face((ElementKind)frame->kind[face->element], face->side);
-    int32_t count = element_node_count(own.kind);
-    for (int32_t a = 0; a < count; ++a)
-        nodes[a] = frame->element_nodes[frame->first_node[face->element] + own.node[a]];
-    *kind = own.kind;
-    return count;
-}
-
-// All faces, sorted; those of two elements stand side by side.
-static bool list_faces(const FieldFrame *frame, BoundaryFace **faces, int32_t *count, Error *err)
-{
-    int64_t all = 0;
-    for (int32_t e = 0; e < frame->element_count; ++e)
-        all += element_face_count((ElementKind)frame->kind[e]);
-    *count = 0;
-    TRY(*faces = NEW_ARRAY(BoundaryFace, all, err));
-    for (int32_t e = 0; e < frame->element_count; ++e)
-        for (int32_t side = 0; side < element_face_count((ElementKind)frame->kind[e]); ++side) {
-            BoundaryFace *face = &(*faces)[(*count)++];
-            int32_t nodes[FACE_NODES_MAX];
-            ElementKind kind;
-            *face = (BoundaryFace){{-1, -1, -1, -1}, e, side};
-            face_nodes(frame, face, &kind, nodes);
-            memcpy(face->key, nodes, (size_t)element_corner_count(kind) * sizeof *nodes);
-            qsort(face->key, (size_t)element_corner_count(kind), sizeof *nodes, compare_indices);
-        }
-    qsort(*faces, (size_t)*count, sizeof **faces, compare_faces);
-cleanup:
-    return error_is_clean(err);
-}
-
-// Only those of one element stay.
-static int32_t keep_boundary(BoundaryFace *faces, int32_t count)
-{
-    int32_t kept = 0;
-    for (int32_t k = 0; k < count; ++k) {
-        bool before = k > 0 && compare_faces(&faces[k - 1], &faces[k]) == 0;
-        bool after = k + 1 < count && compare_faces(&faces[k], &faces[k + 1]) == 0;
-        if (k > 0 && before) continue;   // its twin was looked at
-        if (!after) faces[kept++] = faces[k];
-    }
-    return kept;
+    return (ElementList){frame->element_count, frame->kind, frame->first_node,
+                         frame->element_nodes};
 }
 
 // --- triangles -----------------------------------------------------------------------------------
@@ -96,13 +38,14 @@ static SurfacePoint node_point(const Block *block, int32_t node)
     return point;
 }
 
-static bool add_face(const Block *block, const BoundaryFace *face, const SpaceCut *cut,
+static bool add_face(const Block *block, const OuterFace *face, const SpaceCut *cut,
                      Surface *surface, Error *err)
 {
     int32_t nodes[FACE_NODES_MAX];
     ElementKind kind;
     SurfacePoint lattice[LATTICE][LATTICE];
-    int32_t count = face_nodes(&block->frame, face, &kind, nodes);
+    ElementList elements = elements_of(&block->frame);
+    int32_t count = outer_face_nodes(&elements, face, &kind, nodes);
     bool triangle = element_corner_count(kind) == 3;
     int32_t parts = count > element_corner_count(kind) ? PARTS_CURVED : triangle ? 1 : PARTS_FLAT;
     for (int32_t j = 0; j <= parts; ++j)
@@ -141,11 +84,13 @@ static void face_normal(const FieldFrame *frame, const int32_t *nodes, int32_t c
     for (int32_t d = 0; d < 3; ++d) normal[d] /= sqrt(size);
 }
 
-static int32_t add_face_sides(const FieldFrame *frame, const BoundaryFace *face, FaceSide *sides)
+static int32_t add_face_sides(const FieldFrame *frame, const OuterFace *face, FaceSide *sides)
 {
     int32_t nodes[FACE_NODES_MAX];
     ElementKind kind;
-    int32_t count = face_nodes(frame, face, &kind, nodes), corners = element_corner_count(kind);
+    ElementList elements = elements_of(frame);
+    int32_t count = outer_face_nodes(&elements, face, &kind, nodes),
+            corners = element_corner_count(kind);
     for (int32_t k = 0; k < corners; ++k) {
         int32_t a = nodes[k], b = nodes[(k + 1) % corners];
         sides[k] = (FaceSide){
@@ -175,7 +120,7 @@ cleanup:
 }
 
 // Sides of the boundary, those of one face side by side: [*count].
-static bool list_sides(const FieldFrame *frame, const BoundaryFace *faces, int32_t face_count,
+static bool list_sides(const FieldFrame *frame, const OuterFace *faces, int32_t face_count,
                        FaceSide **sides, int32_t *count, Error *err)
 {
     *count = 0;
@@ -207,12 +152,12 @@ cleanup:
 bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface *surface,
                    Error *err)
 {
-    BoundaryFace *faces = NULL;
+    OuterFace *faces = NULL;
     FaceSide *sides = NULL;
     int32_t count = 0, side_count = 0;
     *surface = (Surface){.with_edges = edges};
-    TRY(list_faces(&block->frame, &faces, &count, err));
-    count = keep_boundary(faces, count);
+    ElementList elements = elements_of(&block->frame);
+    TRY(outer_faces(&elements, &faces, &count, err));
     for (int32_t f = 0; f < count; ++f) TRY(add_face(block, &faces[f], cut, surface, err));
     TRY(list_sides(&block->frame, faces, count, &sides, &side_count, err));
     TRY(add_lines(block, sides, side_count, cut, surface, err));

@@ -139,6 +139,10 @@ static void print_mu_hold(const RunSummary *summary)
     print_estimate("mu_hold", summary->mu_hold, bar ? summary->mu_hold_error : (double)NAN,
                    summary->mu_hold_known_to);
     if (bar) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
+    if (bar && !summary->drops_enough) {   // of the last of its runs, which need not go on so long
+        say(": what the contact holds, by the runs behind the error bar\n");
+        return;
+    }
     say("%s: what the contact holds, ", summary->drops_enough ? "" : " so far");
     if (summary->drops == 1)
         say("the one load ratio at which the load dropped\n");

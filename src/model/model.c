@@ -19,6 +19,9 @@ void model_destroy(Model *model)
 
 _Static_assert(MATERIALS_MAX == SCENE_MATERIALS_MAX + 1, "a material for each region, and one");
 
+// Of the contact: a layer, or pads of one material, touch the floor where no other does.
+static const double FLOOR_PART = 0.9;
+
 static bool is_alike(const Material *a, const Material *b)
 {
     return a->young == b->young && a->poisson == b->poisson && a->density == b->density &&
@@ -70,6 +73,39 @@ double model_slip_per_mu(const Model *model)
     FrictionLaw one = friction_constant(1);
     double pressure = model->scales.load / (model->length * model->breadth);
     return friction_slip(&one, pressure, model->height, model->materials.mean.young);
+}
+
+// Of the layer or the pads that the block stands on, where these have a material of their own; else
+// 0, as where they stand beside others.
+static double floor_height(const Model *model)
+{
+    const Materials *materials = &model->materials;
+    double touching = 0, width = materials->width[model->contact_region];
+    if (materials->count == 1 || !(width > 0)) return 0;
+    for (int32_t i = 0; i < model->interface.contact_count; i++)
+        touching += model->interface.weight[i];
+    return width < FLOOR_PART * touching ? 0 : materials->area[model->contact_region] / width;
+}
+
+static double crossing_along(const Model *model)
+{
+    return model->length / materials_slip_speed(&model->materials);
+}
+
+static double crossing_floor(const Model *model)
+{
+    const Material *floor = &model->materials.list[model->contact_region];
+    return floor_height(model) / material_slip_speed(floor);
+}
+
+double model_crossing(const Model *model)
+{
+    return fmax(crossing_along(model), crossing_floor(model));
+}
+
+bool model_floor_is_slow(const Model *model)
+{
+    return crossing_floor(model) > crossing_along(model);
 }
 
 // Slip times E L/H is the drop (mu_S - mu_K) F_N.

@@ -65,6 +65,12 @@ double model_friction_slip(const Model *model);
 // The slip that a fall of the coefficient by 1 can drive, p H / E, length.
 double model_slip_per_mu(const Model *model);
 
+// How long waves take along the block in its fastest material, or through what it stands on,
+// whichever is longer, time. Friction feeds no faster oscillation on a soft layer: waves of a stiff
+// block above it hardly come through.
+double model_crossing(const Model *model);
+bool model_floor_is_slow(const Model *model);   // the latter
+
 // By how much the machine yields less when the load falls by that drop, length; 0: it is rigid.
 double model_machine_yield(const Model *model);
 

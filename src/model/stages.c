@@ -25,11 +25,26 @@ static const double STAGES_REST = 100, STAGES_STEADY = 640, STAGES_CYCLE = 20;
 // states that are not certified; what is damped slides less far.
 static const double STAGES_SLIDING = 240, BY_SLOWNESS = 0.25, BY_RUNAWAY = 1.0 / 3;
 static const double RUNAWAY_LEAST = 0.05;
+// Of each contact node in each sliding on a floor that is so soft that waves through it are slower
+// than along the block: slip is slow and not certified there on most of its way, and followed.
+static const double STAGES_WATCHED = 100;
 static const double STAGES_STEP = 2;   // of SDIRK2
 static const double PERIODIC_SLIDINGS = 8;   // after which a run that waits for it has its period
 
 // C/W from which a block slides on; up to which W - C is known well enough to count oscillations.
 static const double STEADY_FROM = 1.65, CYCLES_UP_TO = 0.5;
+
+// What the rod pushes: the largest region, where the block stands on another, smaller one; else the
+// mean of all.
+static const Material *pushed_material(const Model *model)
+{
+    const Materials *materials = &model->materials;
+    int32_t largest = 0;
+    for (int32_t k = 1; k < materials->count; k++)
+        if (materials->area[k] > materials->area[largest]) largest = k;
+    bool other = materials->count > 1 && largest != model->contact_region;
+    return other ? &materials->list[largest] : &materials->mean;
+}
 
 // A bar on friction is compressed by a force that falls along it; below the rod it is sheared and,
 // as a beam that stands on the floor, bent.
@@ -39,7 +54,7 @@ static double block_yield(const Model *model)
     model_rod_strip(model->scene, height, &middle, &width);
     double slender = middle / length;
     double yield = 0.5 * length / height + SHEAR_YIELD * slender + 4 * pow(slender, 3);
-    return yield / (model->materials.mean.young * model->breadth);
+    return yield / (pushed_material(model)->young * model->breadth);
 }
 
 // What touches the floor is a layer, or pads, of a material of its own: sheared over its height.
@@ -58,17 +73,19 @@ static double floor_yield(const Model *model)
 
 Drive stages_drive(const Model *model)
 {
-    const Material *mean = &model->materials.mean;
+    const Material *pushed = pushed_material(model);
     const Material *floor = &model->materials.list[model->contact_region];
     double stiffness = model_machine(model).stiffness;
     double block = block_yield(model), layer = floor_yield(model);
     double yield = block + layer + (stiffness > 0 ? 1 / stiffness : 0);
-    double damped = block * mean->eta1 / mean->young + layer * floor->eta1 / floor->young;
+    double damped = block * pushed->eta1 / pushed->young + layer * floor->eta1 / floor->young;
     double slope = friction_slope(&model->law, model->scene->rod.velocity);
     return (Drive){.load = model->scales.load,
                    .yield = yield,
                    .damping = damped / (yield * yield),
-                   .mass = mean->density * model->length * model->breadth * model->height,
+                   .mass = model->materials.mean.density * model->length * model->breadth *
+                           model->height,
+                   .watched = model_floor_is_slow(model) ? model->interface.contact_count : 0,
                    .weakening = -slope * model->scales.load};
 }
 
@@ -105,7 +122,8 @@ static double sliding_stages(const Scene *scene, const Drive *drive)
         return fmin(slidings * STAGES_SLIDING, STAGES_STEADY);
     double slowness = fmax(law->critical_velocity / scene->rod.velocity, 1);
     double each = STAGES_SLIDING * pow(slowness, BY_SLOWNESS) *
-                  pow(fmax(1 - damped, RUNAWAY_LEAST), BY_RUNAWAY);
+                      pow(fmax(1 - damped, RUNAWAY_LEAST), BY_RUNAWAY) +
+                  STAGES_WATCHED * drive->watched;
     double cycles = count_slidings(scene, drive, cycle_drop(scene, drive));
     return fmax(each * slidings, STAGES_CYCLE * cycles);
 }

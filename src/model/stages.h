@@ -12,6 +12,7 @@ typedef struct Drive {
     double yield;   // of the rod for each unit of force, until all yields no more, length / force
     double damping;   // of the same motion, force * time / length
     double mass;   // of the block, force * time^2 / length
+    int32_t watched;   // contact nodes on a floor that waves are slow in; 0: it is not
     double weakening;   // -mu' F_N of slip as fast as the rod, force * time / length
 } Drive;
 

@@ -131,11 +131,6 @@ bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit,
                     const InfoOptions *options, Error *err)
 {
     char note[200];
-    if (mesh->dim > 2)
-        FAIL(err, ERROR_INPUT,
-             "%s: is a mesh in space: there are no pictures of those yet; ParaView "
-             "shows the fields of a run",
-             mesh->path);
     const char *name = strrchr(mesh->path, '/');
     MeshSummary summary = mesh_summarise(mesh);
     bool in_metres = unit && strcmp(unit, "m") == 0;
@@ -152,6 +147,7 @@ bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit,
                           .note = note,
                           .unit = unit,
                           .node_count = mesh->node_count,
+                          .dim = mesh->dim,
                           .position = mesh->position,
                           .element_count = mesh->element_count,
                           .kind = mesh->kind,

@@ -29,7 +29,7 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     Model *model = &simulation->model;
     StepSizes sizes = {.slip = model_friction_slip(model),
                        .yield = model_machine_yield(model),
-                       .crossing = model->length / materials_slip_speed(&model->materials),
+                       .crossing = model_crossing(model),
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
     def.relax_step = model->scales.time;

@@ -13,8 +13,8 @@
 
 // Rungs double: where s lies half way between two of them in log s, s m + k/s at the nearest is
 // this times its least, (sqrt 2 + 1/sqrt 2)/2. With matrices of both: s M + K/s there is a sum of
-// theirs with weights that make at least 1/this together. A bound of memory is at most this times
-// the mean of theirs (1.049 by evaluation over all `fading` and c).
+// theirs with weights that make at least 1/this together, and N is at most this times such a sum
+// (by evaluation over all `fading` and a).
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
 // A ratio that changes by less than this part in a power of the iteration has settled: enough to
@@ -60,17 +60,17 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// part S + (1 - part) S_C - W - N on F, part < 1, is positive definite; S that of `rung` (NULL:
-// part is 0), N the most that is remembered at 1/bound->reach and faster, or with a rung the bound.
-// Parts of condensed operators are less than their parts condensed: with open nodes the test is a
-// little stricter between its ends.
+// S_C + narrow (S - S_C)/BETWEEN_RUNGS - W - N on F is positive definite; S that of `rung` (NULL:
+// narrow is 0), N of what is remembered at 1/reach and faster. Parts of condensed operators are
+// less than their parts condensed: with open nodes the test is a little stricter between its ends.
 static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *rung,
-                        double part, const MemoryBound *bound)
+                        double narrow, double reach)
 {
     MovingSet *moving = &certificate->moving;
     moving_set_find(moving, state, false);
     if (!moving->weakens && !moving->remembers) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
+    double part = narrow / BETWEEN_RUNGS, factor = rung ? BETWEEN_RUNGS : 1;
     if (certificate->damping)
         damping = close_matrix(certificate, state, &certificate->damping_contact);
     if (rung) own = close_matrix(certificate, state, rung);
@@ -80,10 +80,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
-    if (rung)
-        moving_set_subtract_bound(moving, bound, certificate->matrix);
-    else
-        moving_set_subtract_memory(moving, bound->reach, certificate->matrix);
+    moving_set_subtract_memory(moving, reach, narrow, factor, certificate->matrix);
     certificate->checks++;
     return dense_cholesky(certificate->matrix, moving->count);
 }
@@ -91,22 +88,9 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
 bool certificate_holds(Certificate *certificate, const State *state, double reach)
 {
     double started = clock_seconds();
-    MemoryBound bound = {.reach = reach};
-    bool holds = is_definite(certificate, state, NULL, 0, &bound);
+    bool holds = is_definite(certificate, state, NULL, 0, reach);
     certificate->seconds += clock_seconds() - started;
     return holds;
-}
-
-// What oscillates and grows by `narrow` at most, at the s of a rung and half way to the next.
-static bool is_narrow(Certificate *certificate, const State *state, ContactMatrix *rung,
-                      double reach, double narrow)
-{
-    MemoryBound bound = {
-        .reach = reach, .narrow = narrow, .cosine = narrow, .factor = BETWEEN_RUNGS};
-    if (!is_definite(certificate, state, rung, narrow / BETWEEN_RUNGS, &bound)) return false;
-    bound.cosine = 1;   // without memory that asks less
-    return !certificate->moving.remembers ||
-           is_definite(certificate, state, rung, 1 / BETWEEN_RUNGS, &bound);
 }
 
 // a = cos(arctan(pi/log g)) of the header is ratio/sqrt(1 + ratio^2), ratio = log g/pi.
@@ -118,7 +102,7 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, L
     bool less = ladder_fill(ladder);   // BETWEEN_RUNGS is that of neighbours
     for (int32_t k = range.first; less && k < range.end; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) less = is_narrow(certificate, state, rung, ladder_reach(ladder, k), narrow);
+        if (rung) less = is_definite(certificate, state, rung, narrow, ladder_reach(ladder, k));
     }
     certificate->seconds += clock_seconds() - started;
     return less;

@@ -34,10 +34,7 @@
 //     Re lambda >= 0 and |lambda| >= 1/h: |lambda| < 1/h for all that grows, so that the step
 //     resolves it. (Else the real part of u*(lambda m + c + k/lambda - memory/(lambda + fading))u
 //     is at least u*(C - W - N)u: it cannot be 0.)
-//   * S_C + c (S(s) - S_C) - W - N(c, s) positive definite for c = a, c = 1 and all s >= 1/h, N
-//     linear in c and at least memory Re 1/(lambda + fading) at |lambda| = s, Re lambda = c s: of
-//     what has |lambda| >= 1/h, Re lambda < a |lambda| for all that grows. (As above; what is
-//     definite at both ends is so between them.)
+//   * The third test takes N with Re lambda >= a |lambda|, |lambda| >= s, for all s from 1/h on.
 //
 // All leave out that pressure follows slip. Dampers of soft rod nodes
 // belong to C; their springs are left out, which only makes the tests stricter. Called by

@@ -10,10 +10,10 @@
 // one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w:
 // the soft ends of its strip are led by it. Last, where friction remembers, z of each slipping
 // tangent: what friction remembers of its slip, a way that fades, dz/dt = v - fading z, so that
-// friction falls by memory z. Its part c of x comes back as (s y - c)/(s + fading), and to the right
-// side is added -memory c/(s (s + fading)); W is W(s). Of each shift's space only pairs whose residual is
-// below RESIDUAL_LIMIT are believed; neighbouring shifts see some of them twice, and keep_rate
-// drops the second.
+// friction falls by memory z. Its part c of x comes back as (s y - c)/(s + fading), and to the
+// right side is added -memory c/(s (s + fading)); W is W(s). Of each shift's space only pairs whose
+// residual is below RESIDUAL_LIMIT are believed; neighbouring shifts see some of them twice, and
+// keep_rate drops the second.
 #include "stepping/growth.h"
 
 #include "base/dense.h"

@@ -210,33 +210,15 @@ void moving_set_subtract_weakening(const MovingSet *set, double reach, double *m
     }
 }
 
-// |s| Re 1/(s + k), k = `fades` |s|. It falls as |s| grows. In the cosine of arg s it rises and is
-// concave for k < |s|, falls and is convex above: a tangent or a chord lies above it.
-static double remembered_part(double fades, double cosine)
-{
-    return (cosine + fades) / (1 + 2 * cosine * fades + fades * fades);
-}
-
-// The chord, or the tangent at `narrow`.
-void moving_set_subtract_bound(const MovingSet *set, const MemoryBound *bound, double *matrix)
+// With s = |s| exp(i phi) Re 1/(s + k) falls as |s| grows; in cos phi it rises for |s| > k and
+// falls below. So it is largest at |s| = 1/reach, at cos phi = 1 or at `narrow`.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
+                                double *matrix)
 {
     for (int64_t a = 0; set->remembers && a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
-        double fades = bound->reach * moving->fading, low = remembered_part(fades, bound->narrow);
-        double all = 1 + 2 * bound->narrow * fades + fades * fades;
-        double slope = fades < 1 ? (1 - fades * fades) / (all * all)
-                                 : (1 / (1 + fades) - low) / (1 - bound->narrow);
-        double part = bound->factor * (low + slope * (bound->cosine - bound->narrow));
-        if (moving->memory > 0)
-            matrix[a * (set->count + 1)] -= moving->memory * bound->reach * part;
-    }
-}
-
-void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix)
-{
-    for (int64_t a = 0; set->remembers && a < set->count; a++) {
-        const MovingUnknown *moving = &set->list[a];
-        double fades = reach * moving->fading, part = remembered_part(fades, fades < 1 ? 1 : 0);
+        double fades = reach * moving->fading, cosine = fades > 1 ? narrow : 1;
+        double part = factor * (cosine + fades) / (1 + 2 * cosine * fades + fades * fades);
         if (moving->memory > 0) matrix[a * (set->count + 1)] -= moving->memory * reach * part;
     }
 }

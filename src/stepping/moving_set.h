@@ -94,16 +94,10 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
 // That at s = 1/reach, time; 0: at once, whatever is remembered.
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix);
-// What is remembered weakens by memory Re 1/(s + fading). Below: more than that at any s with
-// |s| = 1/reach and cos arg s from `narrow` to 1, linear in the cosine, and exact at `narrow`.
-typedef struct MemoryBound {
-    double reach, narrow;   // time; 1, from 0 to below 1
-    double cosine;   // at which it is taken, 1
-    double factor;   // on it, 1
-} MemoryBound;
-void moving_set_subtract_bound(const MovingSet *set, const MemoryBound *bound, double *matrix);
-// The most that it is at any s with |s| >= 1/reach and Re s >= 0.
-void moving_set_subtract_memory(const MovingSet *set, double reach, double *matrix);
+// `factor` times the most that what is remembered weakens, memory Re 1/(s + fading), at any s with
+// |s| >= 1/reach and Re s >= narrow |s|, 0 <= narrow < 1.
+void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
+                                double *matrix);
 // W(s) at s = 1/reach as weakening or damper, in place of what is remembered.
 void moving_set_settle(MovingSet *set, double reach);
 

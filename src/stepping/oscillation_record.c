@@ -36,8 +36,8 @@ void oscillation_record_clear(OscillationRecord *record)
     record->seen_for = 0;
 }
 
-// Weakening, with what is remembered at s = 1/duration, of contact node k (rod node k - contact_count) where it moves; -1, less than any, where
-// it is held.
+// Weakening, with what is remembered at s = 1/duration, of contact node k (rod node k -
+// contact_count) where it moves; -1, less than any, where it is held.
 static double weakening_of(const OscillationRecord *record, const State *state, int32_t k)
 {
     int32_t contacts = record->interface->contact_count;

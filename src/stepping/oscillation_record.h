@@ -6,12 +6,12 @@
 // are stepped over, until slip does something that was not seen before.
 //
 // Recorded for each node is the largest weakening that it had while it moved: -mu'(|v|) r_n; where
-// friction remembers W(s) (stepping/moving_set) at s = 1/duration, the slowest that can be seen. A state
-// is covered when it moves only nodes that were seen to move, none with more weakening than was
-// seen, and nothing new was seen for `duration` of resolved time in which no slip rate came near
-// v_c, where friction stops falling and an oscillation may run away. Both duration and oscillations
-// scale with the block's own times: what this costs does not depend on the rod's velocity.
-// Called by stepping/step_control.
+// friction remembers W(s) (stepping/moving_set) at s = 1/duration, the slowest that can be seen. A
+// state is covered when it moves only nodes that were seen to move, none with more weakening than
+// was seen, and nothing new was seen for `duration` of resolved time in which no slip rate came
+// near v_c, where friction stops falling and an oscillation may run away. Both duration and
+// oscillations scale with the block's own times: what this costs does not depend on the rod's
+// velocity. Called by stepping/step_control.
 #ifndef AMONTONS_STEPPING_OSCILLATION_RECORD_H
 #define AMONTONS_STEPPING_OSCILLATION_RECORD_H
 

@@ -128,7 +128,7 @@ class Result(unittest.TestCase):
                       for name, item in history[group].items()}
             rows = [row for row in rows   # test_machine.py, test_space_results.py, test_memory.py
                     if row[0] not in ("series/rod_way", "interface/state", "nodes/y", "nodes/line", "events/slipped",
-                                      "faces/nodes", "faces/corners")]
+                                      "faces/nodes", "faces/corners", "pads/shear_across", "pads/slip_across")]
             self.assertEqual(set(stored), {name for name, *_ in rows})
             sizes = {"steps": len(history["series/time"]), "nodes": len(history["nodes/x"]),
                      "pads": int(max(history["nodes/pad"][:])) + 1,

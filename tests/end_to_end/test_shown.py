@@ -20,7 +20,7 @@ PICTURES_MAX = 3_000_000   # bytes in all, a film among them: pages are read on 
 class Shown(unittest.TestCase):
     def test_numbers(self):
         """Pages show the mu that their commands print, with and without an error bar, in blocks and in sentences."""
-        checked = [SOURCE / name for name in ("README.md", "docs/accuracy.md", "docs/tutorial.md", "docs/cookbook.md", "docs/meshes.md")]
+        checked = [SOURCE / name for name in ("README.md", "CHANGELOG.md", "docs/accuracy.md", "docs/tutorial.md", "docs/cookbook.md", "docs/meshes.md")]
         self.assertEqual([page.name for page in SOURCE.glob("docs/*.md")
                           if page not in checked and re.search(r"^ +mu_\w+ +[\d.]+", page.read_text(), re.M)], [])
         done = subprocess.run([SOURCE / "docs/examples/shown.py", "--check", *checked], capture_output=True, text=True,
@@ -28,6 +28,17 @@ class Shown(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         marks = sum(page.read_text().count("<!-- mu_") for page in checked)
         self.assertGreater(marks, 0)
+
+    def test_one_command_makes_all_pages(self):
+        """validation/pages names a script for each page of numbers, and each script knows its options."""
+        said = subprocess.run([SOURCE / "validation/pages", "--help"], capture_output=True, text=True, check=True).stdout
+        scripts = {SOURCE / name for name in re.findall(r"(?:docs|validation)/[\w/]+(?:\.py|/run)(?= |$)", said, re.M)}
+        for script in scripts:
+            self.assertTrue(os.access(script, os.X_OK), script)
+        by_hand = {"pictures"}   # judged by eye, not computed
+        made = set(re.findall(r"validation/(\w+)", said))
+        for page in SOURCE.glob("validation/*/README.md"):
+            self.assertIn(page.parent.name, made | by_hand)
 
     def test_commands(self):
         self.assertGreaterEqual(len(PAGES), 2)

@@ -5,6 +5,7 @@ steps find the peaks of explicit ones, on the reduced block as on the whole mesh
 that is symmetric; what does not go in space yet is refused in a sentence."""
 import json
 import os
+import re
 import subprocess
 import unittest
 from pathlib import Path
@@ -245,6 +246,25 @@ BooleanDifference(3) = {{ Volume{{1}}; Delete; }}{{ Volume{{2}}; Delete; }};
             self.assertRegex(said, rf"{name} +surface")
         said = self.call("static", f"mesh={{file: {SOURCE}/meshes/step3d.geo, set: {{file: none.step}}}}", fails=True)
         self.assertIn("none.step", said)
+
+    def test_fit(self):
+        """Studies in space: the friction that made four numbers is found again, and the block is drawn."""
+        names = ["load.pressure,mu_M,mu_M_error"]
+        small = ["mesh.set.nx=3", "mesh.set.ny=2", "mesh.set.nz=2", "time.until={U: 0.006, slidings: 2}"]
+        for pressure in (0.003, 0.005):
+            results = self.call("run", *small, f"load.pressure={pressure}")["results"]
+            names.append(f"{pressure},{results['mu_M']},0.002")
+        (self.folder / "measured.csv").write_text("\n".join(names))
+        (self.folder / "fit.yaml").write_text("""scene: scene.yaml
+set: {output.history: false, friction.mu_static: 0.5, mesh.set.nx: 3, mesh.set.ny: 2, mesh.set.nz: 2, time.until: {U: 0.006, slidings: 2}}
+search: {friction.mu_static: {linear: [0.3, 0.5]}}
+fit: {measured: measured.csv, designs: 6}
+""")
+        done = subprocess.run([PROGRAM, "fit", self.folder / "fit.yaml", "-q", "-j", "1", "-o", self.folder / "fit"], capture_output=True, text=True, env=self.environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "fit/figures/best.png").exists())
+        found = float(re.search(r"friction.mu_static: ([0-9.]+)", (self.folder / "fit/answer.txt").read_text())[1])
+        self.assertAlmostEqual(found, 0.38, delta=0.02)
 
     def test_refused(self):
         for words, says in ((["material.poisson=0.5"], "Poisson's ratios below 0.5"),

@@ -255,5 +255,25 @@ class SpacePictures(unittest.TestCase):
         self.assertFalse(json.loads((target / "run.json").read_text())["status"] != "done")
 
 
+class Meshes(unittest.TestCase):
+    def test_mesh(self):
+        """A mesh in space by its groups: what looks away is not seen but in the key, both contacts are, below the block and as large."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/mesh.png"
+            subprocess.run([PROGRAM, "info", SOURCE / "meshes/pads3d.geo", "--set", "n=2", "m=1", "fill_y=1", "--picture", path], check=True, stdout=subprocess.DEVNULL)
+            pixels = picture(path)
+            key = int(0.915 * len(pixels))
+            colors = {"contact_1": (13, 115, 77), "contact_2": (115, 158, 26), "top": (26, 82, 168), "rod": (204, 56, 20), "leading": (158, 158, 153),
+                      "left": (242, 204, 140), "right": (153, 204, 219)}
+            seen = {name: near(pixels, color) for name, color in colors.items()}
+            self.assertTrue(all(mask[key:].any() for mask in seen.values()))
+            part = {name: mask[:key].mean() for name, mask in seen.items()}
+            self.assertEqual((part["leading"], part["right"]), (0, 0))
+            self.assertGreater(min(part[name] for name in ("top", "rod", "left")), 0.03)
+            self.assertAlmostEqual(part["contact_1"] / part["contact_2"], 1, delta=0.2)   # perspective
+            rows = {name: numpy.flatnonzero(seen[name][:key].any(axis=1)) for name in ("contact_1", "top")}
+            self.assertGreater(rows["contact_1"][0], rows["top"][-1])
+
+
 if __name__ == "__main__":
     unittest.main()

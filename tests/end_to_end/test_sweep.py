@@ -513,6 +513,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual((fast["mu_steady"], fast["results.mu_M_is"]), ("", "peaks"))
         self.assertEqual((short["mu_M"], short["results.mu_M_is"]), ("", "none: the block as a whole did not slide in this run"))
         self.assertIn("1 of 3 points: no mu_M: the block as a whole did not slide in this run\n", done.stdout)
+        self.assertIn("1 of 3 points: steady sliding: mu_M is F_T/F_N at which the block slides slowly as a whole\n  points 0\n", done.stdout)
         series = json.loads((self.folder / "out/figures/plot.json").read_text())["series"]
         drawn = [v for c in series for v in c["y"] if v is not None]
         self.assertTrue(any(abs(v - float(slow["mu_M"])) < 1e-12 for v in drawn))

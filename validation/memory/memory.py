@@ -7,6 +7,8 @@ has them. Points that are there already are not computed again.
 """
 import argparse
 import csv
+import json
+import os
 import subprocess
 from pathlib import Path
 
@@ -74,13 +76,51 @@ def table(name, points):
         print(f"| {value:g} | " + " | ".join(row.get(law, "-") for law in LAWS) + " |")
 
 
+VELOCITIES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+TURNS = 2
+
+
+def friction_of(law):
+    """As pressures.yaml gives it to that law, on one line; none: the scene's own."""
+    lines = (HERE / "pressures.yaml").read_text(encoding="utf-8").splitlines()
+    return [line.split("friction: ", 1)[1].rsplit("}", 1)[0] for line in lines if f"law: {law}," in line]
+
+
+def run_once(program, folder, law, V):
+    words = [program, "run", HERE / "paper.yaml", "-q", "--overwrite", "-o", folder, "--set", f"rod.velocity={V}", "output.figures=[]"]
+    process = subprocess.Popen(words + [f"friction={text}" for text in friction_of(law)], stderr=subprocess.DEVNULL)
+    used = os.wait4(process.pid, 0)[2]
+    report = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    return used.ru_utime + used.ru_stime, report
+
+
+def cost(program, folder):
+    """Steps and processor time (least of TURNS) a sliding, of all laws at all velocities on one mesh."""
+    print("\ncost\n\n| V | law | slidings | steps | steps a sliding | over paper | iterations a stage | us a stage | s | s a sliding | over paper |")
+    print("|---" * 11 + "|")
+    for V in VELOCITIES:
+        base = None
+        for law, name in LAWS.items():
+            runs = [run_once(program, folder / "cost", law, V) for _ in range(TURNS)]
+            seconds, (_, report) = min(run[0] for run in runs), runs[0]
+            steps, slidings = report["steps"], max(len(report["results"]["peaks"]), 1)
+            each = steps["accepted"] / slidings, seconds / slidings
+            base = base or each
+            print(f"| {V:g} | {name} | {len(report['results']['peaks'])} | {steps['accepted']} | {each[0]:.0f} | {each[0] / base[0]:.2f} "
+                  f"| {steps['contact_iterations'] / steps['contact_solves']:.2f} | {1e6 * seconds / steps['contact_solves']:.0f} "
+                  f"| {seconds:.2f} | {each[1]:.3f} | {each[1] / base[1]:.2f} |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, default=HERE.parents[1] / "build")
     parser.add_argument("--output", type=Path, default=Path("results/memory"))
-    parser.add_argument("studies", nargs="*", metavar="STUDY", help=", ".join(STUDIES))
+    parser.add_argument("studies", nargs="*", metavar="STUDY", help=", ".join([*STUDIES, "cost"]))
     given = parser.parse_args()
-    for name in given.studies or STUDIES:
+    for name in given.studies or [*STUDIES, "cost"]:
+        if name == "cost":
+            cost(given.build / "bin/amontons", given.output)
+            continue
         folder = given.output / name
         subprocess.run([given.build / "bin/amontons", "sweep", "-q", HERE / f"{name}.yaml", "-o", folder], check=True)
         with open(folder / "sweep.csv", encoding="utf-8") as file:

@@ -47,6 +47,9 @@
     X(MISTAKE_STATE_ROUNDED, "state-rounded")                                                      \
     X(MISTAKE_MEMORY_LAGGED, "memory-lagged")                                                      \
     X(MISTAKE_MEMORY_KEPT, "memory-kept")                                                          \
+    X(MISTAKE_MEMORY_GROWS, "memory-grows")                                                        \
+    X(MISTAKE_MEMORY_BLIND, "memory-blind")                                                        \
+    X(MISTAKE_MEMORY_CLOCK, "memory-clock")                                                        \
     X(MISTAKE_MEMORY_FRESH, "memory-fresh")                                                        \
     X(MISTAKE_MEMORY_EVOLUTION, "memory-evolution")
 

@@ -5,6 +5,7 @@
 
 #include "reduction/machine.h"
 #include "fem/mesh.h"
+#include "contact/friction_pace.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
@@ -15,6 +16,7 @@
 #include "scene/materials.h"
 #include "scene/profile.h"
 #include "stepping/load_course.h"
+#include "stepping/moving_set.h"
 
 #include <math.h>
 #include <string.h>
@@ -46,6 +48,8 @@ REPLACED(bool, saved_state_take_back, Simulation *simulation, const SavedState *
 REPLACED(double, memory_coefficient, const FrictionMemory *memory, double speed, double *slope);
 REPLACED(double, memory_state, const FrictionMemory *memory, double speed);
 REPLACED(double, memory_rested, const FrictionMemory *memory, double rest);
+REPLACED(void, moving_set_find, MovingSet *set, const State *state, bool with_open);
+REPLACED(FrictionLaw, friction_paced, const FrictionLaw *law, double pace);
 
 static bool made(Mistake mistake)
 {
@@ -194,4 +198,20 @@ double __wrap_memory_state(const FrictionMemory *memory, double speed)
 double __wrap_memory_rested(const FrictionMemory *memory, double rest)
 {
     return __real_memory_rested(memory, made(MISTAKE_MEMORY_FRESH) ? 1e-9 * rest : rest);
+}
+
+// g_theta of the other sign, or no memory at all, in what is linearised.
+void __wrap_moving_set_find(MovingSet *set, const State *state, bool with_open)
+{
+    __real_moving_set_find(set, state, with_open);
+    for (int32_t a = 0; a < set->count; a++) {
+        if (made(MISTAKE_MEMORY_GROWS)) set->list[a].fading *= -1;
+        if (made(MISTAKE_MEMORY_BLIND)) set->list[a].memory = 0;
+    }
+}
+
+// The quasi-static path remembers as its own slow rod would.
+FrictionLaw __wrap_friction_paced(const FrictionLaw *law, double pace)
+{
+    return __real_friction_paced(law, made(MISTAKE_MEMORY_CLOCK) ? 1 : pace);
 }

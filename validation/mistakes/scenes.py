@@ -38,6 +38,9 @@ TABLE = (
     ("memory-lagged", "friction takes the state that a stage began with", "test_memory.Memory.test_velocity_steps"),
     ("memory-kept", "slip takes nothing away from what is remembered", "test_memory.Memory.test_rigid_block_that_sticks"),
     ("memory-fresh", "contacts have rested for no time when the rod begins", "test_memory.Memory.test_rigid_block_that_sticks"),
+    ("memory-grows", "g_theta has the wrong sign in growth rates and certificate", "test_stability.Memory.test_nucleation_length"),
+    ("memory-blind", "both leave the states out", "test_stability.Memory.test_nucleation_length"),
+    ("memory-clock", "contacts remember on the slow path of `stability` as if it were the drive", "test_stability.Memory.test_runs_agree"),
     ("memory-evolution", "the slip law evolves as the ageing law does", "test_memory.Memory.test_velocity_steps"),
     ("state-rounded", "a run that is taken back is off by one rounding", "test_windows.Windows.test_around"),
 )

@@ -10,8 +10,8 @@ typedef enum ResultColumns {
     COLUMNS_PADS   // one a contact curve: nodes/pad numbers them
 } ResultColumns;
 
-// Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start. In
-// space slip_rate, slip and shear have a last axis: along x, along y.
+// Rows are accepted steps: the state at the END of the step, row 0 the start. In space slip_rate,
+// slip and shear have a last axis: along x, along y.
 // X(symbol, name, stored type, columns, unit, description)
 #define RESULT_SERIES(X)                                                                           \
     X(SERIES_TIME, "series/time", ARRAY_FLOAT64, ONE, "time", "t, 0 when the rod starts")          \
@@ -51,11 +51,10 @@ typedef enum ResultColumns {
     X(SERIES_PAD_SHEAR_ACROSS, "pads/shear_across", ARRAY_FLOAT64, PADS, "force/width",            \
       "the same across the drive, towards -y; in space only")                                      \
     X(SERIES_PAD_SLIP, "pads/slip", ARRAY_FLOAT64, PADS, "length",                                 \
-      "interface/slip along the drive, mean over each pad")                                        \
+      "mean of interface/slip along the drive")                                                    \
     X(SERIES_PAD_SLIP_ACROSS, "pads/slip_across", ARRAY_FLOAT64, PADS, "length",                   \
       "the same across the drive; in space only")                                                  \
-    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length",                         \
-      "how much of each pad slips")
+    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length", "how much of it slips")
 
 // Fixed arrays over contact nodes, ordered by x. X(symbol, name, stored type, unit, description)
 #define RESULT_NODES(X)                                                                            \

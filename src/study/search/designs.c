@@ -19,8 +19,9 @@ bool designs_create(const Study *study, int32_t conditions, char *const *texts, 
                          .texts = texts,
                          .aim = -1};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
+    designs->aims = designs->conditions * (1 + study->rank.also_count);
     TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
-    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->conditions, err));
+    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->aims, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -171,14 +172,21 @@ static void judge_aim(const Designs *designs, const DesignPoint *points, Design 
         judge_mean(designs, points, design);
         return;
     }
-    design->deciding = designs->aim;
+    design->deciding = designs->aim % designs->conditions;
     design->value = points[designs->aim].value;
     design->bar = points[designs->aim].bar;
 }
 
 DesignPoint *designs_points(const Designs *designs, int32_t design)
 {
-    return &designs->points[(int64_t)design * designs->conditions];
+    return &designs->points[(int64_t)design * designs->aims];
+}
+
+StudyAim designs_aim(const Designs *designs, int32_t aim)
+{
+    const StudyRank *rank = &designs->study->rank;
+    int32_t which = aim / designs->conditions;
+    return which > 0 ? rank->also[which - 1] : (StudyAim){rank->record, rank->lowest};
 }
 
 void designs_judge(Designs *designs, int32_t d)
@@ -190,8 +198,8 @@ void designs_judge(Designs *designs, int32_t d)
     design->has_bar = true;
     for (int32_t c = 0; c < designs->conditions; c++)
         design->has_bar = design->has_bar && points[c].has_bar;
-    for (int32_t c = 0; c < designs->conditions; c++)
-        if (isnan(points[c].value)) return;
+    for (int32_t a = 0; a < designs->aims; a++)
+        if (isnan(points[a].value)) return;
     static void (*const judges[])(const Designs *, const DesignPoint *,
                                   Design *) = {[OVER_WORST] = judge_worst,
                                                [OVER_MEAN] = judge_mean,

@@ -13,7 +13,7 @@ typedef struct Design {
     int32_t choice;   // number of the chooser's; -1: not chosen by it
     int32_t point;   // of the sweep, the first of its conditions; -1: not computed yet
     double accuracy;   // accuracy.mu; 0: the study's
-    bool settled;   // a smaller accuracy is of no use
+    bool settled;   // a smaller accuracy is of no use, as the time of a run decides
     double value, bar;   // what is searched for, of a fit the misfit; NaN: none; its error
     bool has_bar;   // an error bar, with the mesh's part; else what is usual of such a mesh
     int32_t deciding;   // point of `vary` whose value it is; 0: of none alone
@@ -29,11 +29,12 @@ typedef struct Designs {
     const Study *study;   // not owned
     bool lowest;   // is best
     int32_t count;
-    int32_t aim;   // of a front: a condition, whose value counts alone; -1: the mean of all
+    int32_t aim;   // of a front: an aim, whose value counts alone; -1: the mean of all conditions
+    int32_t aims;   // conditions, and once more for each result of `also`
     int32_t conditions;   // at which each design is computed: points of `vary`, or ...
     char *const *texts;   // ... [conditions] "load.pressure: 0.003", not owned; NULL: `vary`
     Design *list;   // [DESIGNS_MAX] owned
-    DesignPoint *points;   // [DESIGNS_MAX * conditions] owned
+    DesignPoint *points;   // [DESIGNS_MAX * aims] owned
 } Designs;
 
 // conditions, texts: of what was measured; 0, NULL: the points of `vary`.
@@ -51,7 +52,9 @@ void designs_round(const Study *study, double *x);
 char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err);
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
-DesignPoint *designs_points(const Designs *designs, int32_t design);   // [conditions]
+DesignPoint *designs_points(const Designs *designs, int32_t design);   // [aims]
+// Which result an aim is of, and whether its least is best.
+StudyAim designs_aim(const Designs *designs, int32_t aim);
 // value and bar of a design from its points, by `over`; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
 int32_t designs_best(const Designs *designs);   // -1: none has a value

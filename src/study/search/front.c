@@ -13,10 +13,10 @@
 static bool dominates(const Designs *designs, int32_t a, int32_t b)
 {
     const DesignPoint *one = designs_points(designs, a), *other = designs_points(designs, b);
-    double sign = designs->lowest ? -1 : 1;
     bool better = false;
-    for (int32_t c = 0; c < designs->conditions; c++) {
-        double ahead = sign * (one[c].value - other[c].value);
+    for (int32_t k = 0; k < designs->aims; k++) {
+        double sign = designs_aim(designs, k).lowest ? -1 : 1;
+        double ahead = sign * (one[k].value - other[k].value);
         if (!(ahead >= 0)) return false;
         better = better || ahead > 0;
     }
@@ -62,12 +62,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// "load.pressure=0.004" of point `c` of `vary`.
-static bool aim_words(const Search *search, int32_t c, char words[OPTIMISE_WORDS_SIZE], Error *err)
+// "load.pressure=0.004" of the point of `vary` of an aim; "": there is one alone.
+static bool aim_words(const Search *search, int32_t aim, char words[OPTIMISE_WORDS_SIZE],
+                      Error *err)
 {
     const Study *study = search->study;
     size_t used = 0;
     words[0] = 0;
+    int32_t c = aim % search->designs.conditions;
     TRY(study_point_scene(study, c, search->scene, err));
     for (int32_t k = 0; k < study->axis_count; k++) {
         char value[SCENE_TEXT_SIZE];
@@ -89,26 +91,26 @@ bool front_print(const Search *search, FILE *out, Error *err)
     int32_t count = 0;
     char words[OPTIMISE_WORDS_SIZE];
     TRY(list_front(designs, &front, &count, err));
-    fprintf(out, "%s, the %s at each of %d points:\n",
-            search->study->records[search->study->rank.record].name,
-            designs->lowest ? "lowest" : "highest", designs->conditions);
-    for (int32_t c = 0; c < designs->conditions; c++) {
-        TRY(aim_words(search, c, words, err));
-        fprintf(out, "  %d: %s\n", c + 1, words);
+    fprintf(out, "%d aims:\n", designs->aims);
+    for (int32_t a = 0; a < designs->aims; a++) {
+        StudyAim aim = designs_aim(designs, a);
+        TRY(aim_words(search, a, words, err));
+        fprintf(out, "  %d: the %s %s%s%s\n", a + 1, aim.lowest ? "lowest" : "highest",
+                search->study->records[aim.record].name, *words ? " at " : "", words);
     }
     fprintf(
         out,
-        "%d designs of %d, none of which another is better than at all points, by values alone:\n",
+        "%d designs of %d, none of which another is better than at all aims, by values alone:\n",
         count, designs->count);
     for (int32_t k = 0; k < count; k++) {
         const DesignPoint *points = designs_points(designs, front[k].design);
         design_words(search->study, &designs->list[front[k].design], words);
         fprintf(out, "  %s:", words);
-        for (int32_t c = 0; c < designs->conditions; c++) {
+        for (int32_t a = 0; a < designs->aims; a++) {
             char text[ESTIMATE_SIZE];
-            amontons_estimate(points[c].value, points[c].has_bar ? points[c].bar : (double)NAN,
-                              points[c].bar, text);
-            fprintf(out, "%s %s", c ? "," : "", text);
+            amontons_estimate(points[a].value, points[a].has_bar ? points[a].bar : (double)NAN,
+                              points[a].bar, text);
+            fprintf(out, "%s %s", a ? "," : "", text);
         }
         fprintf(out, "%s\n", front[k].design == search->start ? " (the scene as it is)" : "");
     }
@@ -118,13 +120,14 @@ cleanup:
 }
 
 // "mu_hold at load.pressure=0.004".
-static bool aim_label(const Search *search, int32_t c, QuantityLabel *label, Error *err)
+static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, Error *err)
 {
-    char aim[OPTIMISE_WORDS_SIZE];
-    *label = label_of_record(search->study->records[search->study->rank.record].name);
-    TRY(aim_words(search, c, aim, err));
+    char words[OPTIMISE_WORDS_SIZE];
+    *label =
+        label_of_record(search->study->records[designs_aim(&search->designs, aim).record].name);
+    TRY(aim_words(search, aim, words, err));
     size_t used = strlen(label->words);
-    snprintf(label->words + used, sizeof label->words - used, " at %s", aim);
+    if (*words) snprintf(label->words + used, sizeof label->words - used, " at %s", words);
 cleanup:
     return error_is_clean(err);
 }
@@ -135,7 +138,7 @@ bool front_draw(const Search *search, Error *err)
     int32_t count = 0, all = designs->count;
     Placed *front = NULL;
     double *x = NEW_ARRAY(double, 4 * (int64_t)all, err);
-    if (designs->conditions < 2) goto cleanup;
+    if (designs->aims < 2) goto cleanup;
     TRY(x);
     double *y = x + all, *front_x = y + all, *front_y = front_x + all;
     TRY(list_front(designs, &front, &count, err));

@@ -21,6 +21,10 @@ enum {
     BESTS_MAX = 3,   // times that deciding may come to another design
 };
 
+// Of the error asked for: a run whose bar came out longer ended by its time (accuracy.within), and
+// to be asked for half the error it would end with the same meshes.
+static const double MISSED_BY_FAR = 2;
+
 typedef struct Optimise {
     Search search;
     double accuracy;   // accuracy.mu of the study; 0: none
@@ -31,11 +35,14 @@ typedef struct Optimise {
 static bool take_value(Search *search, int32_t d, int32_t c, const char *report, Error *err)
 {
     (void)err;
-    const Study *study = search->study;
-    PointValue found = point_value(report, study->records[study->rank.record].path);
-    bool has_bar = !isnan(found.bar);
-    designs_points(&search->designs, d)[c] =
-        (DesignPoint){found.value, has_bar ? found.bar : found.known_to, has_bar};
+    const Designs *designs = &search->designs;
+    for (int32_t a = c; a < designs->aims; a += designs->conditions) {
+        int32_t record = designs_aim(designs, a).record;
+        PointValue found = point_value(report, search->study->records[record].path);
+        bool has_bar = !isnan(found.bar);
+        designs_points(designs, d)[a] =
+            (DesignPoint){found.value, has_bar ? found.bar : found.known_to, has_bar};
+    }
     return true;
 }
 
@@ -80,15 +87,15 @@ cleanup:
 // --- deciding -----------------------------------------------------------------------------------
 
 // Half the error that was asked for or, where that is smaller, of the one that came out. false: it
-// is as small as it may get.
+// is as small as it may get, or as the time for a run makes it.
 static bool next_accuracy(const Search *search, Design *design)
 {
     const Optimise *self = search->judge.context;
     double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
     double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
-    double next = fmax(fmin(asked, came_out) / 2, limit);
+    if (!design->has_bar || came_out > MISSED_BY_FAR * asked) design->settled = true;
     if (design->settled || !(limit > 0) || asked <= limit) return false;
-    design->accuracy = next;
+    design->accuracy = fmax(fmin(asked, came_out) / 2, limit);
     return true;
 }
 
@@ -157,13 +164,14 @@ static bool has_front(const Search *search)
 static void set_aim(Search *search, int32_t aim)
 {
     search->designs.aim = aim;
+    search->designs.lowest = designs_aim(&search->designs, aim < 0 ? 0 : aim).lowest;
     for (int32_t d = 0; d < search->designs.count; d++) designs_judge(&search->designs, d);
 }
 
 // Of a front a part for the mean of its aims, and one for each alone.
 static int32_t count_parts(const Search *search)
 {
-    return has_front(search) ? 1 + search->designs.conditions : PARTS;
+    return has_front(search) ? 1 + search->designs.aims : PARTS;
 }
 
 static bool search_in_parts(Search *search, Error *err)

@@ -77,12 +77,13 @@ static double design_seconds(const Search *search, int32_t d)
 
 static void print_open(const Search *search, int32_t best, FILE *out)
 {
-    int32_t open = 0;
+    int32_t open = 0, settled = 0;
     double seconds = design_seconds(search, best);
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
         if (!designs_may_equal(&search->designs, best, d)) continue;
         seconds += design_seconds(search, d);
+        settled += search->designs.list[d].settled;
         if (open++ >= OTHERS_SHOWN) continue;
         design_words(search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
@@ -93,6 +94,12 @@ static void print_open(const Search *search, int32_t best, FILE *out)
     if (open > OTHERS_SHOWN) fprintf(out, "    ... and %d more\n", open - OTHERS_SHOWN);
     if (open == 0) fprintf(out, "  better than every other design, with the bars of both\n");
     if (open == 0) return;
+    if (settled > 0)
+        fprintf(out,
+                "  %d of them missed the error bar asked for by far, or have none: only more time "
+                "for a run (accuracy.within) would tell\n",
+                settled);
+    if (open == settled) return;
     if (search->study->rank.refine > 0)
         fprintf(out,
                 "  telling them apart needs a smaller `refine` than %g %% (half the error of all "

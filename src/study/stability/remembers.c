@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Friction that remembers on the quasi-static path. The path's rod goes at a velocity of its own, so
-// its laws are put on the path's clock (contact/friction_pace): what they say there of mu and of the
-// part of a way that is forgotten is what the scene's rod meets. States are looked at in the scene's
-// time.
+// Friction that remembers on the quasi-static path. The path's rod goes at a velocity of its own,
+// so its laws are put on the path's clock (contact/friction_pace): what they say there of mu and of
+// the part of a way that is forgotten is what the scene's rod meets. States are looked at in the
+// scene's time.
 #include "study/stability/stability.h"
 
 #include "base/memory.h"
@@ -80,7 +80,8 @@ void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
 }
 
 // With w = -mu_v r_n, m = -mu_theta g_v r_n and f = -g_theta slip on a spring k obeys
-// -w s^2 + (k - w f - m) s + k f = 0: stable for w < 0 where k > m + w f, and for w = 0 where k > m.
+// -w s^2 + (k - w f - m) s + k f = 0: stable for w < 0 where k > m + w f, and for w = 0 where k >
+// m.
 double stability_critical_spring(const StabilityPath *path, int32_t i, double pressing)
 {
     double state = 0;

@@ -86,3 +86,46 @@ TEST(test_small_oscillations)
     drive.weakening = 3;
     assert_true(stages_expect(&scene, &drive) < 0.1 * many);
 }
+
+// A stiff block of 1 x 0.5 on a layer of 0.1 with a wave speed of a hundredth of the block's.
+static Model model_on_layer(const Scene *scene, double *weight, double layer_young)
+{
+    Model model = {.scene = scene,
+                   .length = 1,
+                   .height = 0.5,
+                   .breadth = 1,
+                   .contact_region = 1,
+                   .scales = {.load = 0.5},
+                   .interface = {.contact_count = 5, .weight = weight}};
+    Materials *materials = &model.materials;
+    materials->count = 2;
+    materials->list[0] = (Material){.young = 1, .density = 1, .eta1 = 3};
+    materials->list[1] = (Material){.young = layer_young, .density = 1, .eta1 = 2e-4};
+    materials->area[0] = 0.4, materials->area[1] = 0.1;
+    materials->width[0] = materials->width[1] = 1;
+    materials_find_mean(materials);
+    return model;
+}
+
+// Waves through the layer, 0.1 by 0.01, where that is slower than along the block, 1 by 1.
+TEST(test_soft_floor)
+{
+    double weight[5] = {0.1, 0.25, 0.3, 0.25, 0.1};
+    Scene scene = scene_by_hand(1e6);
+    Model soft = model_on_layer(&scene, weight, 1e-4);
+    assert_near("through the layer", model_crossing(&soft), 10, 1e-12);
+    Drive drive = stages_drive(&soft);
+    assert_int_equal(drive.watched, 5);
+    double layer = 0.1 / 0.5e-4, block = drive.yield - layer;   // sheared over its height: h/(G L)
+    assert_true(block > 1 && block < 5);   // as of the block alone, of E = 1
+    assert_near("damped", drive.damping * drive.yield * drive.yield, block * 3 + layer * 2, 1e-9);
+    drive.weakening = 1e3 * drive.damping;
+    double watched = stages_expect(&scene, &drive);
+    drive.watched = 0;
+    assert_true(watched > stages_expect(&scene, &drive));
+    Model hard = model_on_layer(&scene, weight, 0.25);
+    assert_near("along the block", model_crossing(&hard), 1, 1e-12);
+    assert_int_equal(stages_drive(&hard).watched, 0);
+    soft.materials.width[1] = 0.5;   // half of the contact is of something else
+    assert_near("beside others", model_crossing(&soft), 1, 1e-12);
+}

@@ -2,7 +2,8 @@
 // The certificate of friction that remembers against all growth rates of a block, its states
 // included, from dense matrices and differences of the laws: where it holds, all that does not
 // decay has |lambda| < 1/h; where oscillations are narrow Re lambda < a |lambda|; where runaway is
-// excluded no rate is real; growth_rates finds what there is. Pressure follows slip in the last two.
+// excluded no rate is real; growth_rates finds what there is. Pressure follows slip in the last
+// two.
 #include "base/memory.h"
 #include "contact/friction_make.h"
 #include "contact/friction_state.h"

@@ -368,8 +368,8 @@ TEST(test_rigid_block)
     check_rigid_block(70, 0.01, 0.02);
 }
 
-// Ruina's analysis (J. Geophys. Res. 88, 1983) with inertia: a rigid block on a spring k, pressed by
-// N, slips steadily at V with rate and state. Its rates are the roots of
+// Ruina's analysis (J. Geophys. Res. 88, 1983) with inertia: a rigid block on a spring k, pressed
+// by N, slips steadily at V with rate and state. Its rates are the roots of
 //
 //     (m s^2 + s a N/V + k) (s + V/D_c) - s b N/D_c = 0,
 //

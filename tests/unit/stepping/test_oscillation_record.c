@@ -3,6 +3,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "block_rig.h"
+#include "contact/friction_make.h"
 #include "plane.h"
 
 static const double LONG = 20, PRESSURE = 1e-3;
@@ -97,6 +98,39 @@ TEST(test_weakening)
         see(&fixture, 0.1 * LONG);
         assert_false(covered(&fixture) && k > 2);
     }
+    fixture_destroy(&fixture);
+}
+
+// With memory what counts is -r_n (mu_v + mu_theta g_v/(s - g_theta)) at s = 1/LONG, here by hand:
+// a contact that is older weakens more by the slip that it forgets.
+TEST(test_memory)
+{
+    Fixture fixture;
+    fixture_build(LONG, &fixture);
+    FrictionMemory memory = {.kind = MEMORY_AGEING,
+                             .mu_static = 0.38,
+                             .mu_kinetic = 0.1,
+                             .critical_velocity = 3.4e-4,
+                             .slip_distance = 1e-4,
+                             .healing_time = 10,
+                             .healing = 0.1};
+    fixture.rig.law = (FrictionLaw){.kind = FRICTION_AGEING};
+    friction_make_memory(&memory, &fixture.rig.law);
+    double theta = 2, speed = 0.05 * 3.4e-4, fades = speed / 1e-4, age = 1.02 * (theta + 1e-3);
+    double mu = 0.38 - 0.05 * 0.28;
+    for (int32_t k = 0; k < 2; k++) {   // W(1/LONG) of the age seen, and of one 2 % older
+        double at = k == 0 ? theta : age, gain = mu * 0.1 / (10 + at);
+        double strength = 1 + 0.1 * log1p(at / 10);
+        double weakening = PRESSURE *
+                           (0.28 / 3.4e-4 * strength + gain * at / 1e-4 / (1 / LONG + fades));
+        slip(&fixture, 3, 0.05, PRESSURE);
+        fixture.seen.theta[3] = at;
+        if (k == 0) see(&fixture, 2 * LONG);
+        assert_true(covered(&fixture));
+        if (k == 0) assert_near("W", fixture.record.weakening[3], weakening, 1e-12);
+    }
+    fixture.seen.theta[3] = 2 * theta;
+    assert_false(covered(&fixture));
     fixture_destroy(&fixture);
 }
 

@@ -37,6 +37,7 @@ enum {
     STUDY_RANGE_MAX = 10000,   // points of a range
     STUDY_POINTS_MAX = 1000000,
     STUDY_PLOTS_MAX = 8,
+    STUDY_ALSO_MAX = 3,
 };
 
 // A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
@@ -66,10 +67,17 @@ typedef struct StudyAxis {
 
 typedef enum RankAgainst { AGAINST_FIRST, AGAINST_BEST, AGAINST_KEYS } RankAgainst;
 
+typedef struct StudyAim {
+    int32_t record;   // of `records`
+    bool lowest;   // is best
+} StudyAim;
+
 typedef struct StudyRank {
     bool wanted;
     int32_t record;   // ranked by this column of `records`
     bool lowest;   // is best
+    int32_t also_count;
+    StudyAim also[STUDY_ALSO_MAX];   // further aims of a front
     int32_t top;   // rows to show
     RankAgainst against;   // what a gain is measured from: the first point, the best, or ...
     YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else

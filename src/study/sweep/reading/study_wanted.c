@@ -194,19 +194,44 @@ static bool read_refine(Study *study, const WantedKey *key, Error *err)
     return study_add_column(study, "accuracy.mu", err);
 }
 
+// {mu_first_pad: highest, scene.mesh.set.pad_height: lowest}
+static bool read_also(Study *study, const WantedKey *also, Error *err)
+{
+    static const char *const orders[] = {"highest", "lowest"};
+    StudyRank *rank = &study->rank;
+    if (also->node == YAML_NO_NODE) return true;
+    if (study->search.node == YAML_NO_NODE || study->search.over != OVER_FRONT) {
+        yaml_error(study->file, also->node, err, "also: only of a search with `over: front`");
+        return false;
+    }
+    if (yaml_kind(study->file, also->node) != YAML_MAP ||
+        yaml_count(study->file, also->node) > STUDY_ALSO_MAX)
+        return yaml_refuse(study->file, also->node, "also",
+                           "at most 3 results, as in {mu_first_pad: highest}", err);
+    YAML_EACH (item, study->file, also->node) {
+        int32_t order = 0;
+        StudyAim *aim = &rank->also[rank->also_count++];
+        WantedKey key = {yaml_key(study->file, item), item};
+        WantedName name = {key.name, "also", item};
+        TRY(wanted_choice(study->file, &key, orders, 2, &order, err));
+        TRY(find_record(study, &name, &aim->record, err));
+        study->records[aim->record].is_shown = true;
+        aim->lowest = order == 1;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // What is ranked by becomes a column of the table where it is none yet.
 static bool read_rank(Study *study, Error *err)
 {
     static const char *const orders[] = {"highest", "lowest"};
-    WantedKey keys[] = {{.name = "by"},
-                        {.name = "order"},
-                        {.name = "top"},
-                        {.name = "against"},
-                        {.name = "refine"}};
+    WantedKey keys[] = {{.name = "by"},      {.name = "order"},  {.name = "top"},
+                        {.name = "against"}, {.name = "refine"}, {.name = "also"}};
     StudyRank *rank = &study->rank;
     int32_t order = 0;
     if (yaml_look_up(study->file, "rank") == YAML_NO_NODE) return true;
-    TRY(wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 5, err));
+    TRY(wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 6, err));
     if (keys[0].node == YAML_NO_NODE) {
         yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
                    "rank: `by` must be given, as in {by: mu_M}");
@@ -217,6 +242,7 @@ static bool read_rank(Study *study, Error *err)
     TRY(wanted_choice(study->file, &keys[1], orders, 2, &order, err));
     TRY(read_against(study, &keys[3], err));
     TRY(read_refine(study, &keys[4], err));
+    TRY(read_also(study, &keys[5], err));
     double top = TOP_STANDARD;
     bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
     if (!good || top != floor(top) || top < 1 || top > TOP_MAX)

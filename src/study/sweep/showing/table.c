@@ -144,6 +144,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+static const char STEADY[] = "steady sliding";   // results.mu_M_is of a block that only creeps
+
 // "no mu_M: the block as a whole did not slide in this run": as run.json says it of mu_M; what else
 // a run has not it has not for the same reason.
 static void why_missing(const StudyRecord *record, const char *report, char text[RUN_WARNING_SIZE])
@@ -154,10 +156,16 @@ static void why_missing(const StudyRecord *record, const char *report, char text
     if (strncmp(why, "none: ", 6) == 0)
         reason = why + 6;
     else
-        reason = strcmp(why, "steady sliding") == 0
-                     ? "the block slides steadily, no sliding was fast"
-                     : "this run has none";
+        reason = strcmp(why, STEADY) == 0 ? "the block slides steadily, no sliding was fast"
+                                          : "this run has none";
     snprintf(text, RUN_WARNING_SIZE, "no %s: %.300s", record->name, reason);
+}
+
+static bool is_steady(const char *path, const char *report)
+{
+    char is[RUN_WARNING_SIZE] = "";
+    return strcmp(path, "results.mu_M") == 0 &&
+           json_find_text(report, "results.mu_M_is", is, sizeof is) && strcmp(is, STEADY) == 0;
 }
 
 // report: of a finished point, or NULL.
@@ -201,10 +209,14 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
         table->records[at] = number;
         write_besides(writer, point, k, isfinite(number) ? report : NULL);
         no_bar |= lacks_bar(table, k, at);
-        if (report && study->records[k].is_shown && !isfinite(number)) {
+        if (!report || !study->records[k].is_shown) continue;
+        if (!isfinite(number)) {
             why_missing(&study->records[k], report, text);
             warned_add(&table->warned, point, text);
-        }
+        } else if (is_steady(path, report))
+            warned_add(
+                &table->warned, point,
+                "steady sliding: mu_M is F_T/F_N at which the block slides slowly as a whole");
     }
     table->no_bar += no_bar;
 }
