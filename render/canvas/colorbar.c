@@ -106,7 +106,11 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     style.up = 1;
     out += (NUMBER_GAP + numbers_width(page, bar) + LABEL_GAP) * page->point;
-    text_draw(page->text, &style, (Point){out, (colors->top + colors->bottom) / 2}, bar->label);
+    double room = page->room.bottom - page->room.top;   // a long name gets smaller, and moves
+    style.size *= fmin(1, room / text_width(page->text, style.size, bar->label));
+    double half = text_width(page->text, style.size, bar->label) / 2;
+    double middle = fmin((colors->top + colors->bottom) / 2, page->room.bottom - half);
+    text_draw(page->text, &style, (Point){out, fmax(middle, page->room.top + half)}, bar->label);
 }
 
 // The same colour map as the picture's, sampled along the bar, so the two cannot differ.
