@@ -97,7 +97,7 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
 }
 
 // Of a law that asks for pressure: problems in a row, each with the pressures of the one before.
-enum { PRESSURES_MAX = 40 };
+enum { PRESSURES_LIMIT = 40 };
 
 // Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
 // settled.
@@ -119,7 +119,7 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .g = scheme->g,
                               .bound = scheme->bound};
     *solved = contact_solve(&scheme->solver, &problem, contact);
-    int32_t again = PRESSURES_MAX;
+    int32_t again = PRESSURES_LIMIT;
     while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
         *solved = again-- > 0 && contact_solve(&scheme->solver, &problem, contact);
     TRY(*solved);

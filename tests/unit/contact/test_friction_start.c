@@ -72,8 +72,8 @@ TEST(test_scales)
     assert_near("f_0", rates.mu, 0.6, 1e-12);
 }
 
-// Beside the real part of -mu_theta (s - G)^-1 g_v on the boundary of where |s| >= 1/reach and Re s >=
-// 0, on which it is the largest. It is no less, and of one state no more than 1.5 times that.
+// Beside the real part of -mu_theta (s - G)^-1 g_v on the boundary of where |s| >= 1/reach and
+// Re s >= 0, on which it is the largest: it is no less.
 TEST(test_bound_of_weakening)
 {
     Random random = {.state = 5};
@@ -100,7 +100,8 @@ TEST(test_bound_of_weakening)
             double complex matrix[3][3], x[3], sum = 0;
             for (int32_t k = 0; k < n; k++) {
                 x[k] = rates.rate_speed[k];
-                for (int32_t j = 0; j < n; j++) matrix[k][j] = (k == j) * s - rates.rate_state[k][j];
+                for (int32_t j = 0; j < n; j++)
+                    matrix[k][j] = (k == j) * s - rates.rate_state[k][j];
             }
             for (int32_t k = 0; k < n; k++)   // Gauss: the diagonal is never small here
                 for (int32_t j = k + 1; j < n; j++) {
