@@ -3,7 +3,7 @@
 // checks. Settings are gathered first and stored after, because `units` must be known before any
 // number is.
 //
-// A later setting wins, key by key; a map given as a whole (--set time.until={t: 3}) first gives its
+// A later setting wins, key by key; a map given whole (--set time.until={t: 3}) first gives its
 // keys their defaults back. `sources` remembers where each value stands, for errors of the checks.
 #include "scene/scene.h"
 
