@@ -188,8 +188,8 @@ void contact_newton_take(ContactNewton *newton)
 
 // Nodes that never stick: friction there is steep at rest and flat above, over many decades of v.
 // Where it outweighs S, or the step would turn slip round, the step is taken in friction instead of
-// in v; no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round at
-// 0, where nothing jumps.
+// in v; no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round
+// at 0, where nothing jumps.
 void contact_newton_creep(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
