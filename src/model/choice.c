@@ -49,7 +49,8 @@ static const double SPACE_PRODUCTS = 0.55e-9;   // n m^2 of each part
 
 // Numbers that are kept at once: matrices of m x m (rungs, their copies, factors, certificate),
 // entries of a factor, and in a reduction columns of responses over those of a part's border.
-static const double SPACE_SQUARES = 30, SPACE_ENTRIES = 39, SPACE_COLUMNS = 12;
+static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 23, SPACE_ENTRIES = 39,
+                    SPACE_COLUMNS = 12;
 
 static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
 {
@@ -63,7 +64,8 @@ static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
     double contact = ANY_STAGE + passes + factors;
     double reduction = SPACE_REDUCTION * of_part * of_part +
                        SPACE_PRODUCTS * of_part * border * border;
-    double squares = SPACE_SQUARES * m * m, entries = SPACE_ENTRIES * pow(n, 4.0 / 3);
+    double squares = (parts > 1 ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m,
+           entries = SPACE_ENTRIES * pow(n, 4.0 / 3);
     double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
     double full = RUNGS * SPACE_FACTOR * n * n + stages * SPACE_STAGE * pow(n, 4.0 / 3);
     return (ExpectedCost){.reduction = parts * reduction * (sizes->several ? OF_SEVERAL : 1),

@@ -292,6 +292,7 @@ NOT_A_CHOICE = {
         "SPACE_REDUCTION": "the same",
         "SPACE_PRODUCTS": "the same",
         "SPACE_SQUARES": "numbers, by the memory of six runs in space",
+        "SPACE_SQUARES_ONE_SIDE": "the same, by 40 x 40 x 20 cells",
         "SPACE_ENTRIES": "the same",
         "SPACE_COLUMNS": "counted"},
     "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
