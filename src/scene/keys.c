@@ -98,9 +98,14 @@ static const SceneKey keys[] = {
      .choices = interpolation_choices},
     {"friction.formula", KEY_TEXT, offsetof(Scene, own_friction.formula), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
-                 "log, tanh, abs, round, min, max, points, and mu_static, mu_kinetic, "
-                 "critical_velocity where they are given."},
+     .sentence =
+         "Law `formula`: mu of the slip rate v >= 0, the pressure p and the states, with + "
+         "- * / ^, brackets, sqrt, exp, log, tanh, asinh, abs, round, min, max, points, and "
+         "numbers of this map where they are given: mu_static, slip_distance or D_c, ..."},
+    {"friction.state", KEY_STATES, offsetof(Scene, own_friction.states), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "Law `formula`: what a contact remembers, each state by the formula of its rate "
+                 "and what it is at first (if not given, as in steady slip at rod.velocity)."},
     {"friction.file", KEY_TEXT, offsetof(Scene, own_friction.file), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "Law `plugin`: a shared object with the functions of amontons_friction.h, "
@@ -277,7 +282,8 @@ static const SceneKey keys[] = {
                  "drop of friction drives, (mu_S - mu_K) P H / E; 0: by time.accuracy."},
     {"time.step_max", KEY_NUMBER, offsetof(Scene, time.step_max), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Longest step; 0: the rod moves 0.2 of the slip that the drop of friction drives "
-                 "(see time.tolerance) in it, up to twice that; without a rod a 50th of the run."},
+                 "(see time.tolerance), or of friction.slip_distance if that is more, in it, up to "
+                 "twice that; without a rod a 50th of the run."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Shortest step; 0: 1e-10 of the smaller of longest step and wave step."},
     {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
