@@ -49,7 +49,8 @@ typedef struct ContactView {
     const double *pressure;   // [count] stress
     const double *shear;   // [count][tangents] positive where the floor drags the block back
     const uint8_t *status;   // [count] NODE_...
-    const double *state;   // [count] of friction that remembers; NULL: it does not
+    const double *state;   // [count][states] of friction that remembers; NULL: it does not
+    int32_t states;   // of a node
 } ContactView;
 
 // One accepted step, as shown to the caller.

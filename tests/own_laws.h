@@ -7,11 +7,28 @@
 #include "contact/friction_make.h"
 #include "near.h"
 
+#include <string.h>
+
+// mu_static and its like, of the law that is made.
+static inline bool own_number(const void *context, const char *name, double *value)
+{
+    const FrictionLaw *law = context;
+    *value = strcmp(name, "mu_static") == 0           ? law->mu_static
+             : strcmp(name, "mu_kinetic") == 0        ? law->mu_kinetic
+             : strcmp(name, "critical_velocity") == 0 ? law->critical_velocity
+                                                      : 0;
+    return *value > 0;
+}
+
 static inline FrictionLaw own_law(FrictionLaw law, const FrictionSource *source)
 {
     Error err = {0};
     const char *key = NULL;
-    if (!friction_own_law(source, &law, &key, &err) || !friction_look(&law, &err))
+    FrictionLaw given = law;
+    FrictionSource full = *source;
+    if (!full.look_up) full.look_up = own_number;
+    if (!full.context) full.context = &given;
+    if (!friction_own_law(&full, &law, &key, &err) || !friction_look(&law, &err))
         fail_msg("%s: %s", key, err.message);
     return law;
 }

@@ -63,7 +63,8 @@ class Simulation:
         self.pressure = _view(self, contact.pressure, ctypes.c_double, n)
         self.shear = _view(self, contact.shear, ctypes.c_double, *vector)
         self.status = _view(self, contact.status, ctypes.c_uint8, n)
-        self.state = _view(self, contact.state, ctypes.c_double, n) if contact.state else None
+        remembered = (n,) if contact.states == 1 else (n, contact.states)
+        self.state = _view(self, contact.state, ctypes.c_double, *remembered) if contact.state else None
 
     def _destroy(self) -> None:
         if lib is not None and self._handle:

@@ -90,7 +90,16 @@ static void read_function(Reading *reading, int32_t function)
     if (wanted != 2) add(reading, (Operation)function, count);
 }
 
-// The variable, a number that has a name, or a function with its bracket.
+// -1: it is none.
+static int32_t find_variable(const FormulaNames *names, const char *name)
+{
+    if (names->variable && strcmp(name, names->variable) == 0) return 0;
+    for (int32_t k = 0; k < names->more_count; k++)
+        if (strcmp(name, names->more[k]) == 0) return k + 1;
+    return -1;
+}
+
+// A variable, a number that has a name, or a function with its bracket.
 static void read_name(Reading *reading)
 {
     char name[NAME_SIZE] = "";
@@ -110,8 +119,9 @@ static void read_name(Reading *reading)
     }
     double value = NAN;
     const FormulaNames *names = reading->names;
-    if (names->variable && strcmp(name, names->variable) == 0)
-        add(reading, STEP_VARIABLE, 0);
+    int32_t variable = find_variable(names, name);
+    if (variable >= 0)
+        add(reading, STEP_VARIABLE, variable);
     else if (names->look_up(names->context, name, &value))
         add(reading, STEP_NUMBER, value);
     else
@@ -185,19 +195,32 @@ static void read_sum(Reading *reading)
 
 bool formula_read(const char *text, const FormulaNames *names, Formula *formula, Error *err)
 {
-    Reading reading = {.at = text, .names = names, .formula = formula, .err = err};
     formula->count = 0;
+    return formula_append(text, names, formula, err);
+}
+
+bool formula_append(const char *text, const FormulaNames *names, Formula *formula, Error *err)
+{
+    Reading reading = {.at = text, .names = names, .formula = formula, .err = err};
     read_sum(&reading);
     if (error_is_clean(err) && next_of(&reading)) refuse(&reading, "an operator");
     return error_is_clean(err);
 }
 
+bool formula_has(const Formula *formula, int32_t variable)
+{
+    for (int32_t k = 0; k < formula->count; k++)
+        if (formula->step[k].operation == STEP_VARIABLE && formula->step[k].number == variable)
+            return true;
+    return false;
+}
+
 // --- evaluating ---------------------------------------------------------------------------------
 
-// A number and its derivative by the variable.
-typedef struct Dual {
-    double value, slope;
-} Dual;
+// What an operation makes of a and b, and its derivatives by them.
+typedef struct Applied {
+    double value, by_a, by_b;
+} Applied;
 
 // factor * slope; 0 for what does not depend on the variable, also where the factor is infinite.
 static double chain(double factor, double slope)
@@ -205,71 +228,49 @@ static double chain(double factor, double slope)
     return slope == 0 ? 0 : factor * slope;
 }
 
-static Dual power(Dual a, Dual b)
-{
-    double value = pow(a.value, b.value);
-    double by_base = chain(b.value * pow(a.value, b.value - 1), a.slope);
-    return (Dual){value, by_base + chain(value * log(a.value), b.slope)};
-}
-
-// The line through the points [x, y, ...] [count] next to x. The same x twice is a jump, where the
-// first of its values holds. NaN where they descend.
-static Dual along_points(Dual x, const Dual *point, int32_t count)
-{
-    for (int32_t k = 2; k < count; k += 2)
-        if (!(point[k].value >= point[k - 2].value)) return (Dual){NAN, NAN};
-    if (x.value <= point[0].value) return (Dual){point[1].value, 0};
-    for (int32_t k = 2; k < count; k += 2) {
-        if (x.value > point[k].value) continue;
-        double width = point[k].value - point[k - 2].value;
-        double slope = (point[k + 1].value - point[k - 1].value) / width;
-        return (Dual){point[k - 1].value + slope * (x.value - point[k - 2].value), slope * x.slope};
-    }
-    return (Dual){point[count - 1].value, 0};
-}
-
 // b: of a function of one argument not used.
-static Dual apply(Operation operation, Dual a, Dual b)
+static Applied apply(Operation operation, double a, double b)
 {
-    double root;
+    double value;
     switch (operation) {
     case STEP_SQRT:
-        root = sqrt(a.value);
-        return (Dual){root, chain(0.5 / root, a.slope)};
+        value = sqrt(a);
+        return (Applied){value, 0.5 / value, 0};
     case STEP_EXP:
-        return (Dual){exp(a.value), chain(exp(a.value), a.slope)};
+        value = exp(a);
+        return (Applied){value, value, 0};
     case STEP_LOG:
-        return (Dual){log(a.value), chain(1 / a.value, a.slope)};
+        return (Applied){log(a), 1 / a, 0};
     case STEP_TANH:
-        root = tanh(a.value);
-        return (Dual){root, chain(1 - root * root, a.slope)};
+        value = tanh(a);
+        return (Applied){value, 1 - value * value, 0};
+    case STEP_ASINH:
+        return (Applied){asinh(a), 1 / hypot(1, a), 0};
     case STEP_ABS:
-        return (Dual){fabs(a.value), a.value < 0 ? -a.slope : a.slope};
+        return (Applied){fabs(a), a < 0 ? -1 : 1, 0};
     case STEP_ROUND:
-        return (Dual){round(a.value), 0};
-    case STEP_MIN:
-        return b.value < a.value ? b : a;
-    case STEP_MAX:
-        return b.value > a.value ? b : a;
+        return (Applied){round(a), 0, 0};
     case STEP_NEGATE:
-        return (Dual){-a.value, -a.slope};
+        return (Applied){-a, -1, 0};
     case STEP_ADD:
-        return (Dual){a.value + b.value, a.slope + b.slope};
+        return (Applied){a + b, 1, 1};
     case STEP_SUBTRACT:
-        return (Dual){a.value - b.value, a.slope - b.slope};
+        return (Applied){a - b, 1, -1};
     case STEP_MULTIPLY:
-        return (Dual){a.value * b.value, chain(b.value, a.slope) + chain(a.value, b.slope)};
+        return (Applied){a * b, b, a};
     case STEP_DIVIDE:
-        return (Dual){a.value / b.value,
-                      chain(1 / b.value, a.slope) - chain(a.value / (b.value * b.value), b.slope)};
+        return (Applied){a / b, 1 / b, -(a / (b * b))};
     case STEP_POWER:
-        return power(a, b);
+        value = pow(a, b);
+        return (Applied){value, b * pow(a, b - 1), value * log(a)};
+    case STEP_MIN:
+    case STEP_MAX:
     case STEP_POINTS:
     case STEP_NUMBER:
     case STEP_VARIABLE:
         break;
     }
-    return a;
+    return (Applied){a, 1, 0};
 }
 
 bool formula_takes_two(Operation operation)
@@ -278,37 +279,89 @@ bool formula_takes_two(Operation operation)
     return operation >= STEP_ADD;
 }
 
-// Each step but a number and the variable takes one or two off the stack for the one that it puts
-// there, so the stack is never higher than there are steps.
-double formula_at(const Formula *formula, double x, double *slope)
+// Numbers on the stack, with their derivatives by the variables.
+typedef struct Entry {
+    double value, slope[FORMULA_VARIABLES_MAX];
+} Entry;
+
+// In the place of a. b: NULL: of a function of one argument.
+static void put(Applied applied, int32_t count, Entry *a, const Entry *b)
 {
-    Dual stack[FORMULA_STEPS_MAX];
+    a->value = applied.value;
+    for (int32_t k = 0; k < count; k++) {
+        a->slope[k] = chain(applied.by_a, a->slope[k]);
+        if (b) a->slope[k] += chain(applied.by_b, b->slope[k]);
+    }
+}
+
+static void put_one_of(Operation operation, Entry *a, const Entry *b)
+{
+    if (operation == STEP_MIN ? b->value < a->value : b->value > a->value) *a = *b;
+}
+
+// The line through the points [x, y, ...] [count], behind x on the stack, next to x. The same x
+// twice is a jump, where the first of its values holds. NaN where they descend.
+static Applied along_points(const Entry *stack, int32_t count)
+{
+    const Entry *point = stack + 1;
+    double x = stack->value;
+    for (int32_t k = 2; k < count; k += 2)
+        if (!(point[k].value >= point[k - 2].value)) return (Applied){NAN, NAN, 0};
+    if (x <= point[0].value) return (Applied){point[1].value, 0, 0};
+    for (int32_t k = 2; k < count; k += 2) {
+        if (x > point[k].value) continue;
+        double width = point[k].value - point[k - 2].value;
+        double slope = (point[k + 1].value - point[k - 1].value) / width;
+        return (Applied){point[k - 1].value + slope * (x - point[k - 2].value), slope, 0};
+    }
+    return (Applied){point[count - 1].value, 0, 0};
+}
+
+// Each step but a number and a variable takes one or two off the stack for the one that it puts
+// there, so the stack is never higher than there are steps.
+double formula_partials(const Formula *formula, const int32_t part[2], const double *x,
+                        int32_t count, double *slope)
+{
+    Entry stack[FORMULA_STEPS_MAX];
     int32_t top = -1;
-    for (int32_t k = 0; k < formula->count; k++) {
+    for (int32_t k = part[0]; k < part[1]; k++) {
         Operation operation = (Operation)formula->step[k].operation;
-        if (operation == STEP_NUMBER) {
-            stack[++top] = (Dual){formula->step[k].number, 0};
-        } else if (operation == STEP_VARIABLE) {
-            stack[++top] = (Dual){x, 1};
+        double number = formula->step[k].number;
+        if (operation == STEP_NUMBER || operation == STEP_VARIABLE) {
+            bool varies = operation == STEP_VARIABLE;
+            Entry *entry = &stack[++top];
+            entry->value = varies ? x[(int32_t)number] : number;
+            for (int32_t j = 0; j < count; j++) entry->slope[j] = varies && j == (int32_t)number;
         } else if (operation == STEP_POINTS) {
-            int32_t count = (int32_t)formula->step[k].number;
-            top -= count - 1;
-            stack[top] = along_points(stack[top], &stack[top + 1], count - 1);
+            int32_t points = (int32_t)number - 1;
+            top -= points;
+            put(along_points(&stack[top], points), count, &stack[top], NULL);
+        } else if (operation == STEP_MIN || operation == STEP_MAX) {
+            top--;
+            put_one_of(operation, &stack[top], &stack[top + 1]);
         } else {
-            Dual last = stack[top];
-            if (formula_takes_two(operation)) top--;
-            stack[top] = apply(operation, stack[top], last);
+            Entry *last = &stack[top];
+            bool two = formula_takes_two(operation);
+            if (two) top--;
+            put(apply(operation, stack[top].value, last->value), count, &stack[top],
+                two ? last : NULL);
         }
     }
-    *slope = stack[top].slope;
+    for (int32_t k = 0; k < count; k++) slope[k] = stack[top].slope[k];
     return stack[top].value;
+}
+
+double formula_at(const Formula *formula, double x, double *slope)
+{
+    return formula_partials(formula, (const int32_t[]){0, formula->count}, &x, 1, slope);
 }
 
 bool formula_value(const char *text, FormulaLookUp look_up, const void *context, double *value,
                    Error *err)
 {
     Formula formula;
-    FormulaNames names = {look_up, context, NULL, "is no number that the scene has"};
+    FormulaNames names = {
+        .look_up = look_up, .context = context, .unknown = "is no number that the scene has"};
     double slope;
     TRY(formula_read(text, &names, &formula, err));
     *value = formula_at(&formula, 0, &slope);

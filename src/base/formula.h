@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Sums and products of numbers, of named quantities and of a variable, so that a study can say
+// Sums and products of numbers, of named quantities and of variables, so that a study can say
 // `mesh.set.height: = 0.5 * mesh.set.length` and a scene its own friction law. Called by
 // scene/formulas and contact/friction_law.
 //
 //     sum = product {(+|-) product}     product = power {(*|/) power}
 //     power = - power | unit [^ power]
 //     unit = number | name | function(sum {, sum}) | (sum)
-//     function = sqrt, exp, log, tanh, abs, round (to a whole number); of two or more: min, max
+//     function = sqrt, exp, log, tanh, asinh, abs, round (to a whole number); of two or more: min,
+//                max
 //     points(x, x_1, y_1, x_2, y_2, ...): lines through points of ascending x, level beyond; the
 //     same x twice is a jump
 #ifndef AMONTONS_BASE_FORMULA_H
@@ -16,7 +17,7 @@
 
 #include <stdint.h>
 
-enum { FORMULA_STEPS_MAX = 256 };
+enum { FORMULA_STEPS_MAX = 256, FORMULA_VARIABLES_MAX = 10 };
 
 // Gives the number called `name`; false: there is none.
 typedef bool (*FormulaLookUp)(const void *context, const char *name, double *value);
@@ -26,11 +27,14 @@ typedef struct FormulaNames {
     const void *context;
     const char *variable;   // NULL: none
     const char *unknown;   // what is said of any other name, after it
+    const char *const *more;   // [more_count] variables behind the first
+    int32_t more_count;
 } FormulaNames;
 
 typedef struct FormulaStep {
     int32_t operation;
-    double number;   // of a step that is a number; of points, how many it takes off the stack
+    double number;   // of a step that is a number; of points, how many it takes off the stack; of a
+        // variable, which it is
 } FormulaStep;
 
 // As a list of steps on a stack: nothing is owned, and copies are as good.
@@ -42,7 +46,18 @@ typedef struct Formula {
 // ERROR_INPUT, without a place: what in `text` is wrong.
 bool formula_read(const char *text, const FormulaNames *names, Formula *formula, Error *err);
 
-// The value at x, and through *slope its derivative: exact but for rounding. Where abs, min or max
+// Puts the steps of `text` behind those that are there: several formulas may share a list.
+bool formula_append(const char *text, const FormulaNames *names, Formula *formula, Error *err);
+
+// The formula depends on this variable, or seems to.
+bool formula_has(const Formula *formula, int32_t variable);
+
+// Of the steps part[0] to part[1] - 1, which are a formula: the value at the variables x [count],
+// and its derivatives by them, slope [count].
+double formula_partials(const Formula *formula, const int32_t part[2], const double *x,
+                        int32_t count, double *slope);
+
+// Of a formula of one variable the value at x, and through *slope its derivative: exact but for rounding. Where abs, min or max
 // have a kink it is that of one side; where round jumps, 0.
 double formula_at(const Formula *formula, double x, double *slope);
 

@@ -93,6 +93,8 @@ static Range apply_range(Operation operation, Range a, Range b)
         return a.low >= 0 ? (Range){log(a.low), log(a.high)} : ANYTHING;
     case STEP_TANH:
         return (Range){tanh(a.low), tanh(a.high)};
+    case STEP_ASINH:
+        return (Range){asinh(a.low), asinh(a.high)};
     case STEP_ABS:
         return (Range){has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high)),
                        fmax(fabs(a.low), fabs(a.high))};

@@ -13,6 +13,7 @@ enum { MANY = -1 };
     X(STEP_EXP, "exp", 1)                                                                          \
     X(STEP_LOG, "log", 1)                                                                          \
     X(STEP_TANH, "tanh", 1)                                                                        \
+    X(STEP_ASINH, "asinh", 1)                                                                      \
     X(STEP_ABS, "abs", 1)                                                                          \
     X(STEP_ROUND, "round", 1)                                                                      \
     X(STEP_MIN, "min", 2)                                                                          \

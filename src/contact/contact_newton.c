@@ -6,6 +6,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "contact/friction_state.h"
+#include "contact/slip.h"
 
 #include <math.h>
 #include <string.h>
@@ -186,28 +187,34 @@ void contact_newton_take(ContactNewton *newton)
 }
 
 // Nodes that never stick: friction there is steep at rest and flat above, over many decades of v.
-// Where it outweighs S, or the step would turn slip round, the step is taken in mu instead of in v;
-// no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round at 0,
-// where nothing jumps.
-static void creep(ContactNewton *newton)
+// Where it outweighs S, or the step would turn slip round, the step is taken in friction instead of
+// in v; no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round at
+// 0, where nothing jumps.
+void contact_newton_creep(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
+    int32_t tangents = slip_tangents(problem->interface);
     int64_t count = problem->interface->count;
     double fastest = contact_scales(problem, at->reaction).velocity;
-    for (int32_t a = 0; a < newton->equations.free_count; a++) {
+    for (int32_t a = 0; newton->creeps && a < newton->equations.free_count; a++) {
         int32_t k = newton->free[a], i = contact_slipping_node(&newton->equations, k);
         if (i < 0 || !friction_creeps(friction_at(problem->law, i))) continue;
+        if (k != interface_tangent(problem->interface, i)) continue;
         const FrictionLaw *law = friction_at(problem->law, i);
-        double v = at->velocity[k], step = newton->step[a], speed = fabs(v);
-        double gain = friction_rates(law, speed, friction_state(law, speed)).mu_speed;
-        bool steep = gain * at->reaction[newton->row[a].normal] >
+        double *v = at->velocity + k, *step = newton->step + a, turned = 0, next[TANGENTS_MAX];
+        double speed = slip_size(problem->interface, i, at->velocity);
+        double pressing = at->reaction[interface_normal(problem->interface, i)];
+        for (int32_t c = 0; c < tangents; c++) turned += (v[c] + step[c]) * v[c];
+        bool steep = friction_direct_slope(law, speed) * pressing >
                      problem->matrix->schur[k * (count + 1)];
-        if (!steep && (v + step) * v > 0) continue;
-        double most = fmax(speed, fastest);
-        double next = fmin(fmax(friction_follow(law, v, step), -most), most);
-        newton->step[a] = next - v;
-        at->status[i] = status_of_slip(next);
+        if (!steep && turned > 0) continue;
+        friction_follow(law, tangents, v, step, next);
+        double most = fmax(speed, fastest), size = fabs(next[0]);
+        if (tangents > 1) size = hypot(next[0], next[1]);
+        for (int32_t c = 0; c < tangents; c++)
+            step[c] = (size > most ? next[c] * (most / size) : next[c]) - v[c];
+        if (tangents == 1) at->status[i] = status_of_slip(v[0] + step[0]);
     }
 }
 
@@ -227,7 +234,7 @@ bool contact_newton_step(ContactNewton *newton)
     if (!contact_factors_solve(&newton->factors, equations, newton->step) &&
         !(factor(newton) && contact_factors_solve(&newton->factors, equations, newton->step)))
         return false;
-    if (newton->creeps) creep(newton);
+    contact_newton_creep(newton);
     contact_newton_take(newton);
     return true;
 }

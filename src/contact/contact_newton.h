@@ -57,6 +57,9 @@ bool contact_newton_list(ContactNewton *newton);
 // The same without residuals, which are the caller's.
 bool contact_newton_close(ContactNewton *newton);
 
+// Bends newton->step at nodes of laws that creep; does nothing to others.
+void contact_newton_creep(ContactNewton *newton);
+
 // Parts of a step, of those who find `step` themselves. `pull` = S' r_O: what the forces at open
 // nodes do to the others when they are taken away; and then what `step` makes of velocities and
 // reactions.

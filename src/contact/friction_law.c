@@ -5,12 +5,7 @@
 #include "contact/friction_law.h"
 
 #include <math.h>
-
-bool friction_has_memory(const FrictionLaw *law)
-{
-    return law->kind == FRICTION_AGEING || law->kind == FRICTION_SLIP_WEAKENING ||
-           law->kind == FRICTION_RATE_STATE;
-}
+#include <stddef.h>
 
 FrictionLaw friction_constant(double mu)
 {
@@ -26,16 +21,7 @@ FrictionLaw friction_scaled(const FrictionLaw *law, double factor)
     scaled.bend *= factor;
     scaled.fall *= factor;
     scaled.factor *= factor;
-    if (friction_has_memory(law)) {
-        FrictionMemory *memory = &scaled.own.memory;
-        memory->mu_static *= factor;
-        memory->mu_kinetic *= factor;
-        if (law->kind == FRICTION_RATE_STATE) {
-            memory->direct *= factor;
-            memory->healing *= factor;
-            memory->reference *= factor;
-        }
-    }
+    if (friction_has_memory(law)) scaled.own.memory.factor *= factor;
     return scaled;
 }
 
@@ -126,7 +112,8 @@ static inline double drop_of(const FrictionLaw *law)
 static double lasting_drop(const FrictionLaw *law)
 {
     const FrictionMemory *memory = &law->own.memory;
-    return friction_has_memory(law) ? memory->mu_static - memory->mu_kinetic : drop_of(law);
+    return friction_has_memory(law) ? memory->factor * (memory->mu_static - memory->mu_kinetic)
+                                    : drop_of(law);
 }
 
 double friction_drop(const FrictionLaw *law)
@@ -177,12 +164,6 @@ static __attribute__((noinline)) double own_slope(const FrictionLaw *law, double
     return slope;
 }
 
-static __attribute__((noinline)) double remembered_coefficient(const FrictionLaw *law, double speed)
-{
-    double ignored;
-    return memory_coefficient(&law->own.memory, speed, &ignored);
-}
-
 static __attribute__((noinline)) double remembered_slope(const FrictionLaw *law, double speed)
 {
     double slope;
@@ -193,6 +174,7 @@ static __attribute__((noinline)) double remembered_slope(const FrictionLaw *law,
 // Continuous at v_c, where the linear law has its kink.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
+    if (friction_has_memory(law)) return memory_coefficient(&law->own.memory, speed, NULL);
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         if (speed >= law->critical_velocity) return law->mu_kinetic;
@@ -203,11 +185,10 @@ double friction_coefficient(const FrictionLaw *law, double speed)
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
         return own_coefficient(law, speed);
+    case FRICTION_COULOMB:
     case FRICTION_AGEING:
     case FRICTION_SLIP_WEAKENING:
     case FRICTION_RATE_STATE:
-        return remembered_coefficient(law, speed);
-    case FRICTION_COULOMB:
         break;
     }
     return law->mu_static;
@@ -217,6 +198,7 @@ double friction_coefficient(const FrictionLaw *law, double speed)
 // more.
 double friction_slope(const FrictionLaw *law, double speed)
 {
+    if (friction_has_memory(law)) return remembered_slope(law, speed);
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         return speed < law->critical_velocity ? -drop_of(law) / law->critical_velocity : 0.0;
@@ -226,11 +208,10 @@ double friction_slope(const FrictionLaw *law, double speed)
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
         return own_slope(law, speed);
+    case FRICTION_COULOMB:
     case FRICTION_AGEING:
     case FRICTION_SLIP_WEAKENING:
     case FRICTION_RATE_STATE:
-        return remembered_slope(law, speed);
-    case FRICTION_COULOMB:
         break;
     }
     return 0.0;
@@ -238,8 +219,9 @@ double friction_slope(const FrictionLaw *law, double speed)
 
 double friction_steepest(const FrictionLaw *law)
 {
-    if (law->kind == FRICTION_RATE_STATE) return 0;   // while its state stays
-    return friction_is_own(law) ? law->steepest : -friction_slope(law, 0);
+    if (friction_has_memory(law) && law->own.memory.creeps) return law->steepest;
+    if (friction_is_own(law) && !friction_has_memory(law)) return law->steepest;
+    return fmax(-friction_slope(law, 0), law->steepest);
 }
 
 // Ageing: a product of falling convex factors, ln(1 + c/(1 + x)) one of them.
@@ -252,6 +234,7 @@ bool friction_is_convex(const FrictionLaw *law)
 // which nobody knows of.
 double friction_kink(const FrictionLaw *law, int32_t k)
 {
+    if (friction_has_memory(law) && friction_is_own(law)) return INFINITY;
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
     case FRICTION_AGEING:
@@ -310,7 +293,8 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
     if (friction_is_convex(law)) return true;
     friction_branch(law, piece, from, &before);
     friction_branch(law, piece, to, &after);
-    return fabs(after - before) <= TURN * law->bend;
+    double bend = friction_has_memory(law) ? fmax(fabs(after), fabs(before)) : law->bend;
+    return fabs(after - before) <= TURN * bend;
 }
 
 // Exponential weakening never ends but by underflow: there is no speed from which on a node is
@@ -318,9 +302,12 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
 bool friction_weakens(const FrictionLaw *law, double speed)
 {
     if (friction_has_memory(law)) {
-        const FrictionMemory *memory = &law->own.memory;
-        FrictionRates rates = memory_rates(memory, speed, memory_state(memory, speed));
-        return rates.mu_speed < 0 || rates.mu_state * rates.rate < 0;
+        double state[STATES_MAX], falls = 0;
+        FrictionRates rates;
+        memory_state(&law->own.memory, speed, state);
+        memory_rates(&law->own.memory, speed, state, &rates);
+        for (int32_t k = 0; k < rates.states; k++) falls += rates.mu_state[k] * rates.rate[k];
+        return rates.mu_speed < 0 || falls < 0;
     }
     return friction_slope(law, speed) < 0.0;
 }
@@ -335,6 +322,7 @@ static const double SPENT = 5;
 
 double friction_spent_speed(const FrictionLaw *law)
 {
+    if (friction_has_memory(law)) return memory_spent_speed(&law->own.memory);
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         return law->critical_velocity;
@@ -344,11 +332,10 @@ double friction_spent_speed(const FrictionLaw *law)
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
         return law->spent;
+    case FRICTION_COULOMB:
     case FRICTION_AGEING:
     case FRICTION_SLIP_WEAKENING:
     case FRICTION_RATE_STATE:
-        return memory_spent_speed(&law->own.memory);
-    case FRICTION_COULOMB:
         break;
     }
     return 0;

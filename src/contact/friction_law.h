@@ -7,7 +7,7 @@
 //   exponential        mu_K + (mu_S - mu_K) exp(-|v| / v_c)
 //   Coulomb            mu_S
 //   one's own          a table, a formula or a plug-in: may rise, also above mu(0)
-//   with memory        of speed and a state, which a stage eliminates (contact/friction_state)
+//   with memory        of speed and states, which a stage eliminates (contact/friction_state)
 //
 // A new law is a line of FRICTION_LAWS and its cases in friction_law.c: nobody else asks for the
 // kind, but through the functions below.
@@ -40,6 +40,7 @@ typedef enum FrictionKind {
 // Nothing is owned: copies are as good.
 typedef struct FrictionLaw {
     FrictionKind kind;
+    bool remembers;   // it has states (contact/friction_memory); by friction_make_memory
     double mu_static;   // mu_S = mu(0), 1; with memory: in the stage under way
     double mu_kinetic;   // mu_K <= mu_S, the lowest coefficient, 1; of laws that weaken
     double critical_velocity;   // v_c > 0, velocity; of laws that weaken
@@ -88,8 +89,11 @@ const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind
 // A table, a formula or a plug-in.
 bool friction_is_own(const FrictionLaw *law);
 
-// It has a state (contact/friction_state).
-bool friction_has_memory(const FrictionLaw *law);
+// It has states (contact/friction_state).
+static inline bool friction_has_memory(const FrictionLaw *law)
+{
+    return law->remembers;
+}
 
 // The law has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);

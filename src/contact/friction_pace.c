@@ -8,7 +8,7 @@ FrictionLaw friction_paced(const FrictionLaw *law, double pace)
     FrictionMemory *memory = &paced.own.memory;
     memory->reference_velocity *= pace;
     memory->healing_time /= pace;
-    memory->start = friction_paced_state(law, memory->start, pace);
+    memory->start[0] = friction_paced_state(law, memory->start[0], pace);
     return paced;
 }
 

@@ -9,13 +9,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void *find_symbol(void *handle, const char *path, const char *name, Error *err)
+// The symbols of a plug-in and where their addresses go; those of laws that remember come last.
+enum { SPEED_ALONE = 2, SYMBOLS = 5 };
+
+static bool find_symbols(void *handle, const char *path, FrictionPlugin *plugin, Error *err)
 {
-    void *address = dlsym(handle, name);
-    if (!address)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s has no function %s (amontons_friction.h)", path, name);
-    return address;
+    static const char *const names[SYMBOLS] = {"coefficient", "slope", "states", "start", "rates"};
+    void *places[SYMBOLS] = {&plugin->coefficient, &plugin->slope, &plugin->states, &plugin->start,
+                             &plugin->rates};
+    bool remembers = dlsym(handle, "amontons_friction_rates") != NULL;
+    for (int32_t k = remembers ? SPEED_ALONE : 0; k < (remembers ? SYMBOLS : SPEED_ALONE); k++) {
+        char name[64];
+        snprintf(name, sizeof name, "amontons_friction_%s", names[k]);
+        void *address = dlsym(handle, name);
+        if (!address)
+            FAIL(err, ERROR_INPUT, "%s has no function %s (amontons_friction.h)", path, name);
+        memcpy(places[k], &address, sizeof address);   // POSIX: object to function pointer
+    }
+cleanup:
+    return error_is_clean(err);
 }
 
 // The loader looks for a name without a slash among the system's libraries.
@@ -33,16 +45,15 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
     snprintf(name, sizeof name, "%s%s", strchr(path, '/') ? "" : "./", path);
     void *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (!handle) FAIL(err, ERROR_INPUT, "cannot be opened: %s", dlerror());
-    void *address[3] = {find_symbol(handle, path, "amontons_friction_interface", err),
-                        find_symbol(handle, path, "amontons_friction_coefficient", err),
-                        find_symbol(handle, path, "amontons_friction_slope", err)};
-    if (!error_is_clean(err)) goto cleanup;
-    memcpy(&interface, &address[0], sizeof interface);   // POSIX: object to function pointer
-    memcpy(&plugin->coefficient, &address[1], sizeof plugin->coefficient);
-    memcpy(&plugin->slope, &address[2], sizeof plugin->slope);
-    if (interface() != AMONTONS_FRICTION_INTERFACE)
-        FAIL(err, ERROR_INPUT, "%s was built for version %d of amontons_friction.h, not %d", path,
-             interface(), AMONTONS_FRICTION_INTERFACE);
+    void *version = dlsym(handle, "amontons_friction_interface");
+    if (!version)
+        FAIL(err, ERROR_INPUT, "%s has no function amontons_friction_interface "
+             "(amontons_friction.h)", path);
+    memcpy(&interface, &version, sizeof interface);
+    if (interface() < 1 || interface() > AMONTONS_FRICTION_INTERFACE)
+        FAIL(err, ERROR_INPUT, "%s was built for version %d of amontons_friction.h, not 1 to %d",
+             path, interface(), AMONTONS_FRICTION_INTERFACE);
+    TRY(find_symbols(handle, path, plugin, err));
 cleanup:
     return error_is_clean(err);
 }

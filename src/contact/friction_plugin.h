@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A law whose functions stand in a shared object that somebody else wrote (amontons_friction.h).
-// Called by scene/own_law and contact/friction_law.
+// Called by scene/own_law, contact/friction_law and contact/friction_memory.
 #ifndef AMONTONS_CONTACT_FRICTION_PLUGIN_H
 #define AMONTONS_CONTACT_FRICTION_PLUGIN_H
 
 #include "amontons_friction.h"
 #include "base/error.h"
 
+// Of a law of speed alone coefficient and slope, of one that remembers the rest; others are NULL.
 typedef struct FrictionPlugin {
     double (*coefficient)(const AmontonsFriction *given, double speed);
     double (*slope)(const AmontonsFriction *given, double speed);
+    int (*states)(const AmontonsFriction *given);
+    void (*start)(const AmontonsFriction *given, double speed, double rest, double *state);
+    void (*rates)(const AmontonsFriction *given, double speed, double pressure, const double *state,
+                  AmontonsFrictionRates *rates);
     AmontonsFriction given;
 } FrictionPlugin;
 

@@ -3,8 +3,16 @@
 #ifndef AMONTONS_CONTACT_FRICTION_SOURCE_H
 #define AMONTONS_CONTACT_FRICTION_SOURCE_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "base/formula.h"
+
+enum { STATE_NAME_SIZE = 32, STATE_TEXT_SIZE = 512 };
+
+// A state of one's own, an entry of friction.state.
+typedef struct FrictionStateText {
+    char name[STATE_NAME_SIZE];
+    char rate[STATE_TEXT_SIZE];   // formula of v, p and all states
+    char start[STATE_TEXT_SIZE];   // formula of numbers; empty: that of steady slip
+} FrictionStateText;
 
 // What one's own law is made of, as a scene gives it in its map `friction`. Nothing is owned.
 typedef struct FrictionSource {
@@ -12,6 +20,11 @@ typedef struct FrictionSource {
     int32_t velocity_count, mu_count;
     bool straight;
     const char *formula, *file;
+    FormulaLookUp look_up;   // numbers that a formula may name; NULL: none
+    const void *context;   // for it
+    const FrictionStateText *state;   // [state_count]
+    int32_t state_count;
+    double rod_velocity, rest, pressure;   // friction.rest; nominal; 0: not given
     const double *parameters;   // [parameter_count] of a plug-in
     int32_t parameter_count;
     double end;   // of a formula or plug-in, velocity

@@ -6,28 +6,49 @@
 
 #include "contact/friction_law.h"
 
-// The law has a state (contact/friction_memory); of laws that differ along the contact: one has.
+// The law has states (contact/friction_memory); of laws that differ along the contact: one has.
 bool friction_remembers(const FrictionLaw *law, int32_t count);
+
+// How many a node has; of laws that differ: the most.
+int32_t friction_states(const FrictionLaw *law, int32_t count);
 
 // Friction is 0 at rest: no node of this law ever sticks (rate-and-state).
 static inline bool friction_creeps(const FrictionLaw *law)
 {
-    return law->kind == FRICTION_RATE_STATE;
+    return law->remembers && law->own.memory.creeps;
 }
 
-// Of a law that creeps (contact/friction_memory): where a step of Newton's method leads in mu.
-double friction_follow(const FrictionLaw *law, double velocity, double step);
+// Of a law that creeps (contact/friction_memory): where a step of Newton's method [count] leads in
+// friction.
+void friction_follow(const FrictionLaw *law, int32_t count, const double *velocity,
+                     const double *step, double *next);
 
-// The law of a node in a stage: its state obeys state = from + reach g(v, state). Does nothing to a
+// The law of a node in a stage: its states obey state = from + reach g(v, state). Does nothing to a
 // law without memory.
-void friction_set_stage(FrictionLaw *law, double from, double reach);
+void friction_set_stage(FrictionLaw *law, const double *from, double reach);
 
-// The state of a node at the end of that stage, and mu and g there; without memory 0, and mu alone.
-double friction_state(const FrictionLaw *law, double speed);
-FrictionRates friction_rates(const FrictionLaw *law, double speed, double state);
+// Its pressure in that stage, of a law that asks for it; returns by how much mu at this speed changes
+// with that, 1.
+double friction_set_pressure(FrictionLaw *law, double pressure, double speed);
 
-// What the state is when the rod begins to move, and a state as people read it.
-double friction_start_state(const FrictionLaw *law);
-double friction_shown_state(const FrictionLaw *law, double state);
+// The states of a node at the end of that stage [friction_states], none without memory.
+void friction_state(const FrictionLaw *law, double speed, double *state);
+// mu and g there, without memory mu alone.
+void friction_rates(const FrictionLaw *law, double speed, const double *state,
+                    FrictionRates *rates);
+
+// mu_v alone, at the end of that stage.
+double friction_direct_slope(const FrictionLaw *law, double speed);
+
+// A small disturbance exp(s t) of slip feels -mu_theta (s - g_theta)^-1 g_v, by which what is
+// remembered weakens: at the real s = 1/reach, and the most that its real part is at any s with
+// |s| >= 1/reach and Re s >= 0, or more than that; INFINITY: no bound is known. Both one over a
+// velocity.
+double friction_weakens_at(const FrictionRates *rates, double reach);
+double friction_weakens_most(const FrictionRates *rates, double reach);
+
+// What the states are when the rod begins to move; and state number k as people read it.
+void friction_start_state(const FrictionLaw *law, double *state);
+double friction_shown_state(const FrictionLaw *law, int32_t k, double state);
 
 #endif

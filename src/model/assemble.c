@@ -5,7 +5,6 @@
 
 #include "base/clock.h"
 #include "base/dense.h"
-#include "contact/friction_state.h"
 #include "model/regions.h"
 #include "model/shape_cache.h"
 
@@ -51,13 +50,7 @@ bool model_take_to_space(Model *model, Error *err)
     if (!possible)
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
                   "a mesh in space needs Poisson's ratios below 0.5");
-    if (!scene_blame(model->scene, "material.poisson", possible, err)) return false;
-    bool sticks = !friction_creeps(&model->scene->friction);
-    if (!sticks)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "`rate-and-state` is for a mesh in the plane: the solver in space asks for nodes "
-                  "that stick");
-    return scene_blame(model->scene, "friction.law", sticks, err);
+    return scene_blame(model->scene, "material.poisson", possible, err);
 }
 
 static bool blame_across(const Scene *scene, const char *key, Error *err)

@@ -14,7 +14,10 @@ static bool look_up(const void *context, const char *name, double *value)
 
 bool place_formula_read(const char *text, const double *y, Formula *formula, Error *err)
 {
-    FormulaNames names = {look_up, y, "x",
-                          y ? "is no number here: x and y alone" : "is no number here: x alone"};
+    FormulaNames names = {.look_up = look_up,
+                          .context = y,
+                          .variable = "x",
+                          .unknown = y ? "is no number here: x and y alone"
+                                       : "is no number here: x alone"};
     return formula_read(text, &names, formula, err);
 }

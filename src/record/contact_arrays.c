@@ -18,7 +18,8 @@ bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
     arrays->pressure = NEW_ARRAY(double, count, err);
     arrays->shear = NEW_ARRAY(double, count *tangents, err);
     arrays->status = NEW_ARRAY(uint8_t, count, err);
-    if (friction_remembers(law, count)) arrays->state = NEW_ARRAY(double, count, err);
+    arrays->states = friction_states(law, count);
+    if (arrays->states > 0) arrays->state = NEW_ARRAY(double, (int64_t)count * arrays->states, err);
     arrays->origin = NEW_ARRAY(double, count *tangents, err);
     return error_is_clean(err);
 }
@@ -55,8 +56,9 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
     for (int32_t i = 0; i < arrays->count; i++) {
         int32_t n = interface_normal(seen->interface, i);
         for (int32_t c = 0; c < arrays->tangents; c++) read_slip(arrays, seen, i, c);
-        if (arrays->state)
-            arrays->state[i] = friction_shown_state(friction_at(arrays->law, i), state->theta[i]);
+        for (int32_t k = 0; k < arrays->states; k++)
+            arrays->state[i * arrays->states + k] = friction_shown_state(
+                friction_at(arrays->law, i), k, state->theta[i * STATES_MAX + k]);
         arrays->pressure[i] = state->reaction[n] / seen->interface->weight[i];
         arrays->status[i] = shown_status(friction_at(arrays->law, i), seen_status(seen, i),
                                          slip_size(seen->interface, i, state->slip_rate));

@@ -19,9 +19,9 @@ typedef struct ContactArrays {
     double *shear;   // [count * tangents] positive where the plane drags the block back, stress
     uint8_t *status;   // [count] 0 open, 1 sticks, 2 slips where friction weakens, 3 where it does
         // not
-    double
-        *state;   // [count] of friction that remembers, as people read it (friction_shown_state);
-    // NULL: nothing is remembered
+    int32_t states;   // of a node; 0: nothing is remembered
+    double *state;   // [count, states] of friction that remembers, as people read it
+        // (friction_shown_state); NULL: nothing is remembered
     double *origin;   // [count * tangents] displacement in the first step, length
 } ContactArrays;
 

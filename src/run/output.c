@@ -44,6 +44,18 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A line each, those of the scene's formulas.
+static const char *state_names(const Scene *scene, char *names, size_t size)
+{
+    const SceneStates *states = &scene->own_friction.states;
+    names[0] = 0;
+    for (int32_t k = 0; k < states->count; k++) {
+        size_t used = strlen(names);
+        snprintf(names + used, size - used, "%s%s", k > 0 ? "\n" : "", states->state[k].name);
+    }
+    return names;
+}
+
 // mu_M and l_c are NaN in the head: they are known at the end only.
 static bool open_history(Simulation *simulation, Error *err)
 {
@@ -51,12 +63,14 @@ static bool open_history(Simulation *simulation, Error *err)
     const Model *model = &simulation->model;
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
     bool creeps = friction_creeps(&model->law);
+    char names[STATES_MAX * (STATE_NAME_SIZE + 1)];
     ResultHead head = {
         .title = scene->title,
         .units = scene->units == UNITS_SI ? "si" : "normalised",
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
-        .remembers = simulation->contact.state != NULL,
+        .states = simulation->contact.states,
+        .state_names = state_names(scene, names, sizeof names),
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_TRAILING] = simulation->model.scales.trailing,

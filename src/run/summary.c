@@ -21,7 +21,8 @@ static ContactView contact_view(const Interface *interface, const ContactArrays 
                          .pressure = contact->pressure,
                          .shear = contact->shear,
                          .status = contact->status,
-                         .state = contact->state};
+                         .state = contact->state,
+                         .states = contact->states};
 }
 
 StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
@@ -122,7 +123,7 @@ RunCounters summary_count(const Simulation *simulation)
                          .contact_rescued = solver->rescued,
                          .certificates = control->certificate.checks,
                          .loop_allocations = simulation->allocations_before > 0
-                                                 ? memory_counters().allocations -
+                                                 ? simulation_allocations(simulation) -
                                                        simulation->allocations_before
                                                  : 0};
 }

@@ -79,9 +79,13 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings)
     for (int32_t i = 0; i < count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < count; i++) {
         const FrictionLaw *law = friction_at(&model->law, i);
-        FrictionRates rates =
-            friction_rates(law, model->scales.slip_velocity, friction_start_state(law));
-        double reach = shear / (load / length * fabs(rates.mu_state * rates.rate_speed));
+        double state[STATES_MAX], lost = 0;   // of mu over slip
+        FrictionRates rates;
+        friction_start_state(law, state);
+        friction_rates(law, model->scales.slip_velocity, state, &rates);
+        for (int32_t k = 0; k < rates.states; k++)
+            lost += fabs(rates.mu_state[k] * rates.rate_speed[k]);
+        double reach = shear / (load / length * lost);
         double cell = interface->dim == 2 ? interface->weight[i] : sqrt(interface->weight[i]);
         coarse += MEMORY_CELLS * cell > reach;
         least = fmin(least, reach);

@@ -57,7 +57,7 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law
 {
     bool own = friction_is_own(law), formula = friction_use(law, "formula") == FRICTION_MUST;
     bool creeps = law->kind == FRICTION_RATE_STATE;
-    if (friction_remembers(law, 0) && law->kind != scene_law->kind)
+    if (friction_use(law, "slip_distance") == FRICTION_MUST && law->kind != scene_law->kind)
         FAIL(err, ERROR_INPUT,
              "`%s` takes numbers that friction gives, so friction.law has to be the same",
              friction_law_name(law));
@@ -86,7 +86,12 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, Friction
                        Error *err)
 {
     bool numbers = item->has_static || item->has_kinetic || item->has_critical;
-    FrictionSource source = {.formula = item->formula, .end = scene_fastest_slip(scene)};
+    FrictionLaw given = {.mu_static = item->mu_static,
+                         .mu_kinetic = item->mu_kinetic,
+                         .critical_velocity = item->critical_velocity};
+    SceneNumbersOf of = {.scene = scene, .law = &given};
+    FrictionSource source = scene_friction_source(&of);
+    source.formula = item->formula;
     const char *key = NULL;
     *law = scene->friction;
     if (!item->has_law && !numbers && !*item->formula) return true;

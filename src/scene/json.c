@@ -82,6 +82,18 @@ static void write_contact_laws(const SceneContactLaws *laws, JsonWriter *json, c
     json_end(json);
 }
 
+static void write_states(const SceneStates *states, JsonWriter *json, const char *name)
+{
+    json_begin_object(json, name);
+    for (int32_t i = 0; i < states->count; i++) {
+        json_begin_object(json, states->state[i].name);
+        json_text(json, "rate", states->state[i].rate);
+        if (*states->state[i].start) json_text(json, "start", states->state[i].start);
+        json_end(json);
+    }
+    json_end(json);
+}
+
 static void write_materials(const SceneMaterials *materials, JsonWriter *json, const char *name)
 {
     json_begin_object(json, name);
@@ -154,6 +166,9 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
         return;
     case KEY_CONTACT_LAWS:
         write_contact_laws(field, json, name);
+        return;
+    case KEY_STATES:
+        write_states(field, json, name);
         return;
     case KEY_MATERIALS:
         write_materials(field, json, name);

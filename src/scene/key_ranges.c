@@ -53,6 +53,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
         [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
         [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
+        [KEY_STATES] = "a map of at most 8 maps, as in {theta: {rate: 1 - v*theta/D_c, start: 10}}",
         [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
         [KEY_FIELDS] = "none, film, or a map of every_U, every_t, every_step, at_events, film",
     };

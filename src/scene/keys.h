@@ -24,6 +24,7 @@ typedef enum SceneKeyType {
     KEY_TRACTIONS,   // load.tractions: a list of {group, x, z}
     KEY_SUPPORTS,   // load.supports: a list of {group, direction}
     KEY_CONTACT_LAWS,   // friction.contacts: a list of {group, and keys of friction that differ}
+    KEY_STATES,   // friction.state: a map of states, each {rate, start}
     KEY_MATERIALS,   // materials: a map of regions, each a map of keys of material that differ
     KEY_FIELDS,   // output.fields: none, or a map of the keys below it
 } SceneKeyType;

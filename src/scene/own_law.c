@@ -7,6 +7,7 @@
 #include "scene/materials.h"
 
 #include <math.h>
+#include <string.h>
 
 // The speed of sound, the fastest of all regions.
 double scene_fastest_slip(const Scene *scene)
@@ -23,9 +24,14 @@ double scene_fastest_slip(const Scene *scene)
     return fastest;
 }
 
-static const MemoryKind MEMORIES[] = {[FRICTION_AGEING] = MEMORY_AGEING,
-                                      [FRICTION_SLIP_WEAKENING] = MEMORY_SLIP_WEAKENING,
-                                      [FRICTION_RATE_STATE] = MEMORY_RATE_STATE};
+// MEMORY_FORMULAS: it is not one of the laws that are built in with memory.
+static MemoryKind memory_kind(FrictionKind kind)
+{
+    return kind == FRICTION_AGEING           ? MEMORY_AGEING
+           : kind == FRICTION_SLIP_WEAKENING ? MEMORY_SLIP_WEAKENING
+           : kind == FRICTION_RATE_STATE     ? MEMORY_RATE_STATE
+                                             : MEMORY_FORMULAS;
+}
 
 // What measures things where nothing holds at rest and nothing ends: mu of steady slip at the
 // slowest rate that the start knows of, plus what it has rested beyond that, and at that of sound.
@@ -35,16 +41,15 @@ static void set_scales(const Scene *scene, FrictionMemory *memory)
     double weakens = memory->healing - memory->direct;
     double fast = log(fmax(fastest / memory->reference_velocity, 1));
     memory->critical_velocity = memory->reference_velocity;
-    memory->mu_static = memory->reference + fmax(memory->healing * memory->start, 0);
+    memory->mu_static = memory->reference + fmax(memory->healing * memory->start[0], 0);
     memory->mu_kinetic = fmax(memory->reference - fmax(weakens, 0) * fast, 0);
 }
 
 bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Error *err)
 {
     const SceneOwnFriction *own = &scene->own_friction;
-    if (!friction_remembers(law, 0)) return true;
     bool creeps = law->kind == FRICTION_RATE_STATE;
-    FrictionMemory memory = {.kind = MEMORIES[law->kind],
+    FrictionMemory memory = {.kind = memory_kind(law->kind),
                              .mu_static = law->mu_static,
                              .mu_kinetic = law->mu_kinetic,
                              .critical_velocity = law->critical_velocity,
@@ -55,13 +60,14 @@ bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Erro
                              .reference = own->mu_reference,
                              .reference_velocity = own->reference_velocity,
                              .slip_law = creeps && own->evolution == EVOLUTION_SLIP};
+    if (memory.kind == MEMORY_FORMULAS) return true;
     *key = "rest";
     if (!(own->rest > 0) && !(scene->rod.velocity > 0))
         FAIL(err, ERROR_INPUT,
              "missing: without a rod that moves nothing says what the contacts remember; allowed: "
              "a number > 0");
-    memory.start = own->rest > 0 ? memory_rested(&memory, own->rest)
-                                 : memory_steady(&memory, scene->rod.velocity);
+    memory.start[0] = own->rest > 0 ? memory_rested(&memory, own->rest)
+                                    : memory_steady(&memory, scene->rod.velocity);
     if (creeps) set_scales(scene, &memory);
     if (law->kind == FRICTION_SLIP_WEAKENING)
         memory.critical_velocity = memory.slip_distance / memory.healing_time;
@@ -70,22 +76,64 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Numbers of the map `friction` that a formula may name, and their symbols.
+static bool find_number(const void *context, const char *name, double *value)
+{
+    const SceneNumbersOf *of = context;
+    const FrictionLaw *law = of->law;
+    const SceneOwnFriction *own = &of->scene->own_friction;
+    const struct {
+        const char *name, *symbol;
+        double value;
+    } numbers[] = {{"mu_static", "mu_S", law->mu_static},
+                   {"mu_kinetic", "mu_K", law->mu_kinetic},
+                   {"critical_velocity", "v_c", law->critical_velocity},
+                   {"slip_distance", "D_c", own->slip_distance},
+                   {"healing_time", "theta_0", own->healing_time},
+                   {"healing", "beta", own->healing},
+                   {"direct_effect", "a", own->direct_effect},
+                   {"evolution_effect", "b", own->evolution_effect},
+                   {"mu_reference", "f_0", own->mu_reference},
+                   {"reference_velocity", "V_0", own->reference_velocity}};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        if (strcmp(name, numbers[k].name) != 0 && strcmp(name, numbers[k].symbol) != 0) continue;
+        *value = numbers[k].value;
+        return *value > 0;
+    }
+    return false;
+}
+
+FrictionSource scene_friction_source(const SceneNumbersOf *of)
+{
+    const Scene *scene = of->scene;
+    const SceneOwnFriction *own = &scene->own_friction;
+    return (FrictionSource){.velocity = own->velocity.value,
+                            .velocity_count = own->velocity.count,
+                            .mu = own->mu.value,
+                            .mu_count = own->mu.count,
+                            .straight = own->interpolation == INTERPOLATION_LINEAR,
+                            .formula = own->formula,
+                            .file = own->file,
+                            .look_up = find_number,
+                            .context = of,
+                            .state = own->states.state,
+                            .state_count = own->states.count,
+                            .rod_velocity = scene->rod.velocity,
+                            .rest = own->rest,
+                            .pressure = scene->load.pressure,
+                            .parameters = own->parameters.value,
+                            .parameter_count = own->parameters.count,
+                            .end = scene_fastest_slip(scene)};
+}
+
 bool scene_own_law(Scene *scene, const char **key, Error *err)
 {
     *key = "law";
     if (!friction_is_own(&scene->friction))
         return scene_remember(scene, &scene->friction, key, err);
-    const SceneNumbers *velocity = &scene->own_friction.velocity, *mu = &scene->own_friction.mu;
-    FrictionSource source = {.velocity = velocity->value,
-                             .velocity_count = velocity->count,
-                             .mu = mu->value,
-                             .mu_count = mu->count,
-                             .straight = scene->own_friction.interpolation == INTERPOLATION_LINEAR,
-                             .formula = scene->own_friction.formula,
-                             .file = scene->own_friction.file,
-                             .parameters = scene->own_friction.parameters.value,
-                             .parameter_count = scene->own_friction.parameters.count,
-                             .end = scene_fastest_slip(scene)};
+    FrictionLaw given = scene->friction;
+    SceneNumbersOf of = {.scene = scene, .law = &given};
+    FrictionSource source = scene_friction_source(&of);
     return friction_own_law(&source, &scene->friction, key, err) &&
            friction_look(&scene->friction, err);
 }

@@ -15,6 +15,15 @@ bool scene_own_law(Scene *scene, const char **key, Error *err);
 // above.
 bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Error *err);
 
+// Whose numbers a formula may name.
+typedef struct SceneNumbersOf {
+    const Scene *scene;
+    const FrictionLaw *law;   // mu_static, mu_kinetic, critical_velocity: of the scene or of an item
+} SceneNumbersOf;
+
+// What the scene gives for a law of one's own; `of` must outlive it.
+FrictionSource scene_friction_source(const SceneNumbersOf *of);
+
 // The slip rate up to which a formula or plug-in is asked: friction.velocity_max, or that of sound.
 double scene_fastest_slip(const Scene *scene);
 

@@ -4,6 +4,7 @@
 #define AMONTONS_SCENE_SCENE_VALUES_H
 
 #include "contact/friction_law.h"
+#include "contact/friction_source.h"
 #include "io/mesh/mesh_file.h"
 
 enum {
@@ -73,11 +74,18 @@ typedef struct SceneMaterials {
 typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
 typedef enum SceneEvolution { EVOLUTION_AGEING, EVOLUTION_SLIP } SceneEvolution;
 
+// friction.state: {NAME: {rate: FORMULA, start: FORMULA}}.
+typedef struct SceneStates {
+    int32_t count;
+    FrictionStateText state[STATES_MAX];
+} SceneStates;
+
 // What the map `friction` has beside the kind of law and its three numbers.
 typedef struct SceneOwnFriction {
     SceneNumbers velocity, mu, parameters;
     SceneInterpolation interpolation;
     char formula[SCENE_TEXT_SIZE];
+    SceneStates states;   // of a formula
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
     // Of laws with memory (contact/friction_memory).

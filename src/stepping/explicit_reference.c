@@ -119,18 +119,22 @@ static void resolve_slip(const ExplicitReference *scheme, int32_t i, double stre
     }
 }
 
-// The law of node i in this step; and its state at the end of it.
+// The law of node i in this step; and its states at the end of it.
 static void start_memory(const ExplicitReference *scheme, int32_t i, const State *state)
 {
     if (scheme->def.stage_laws)
-        friction_set_stage(&scheme->def.stage_laws[i], state->theta[i], 0.5 * scheme->def.step);
+        friction_set_stage(&scheme->def.stage_laws[i], state->theta + (int64_t)i * STATES_MAX,
+                           0.5 * scheme->def.step);
 }
 
 static void end_memory(const ExplicitReference *scheme, int32_t i, State *state)
 {
     if (!scheme->def.stage_laws) return;
-    double speed = slip_size(scheme->def.interface, i, state->slip_rate);
-    state->theta[i] = 2 * friction_state(&scheme->def.stage_laws[i], speed) - state->theta[i];
+    const FrictionLaw *law = &scheme->def.stage_laws[i];
+    double speed = slip_size(scheme->def.interface, i, state->slip_rate), middle[STATES_MAX];
+    double *theta = state->theta + (int64_t)i * STATES_MAX;
+    friction_state(law, speed, middle);
+    for (int32_t k = 0; k < friction_states(law, 0); k++) theta[k] = 2 * middle[k] - theta[k];
 }
 
 // Contact node i; returns the power it dissipates.
@@ -154,6 +158,9 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         for (int32_t d = 0; d <= last; d++) reaction[d] = 0;
     } else {
         double strength = bound - v[last];   // (dt/m) r_n
+        if (scheme->def.stage_laws)
+            friction_set_pressure(&scheme->def.stage_laws[i],
+                                  strength / kick / interface->weight[i], 0);
         resolve_slip(scheme, i, strength, v, state);
         reaction[last] = strength / kick;
         for (int32_t c = 0; c < last; c++) u[c] = start[c] + step * v[c];

@@ -6,6 +6,21 @@
 #include "contact/slip.h"
 
 #include <math.h>
+#include <string.h>
+
+// Some state changes mu: not where friction heals by nothing.
+static bool acts(const FrictionLaw *law)
+{
+    double state[STATES_MAX];
+    FrictionRates rates;
+    if (!friction_has_memory(law)) return false;
+    friction_start_state(law, state);
+    for (int32_t k = 0; k < law->own.memory.states; k++) state[k] = fmax(state[k], 1);
+    friction_rates(law, 0, state, &rates);
+    bool acts = friction_creeps(law) || friction_is_own(law);
+    for (int32_t k = 0; k < rates.states; k++) acts = acts || rates.mu_state[k] > 0;
+    return acts;
+}
 
 bool friction_states_create(const Block *block, FrictionStates *states, Error *err)
 {
@@ -13,12 +28,8 @@ bool friction_states_create(const Block *block, FrictionStates *states, Error *e
     *states = (FrictionStates){.interface = block->interface};
     if (!friction_remembers(block->law, block->interface->contact_count)) return true;
     states->laws = block->stage_laws;
-    for (int32_t i = 0; i < count; i++) {
-        double state = friction_start_state(&states->laws[i]);
-        FrictionRates rates = friction_rates(&states->laws[i], 0, fmax(state, 1));
-        states->act = states->act || rates.mu_state > 0 || friction_creeps(&states->laws[i]);
-    }
-    states->rate = NEW_ARRAY(double, (TABLEAU_STAGES_MAX + 1) * count, err);
+    for (int32_t i = 0; i < count; i++) states->act = states->act || acts(&states->laws[i]);
+    states->rate = NEW_ARRAY(double, (TABLEAU_STAGES_MAX + 1) * count * STATES_MAX, err);
     return error_is_clean(err);
 }
 
@@ -28,51 +39,77 @@ void friction_states_destroy(FrictionStates *states)
     *states = (FrictionStates){0};
 }
 
+static double *state_of(const State *state, int32_t i)
+{
+    return state->theta + (int64_t)i * STATES_MAX;
+}
+
 void friction_states_reset(FrictionStates *states, State *state)
 {
     for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
-        state->theta[i] = friction_start_state(&states->laws[i]);
-        friction_set_stage(&states->laws[i], state->theta[i], 0);
+        friction_start_state(&states->laws[i], state_of(state, i));
+        friction_set_stage(&states->laws[i], state_of(state, i), 0);
     }
 }
 
-static double *rates_of(const FrictionStates *states, int32_t stage)
+static double *rates_of(const FrictionStates *states, int32_t stage, int32_t i)
 {
-    return states->rate + (int64_t)(stage + 1) * states->interface->contact_count;
+    return states->rate +
+           ((int64_t)(stage + 1) * states->interface->contact_count + i) * STATES_MAX;
+}
+
+static void keep_rates(const FrictionStates *states, int32_t stage, const double *velocity,
+                       const State *state)
+{
+    for (int32_t i = 0; i < states->interface->contact_count; i++) {
+        FrictionRates rates;
+        double speed = slip_size(states->interface, i, velocity);
+        friction_rates(&states->laws[i], speed, state_of(state, i), &rates);
+        memcpy(rates_of(states, stage, i), rates.rate, (size_t)rates.states * sizeof(double));
+    }
 }
 
 void friction_states_begin(FrictionStates *states, const State *from)
 {
-    if (!states->laws) return;
-    double *rate = rates_of(states, -1);
-    for (int32_t i = 0; i < states->interface->contact_count; i++) {
-        double speed = slip_size(states->interface, i, from->slip_rate);
-        rate[i] = friction_rates(&states->laws[i], speed, from->theta[i]).rate;
-    }
+    if (states->laws) keep_rates(states, -1, from->slip_rate, from);
 }
 
 void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
                                  int32_t stage, const State *from)
 {
-    double reach = states->frozen ? 0 : tableau->gamma * step;
+    double reach = states->frozen ? 0 : tableau->gamma * step, start[STATES_MAX];
     for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
-        double start = from->theta[i];
+        memcpy(start, state_of(from, i), sizeof start);
         for (int32_t j = 0; j < stage && !states->frozen; j++)
-            start += step * tableau->a[stage][j] * rates_of(states, j)[i];
+            for (int32_t k = 0; k < STATES_MAX; k++)
+                start[k] += step * tableau->a[stage][j] * rates_of(states, j, i)[k];
         friction_set_stage(&states->laws[i], start, reach);
     }
 }
 
+static const double PRESSED = 1e-11;   // of mu, 1
+
+bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction)
+{
+    bool changed = false;
+    for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
+        double pressing = fmax(reaction[interface_normal(states->interface, i)], 0);
+        double change = friction_set_pressure(&states->laws[i],
+                                              pressing / states->interface->weight[i],
+                                              slip_size(states->interface, i, velocity));
+        changed = changed || !(fabs(change) <= PRESSED);
+    }
+    return changed;
+}
+
 void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
-                               double *theta)
+                               State *to)
 {
     if (!states->laws) return;
-    double *rate = rates_of(states, stage);
-    for (int32_t i = 0; i < states->interface->contact_count; i++) {
-        double speed = slip_size(states->interface, i, velocity);
-        theta[i] = friction_state(&states->laws[i], speed);
-        rate[i] = friction_rates(&states->laws[i], speed, theta[i]).rate;
-    }
+    for (int32_t i = 0; i < states->interface->contact_count; i++)
+        friction_state(&states->laws[i], slip_size(states->interface, i, velocity),
+                       state_of(to, i));
+    keep_rates(states, stage, velocity, to);
 }
 
 double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step,
@@ -81,13 +118,17 @@ double friction_states_error(const FrictionStates *states, const Tableau *tablea
     double largest = 0;
     if (!states->laws || states->frozen) return 0;
     for (int32_t i = 0; i < states->interface->contact_count; i++) {
-        double speed = slip_size(states->interface, i, to->slip_rate), error = 0;
-        for (int32_t j = 0; j <= tableau->stages; j++)
-            error += tableau->error[j] * rates_of(states, j - 1)[i];
-        double gain = friction_rates(&states->laws[i], speed, to->theta[i]).mu_state;
-        error = fabs(step * error * gain) * states->slip_per_mu;
-        if (!isfinite(error)) return INFINITY;
-        largest = fmax(largest, error);
+        double speed = slip_size(states->interface, i, to->slip_rate);
+        FrictionRates rates;
+        friction_rates(&states->laws[i], speed, state_of(to, i), &rates);
+        for (int32_t k = 0; k < rates.states; k++) {
+            double error = 0;
+            for (int32_t j = 0; j <= tableau->stages; j++)
+                error += tableau->error[j] * rates_of(states, j - 1, i)[k];
+            error = fabs(step * error * rates.mu_state[k]) * states->slip_per_mu;
+            if (!isfinite(error)) return INFINITY;
+            largest = fmax(largest, error);
+        }
     }
     return largest;
 }
@@ -98,8 +139,11 @@ void friction_states_archive(FrictionStates *states, Archive *archive)
     archive_flag(archive, &states->frozen);
     for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
         FrictionMemory *memory = &states->laws[i].own.memory;
-        double from = memory->from, reach = memory->reach;
-        archive_number(archive, &from);
+        double from[STATES_MAX], reach = memory->reach;
+        if (!friction_has_memory(&states->laws[i])) continue;
+        memcpy(from, memory->from, sizeof from);
+        archive_numbers(archive, from, memory->states);
+        archive_number(archive, &memory->pressure);
         archive_number(archive, &reach);
         if (archive_reads(archive)) friction_set_stage(&states->laws[i], from, reach);
     }

@@ -19,8 +19,8 @@ typedef struct FrictionStates {
     bool act;   // some state changes mu: not where friction heals by nothing
     bool frozen;   // states stay as they are: the block settles, and no time passes for them
     double slip_per_mu;   // that drives it: an error of mu counts as one of u so large, length
-    double *rate;   // [(TABLEAU_STAGES_MAX + 1) * contact_count] g at the start of the step and in
-        // its stages; owned
+    double *rate;   // [TABLEAU_STAGES_MAX + 1, contact_count, STATES_MAX] g at the start of the
+        // step and in its stages; owned
 } FrictionStates;
 
 bool friction_states_create(const Block *block, FrictionStates *states, Error *err);
@@ -33,9 +33,12 @@ void friction_states_reset(FrictionStates *states, State *state);
 void friction_states_begin(FrictionStates *states, const State *from);
 void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
                                  int32_t stage, const State *from);
-// velocity: v of the stage on the interface. theta: its states go there.
+// Laws that ask for pressure are handed that of the reactions at hand. true: mu has changed by more
+// than rounding, and the contact problem has to be solved once more.
+bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction);
+// velocity: v of the stage on the interface. Its states go into `to`.
 void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
-                               double *theta);
+                               State *to);
 
 // The largest error of mu that the local error of a state makes, as a length; `to` ends the step.
 double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step,

@@ -18,13 +18,15 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
     set->friction = NEW_ARRAY(double, count, err);
     set->turned = NEW_ARRAY(int32_t, count, err);
     set->direction = NEW_ARRAY(double, count, err);
+    if (friction_states(block->law, block->interface->contact_count) > 1)
+        set->rates = NEW_ARRAY(FrictionRates, block->interface->contact_count, err);
     return error_is_clean(err);
 }
 
 void moving_set_destroy(MovingSet *set)
 {
     memory_free_all(set->list, set->unknown, set->normal, set->friction, set->turned,
-                    set->direction);
+                    set->direction, set->rates);
     *set = (MovingSet){0};
 }
 
@@ -32,7 +34,7 @@ void moving_set_destroy(MovingSet *set)
 static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
 {
     MovingUnknown *moving = &set->list[set->count++];
-    *moving = (MovingUnknown){.unknown = unknown, .normal = -1};
+    *moving = (MovingUnknown){.unknown = unknown, .normal = -1, .node = -1};
     return moving;
 }
 
@@ -51,12 +53,27 @@ static void find_direction(const MovingSet *set, const State *state, int32_t i, 
 }
 
 // Across: friction mu r_n against a slip of that speed, which turns with it.
-static void add_across(MovingSet *set, int32_t t, int32_t n, double friction, double speed)
+static void add_across(MovingSet *set, int32_t t, int32_t n, double damper)
 {
     set->turned[set->turned_count++] = set->count - 1;
     MovingUnknown *across = add_unknown(set, t + 1);
     across->normal = n;
-    if (speed > 0) across->damper = friction / speed;
+    across->damper = damper;
+}
+
+static void keep_memory(MovingSet *set, const FrictionRates *rates, int32_t i, double pressing,
+                        MovingUnknown *moving)
+{
+    if (rates->states == 1) {
+        moving->memory = -rates->mu_state[0] * rates->rate_speed[0] * pressing;
+        moving->fading = -rates->rate_state[0][0];
+        set->remembers = set->remembers || moving->memory != 0;
+    } else if (rates->states > 1) {
+        moving->node = i;
+        set->remembers = true;
+        set->rates[i] = *rates;
+        for (int32_t k = 0; k < rates->states; k++) set->rates[i].mu_state[k] *= pressing;
+    }
 }
 
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
@@ -64,23 +81,27 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
     const FrictionLaw *law = friction_at(set->law, i);
     double speed = slip_size(set->interface, i, state->slip_rate);
-    FrictionRates rates = friction_rates(law, speed, state->theta[i]);
+    FrictionRates rates;
+    friction_rates(law, speed, state->theta + (int64_t)i * STATES_MAX, &rates);
     double mu = rates.mu, d[TANGENTS_MAX];
     MovingUnknown *moving = add_unknown(set, t);
     find_direction(set, state, i, d);
     moving->normal = n;
-    moving->friction = d[0] * mu;
+    double follows = mu;   // friction where pressure grows
+    if (rates.mu_pressure != 0)
+        follows += rates.mu_pressure * state->reaction[n] / set->interface->weight[i];
+    moving->friction = d[0] * follows;
     if (slip_tangents(set->interface) > 1) {
         memcpy(set->direction + 2 * (size_t)set->turned_count, d, sizeof d);
-        add_across(set, t, n, mu * state->reaction[n], speed);
-        moving[1].friction = d[1] * mu;
+        double pressing = state->reaction[n];
+        double damper = speed > 0 ? mu * pressing / speed : fmax(rates.mu_speed, 0) * pressing;
+        add_across(set, t, n, damper);
+        moving[1].friction = d[1] * follows;
     }
     double slope = rates.mu_speed;
     *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
-    moving->memory = -rates.mu_state * rates.rate_speed * state->reaction[n];
-    moving->fading = -rates.rate_state;
+    keep_memory(set, &rates, i, state->reaction[n], moving);
     set->weakens = set->weakens || moving->weakening > 0;
-    set->remembers = set->remembers || moving->memory != 0;
 }
 
 void moving_set_find(MovingSet *set, const State *state, bool with_open)
@@ -201,12 +222,19 @@ void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix)
         matrix[a * set->count + a] += set->list[a].damper + reach * set->list[a].spring;
 }
 
+// W(s) - W of unknown a at s = 1/reach.
+static double remembered_at(const MovingSet *set, int32_t a, double reach)
+{
+    const MovingUnknown *moving = &set->list[a];
+    if (moving->node >= 0) return friction_weakens_at(&set->rates[moving->node], reach);
+    return moving->memory * reach / (1 + reach * moving->fading);
+}
+
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix)
 {
     for (int64_t a = 0; a < set->count; a++) {
-        const MovingUnknown *moving = &set->list[a];
-        double remembered = moving->memory * reach / (1 + reach * moving->fading);
-        matrix[a * set->count + a] -= moving->weakening + remembered;
+        double remembered = remembered_at(set, (int32_t)a, reach);
+        matrix[a * set->count + a] -= set->list[a].weakening + remembered;
     }
 }
 
@@ -217,9 +245,12 @@ void moving_set_subtract_memory(const MovingSet *set, double reach, double narro
 {
     for (int64_t a = 0; set->remembers && a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];
+        double *diagonal = &matrix[a * (set->count + 1)];
         double fades = reach * moving->fading, cosine = fades > 1 ? narrow : 1;
         double part = factor * (cosine + fades) / (1 + 2 * cosine * fades + fades * fades);
-        if (moving->memory > 0) matrix[a * (set->count + 1)] -= moving->memory * reach * part;
+        if (moving->memory > 0) *diagonal -= moving->memory * reach * part;
+        if (moving->node >= 0)
+            *diagonal -= factor * friction_weakens_most(&set->rates[moving->node], reach);
     }
 }
 
@@ -227,12 +258,12 @@ void moving_set_settle(MovingSet *set, double reach)
 {
     for (int32_t a = 0; set->remembers && a < set->count; a++) {
         MovingUnknown *moving = &set->list[a];
-        if (moving->memory == 0) continue;
-        double weakening = moving->weakening - moving->damper +
-                           moving->memory * reach / (1 + reach * moving->fading);
+        if (moving->memory == 0 && moving->node < 0) continue;
+        double weakening = moving->weakening - moving->damper + remembered_at(set, a, reach);
         moving->weakening = fmax(weakening, 0);
         moving->damper = fmax(-weakening, 0);
         moving->memory = 0;
+        moving->node = -1;
         set->weakens = set->weakens || weakening > 0;
     }
     set->remembers = false;

@@ -29,7 +29,7 @@
 //     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
 //
 // a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
-// `fading`.
+// `fading`. Of several states w(s) - w is that of a small system (contact/friction_state).
 //
 // A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).
@@ -49,6 +49,8 @@ typedef struct MovingUnknown {
     double spring;   // of the same: 1 / softness, force / length
     double memory;   // of a slipping tangent: -mu_theta g_v r_n, force / length; 0: no memory
     double fading;   // -g_theta, 1/time
+    int32_t node;   // of a slipping tangent where there are several states, which `memory` and
+        // `fading` do not say; else -1
 } MovingUnknown;
 
 typedef struct MovingSet {
@@ -63,6 +65,7 @@ typedef struct MovingSet {
     int32_t count;   // |F|
     bool weakens;   // some weakening is above 0
     bool remembers;   // some memory is not 0
+    FrictionRates *rates;   // [contact_count] of nodes with several states; NULL: no law has; owned
     int32_t turned_count;   // slipping nodes in space
     int32_t *turned;   // [turned_count] which of F is their first unknown; owned, like the next
     double *direction;   // [turned_count * 2] d

@@ -45,9 +45,10 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
     double speed = slip_size(record->interface, k, state->slip_rate);
-    FrictionRates rates = friction_rates(friction_at(record->law, k), speed, state->theta[k]);
-    double remembered = rates.mu_state * rates.rate_speed * record->duration;
-    double slope = rates.mu_speed + remembered / (1 - record->duration * rates.rate_state);
+    FrictionRates rates;
+    friction_rates(friction_at(record->law, k), speed, state->theta + (int64_t)k * STATES_MAX,
+                   &rates);
+    double slope = rates.mu_speed - friction_weakens_at(&rates, record->duration);
     return slope < 0 ? -slope * state->reaction[interface_normal(record->interface, k)]
                      : 0;   // 0: it strengthens
 }

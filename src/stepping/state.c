@@ -21,7 +21,7 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
     state->inertia = NEW_ARRAY(double, state->dof_count, err);
     state->slip_rate = NEW_ARRAY(double, state->interface_count, err);
     state->reaction = NEW_ARRAY(double, state->interface_count, err);
-    state->theta = NEW_ARRAY(double, state->contact_count, err);
+    state->theta = NEW_ARRAY(double, (int64_t)state->contact_count *STATES_MAX, err);
     state->status = NEW_ARRAY(uint8_t, state->contact_count, err);
     state->rod_touches = NEW_ARRAY(uint8_t, state->rod_count, err);
     if (!error_is_clean(err)) return false;
@@ -51,7 +51,7 @@ void state_copy(const State *from, State *to)
     memcpy(to->inertia, from->inertia, bulk_bytes);
     memcpy(to->slip_rate, from->slip_rate, interface_bytes);
     memcpy(to->reaction, from->reaction, interface_bytes);
-    memcpy(to->theta, from->theta, (size_t)from->contact_count * sizeof(double));
+    memcpy(to->theta, from->theta, (size_t)from->contact_count * STATES_MAX * sizeof(double));
     memcpy(to->status, from->status, (size_t)from->contact_count);
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
 }
@@ -68,7 +68,7 @@ void state_archive(State *state, Archive *archive)
     archive_numbers(archive, state->inertia, state->dof_count);
     archive_numbers(archive, state->slip_rate, state->interface_count);
     archive_numbers(archive, state->reaction, state->interface_count);
-    archive_numbers(archive, state->theta, state->contact_count);
+    archive_numbers(archive, state->theta, (int64_t)state->contact_count * STATES_MAX);
     archive_octets(archive, state->status, state->contact_count);
     archive_octets(archive, state->rod_touches, state->rod_count);
 }

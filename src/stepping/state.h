@@ -30,7 +30,7 @@ typedef struct State {
     double *inertia;   // [dof_count] M a of the last stage
     double *slip_rate;   // [interface_count] v on the interface, exact where it is held
     double *reaction;   // [interface_count] on the block, force/width
-    double *theta;   // [contact_count] state of friction that remembers; else 0
+    double *theta;   // [contact_count, STATES_MAX] states of friction that remembers; else 0
     uint8_t *status;   // [contact_count] ContactStatus
     uint8_t *rod_touches;   // [rod_count]
 } State;

@@ -34,8 +34,8 @@ static void set_law(Random *random, FrictionKind kind, FrictionLaw *law)
     *law = (FrictionLaw){.kind = kind};
     friction_make_memory(&memory, law);
     bool creeps = kind == FRICTION_RATE_STATE;
-    friction_set_stage(law, creeps ? random_between(random, -5, 5) : random_between(random, 0, 1),
-                       log_between(random, 1e-6, 0.3));
+    double from = creeps ? random_between(random, -5, 5) : random_between(random, 0, 1);
+    friction_set_stage(law, &from, log_between(random, 1e-6, 0.3));
 }
 
 static void random_loads(Random *random)

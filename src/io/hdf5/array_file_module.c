@@ -397,9 +397,9 @@ static bool hdf5_read(Hdf5File *file, const char *name, double **values, int64_t
     if (dataset < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
     TRY(read_shape(file, name, dataset, rows, width, err));
-    if (*rows **width > INT64_MAX / (int64_t)sizeof(double))
+    if (*rows * *width > INT64_MAX / (int64_t)sizeof(double))
         FAIL(err, ERROR_MEMORY, "%s: no memory for all of %s", file->path, name);
-    TRY((*values = memory_bytes(*rows **width * (int64_t)sizeof(double), err)));
+    TRY((*values = memory_bytes(*rows * *width * (int64_t)sizeof(double), err)));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
         FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));
 cleanup:

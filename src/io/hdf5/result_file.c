@@ -75,7 +75,7 @@ ResultColumns result_series_columns(ResultSeries series)
 bool result_series_written(const ResultHead *head, ResultSeries series)
 {
     if (series == SERIES_ROD_WAY) return head->rod_on_spring;
-    if (series == SERIES_STATE) return head->remembers;
+    if (series == SERIES_STATE) return head->states > 0;
     bool across = series == SERIES_PAD_SHEAR_ACROSS || series == SERIES_PAD_SLIP_ACROSS;
     return !across || head->tangents > 1;
 }
@@ -104,24 +104,24 @@ static const char *unit_in_space(const ResultRow *row)
     return row->unit;
 }
 
-// What has a direction on the contact is a vector.
-static int32_t row_components(const ResultRow *row, int32_t tangents)
+// What has a direction on the contact is a vector, and so are several states.
+static int32_t row_components(const ResultRow *row, const ResultHead *head)
 {
     static const ResultSeries vectors[] = {SERIES_SLIP_RATE, SERIES_SLIP, SERIES_SHEAR};
     for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
-        if (row == &series_rows[vectors[k]] && tangents > 1) return tangents;
-    return 1;
+        if (row == &series_rows[vectors[k]] && head->tangents > 1) return head->tangents;
+    return row == &series_rows[SERIES_STATE] && head->states > 1 ? head->states : 1;
 }
 
-// Makes the array of a table's row, empty. tangents: of the contact.
-static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, int32_t tangents,
+// Makes the array of a table's row, empty.
+static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const ResultHead *head,
                     Error *err)
 {
-    char words[160];
-    bool space = tangents > 1;
-    int32_t components = row_components(row, tangents);
-    snprintf(words, sizeof words, "%s%s", row->description,
-             components > 1 ? "; then the same along y" : "");
+    char words[200];
+    bool space = head->tangents > 1, states = row == &series_rows[SERIES_STATE];
+    int32_t components = row_components(row, head);
+    const char *more = states ? "; then the next state" : "; then the same along y";
+    snprintf(words, sizeof words, "%s%s", row->description, components > 1 ? more : "");
     ArraySeries series = {.name = row->name,
                           .type = row->type,
                           .width = width,
@@ -130,6 +130,8 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, int32_
     return array_file_add_vectors(file, &series, components, err);
 }
 
+static const ResultHead flat = {.tangents = 1};   // of arrays without directions
+
 // Texts, and the numbers known by now.
 static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err)
 {
@@ -137,6 +139,8 @@ static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err
     TRY(array_file_set_text(file, "units", head->units, err));
     TRY(array_file_set_text(file, "version", head->version, err));
     if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
+    if (head->state_names && *head->state_names)
+        TRY(array_file_set_text(file, "states", head->state_names, err));
     if (head->tangents > 1)
         TRY(array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
@@ -152,7 +156,7 @@ static int32_t series_width(const ResultHead *head, ResultSeries series)
     double last = 0;   // pads are numbered from 0
     switch (series_rows[series].columns) {
     case COLUMNS_NODES:
-        return head->contact_count * row_components(&series_rows[series], head->tangents);
+        return head->contact_count * row_components(&series_rows[series], head);
     case COLUMNS_PADS:
         for (int32_t i = 0; i < head->contact_count; i++)
             if (head->nodes[NODES_PAD][i] > last) last = head->nodes[NODES_PAD][i];
@@ -174,19 +178,18 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     TRY(write_attributes(file, head, err));
     for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
         if (!head->nodes[k]) continue;
-        TRY(add_row(file, &nodes_rows[k], 1, head->tangents, err));
+        TRY(add_row(file, &nodes_rows[k], 1, head, err));
         TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
     }
     for (int32_t k = 0; k < RESULT_FACES_COUNT; k++) {
         if (head->faces[k].rows == 0) continue;
-        TRY(add_row(file, &faces_rows[k], head->faces[k].width, 1, err));
+        TRY(add_row(file, &faces_rows[k], head->faces[k].width, &flat, err));
         TRY(array_file_append(file, faces_rows[k].name, head->faces[k].values, head->faces[k].rows,
                               err));
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         if (!result_series_written(head, (ResultSeries)k)) continue;
-        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head->tangents,
-                    err));
+        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head, err));
     }
     TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
     return file;
@@ -228,10 +231,8 @@ cleanup:
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err)
 {
-    TRY(add_row(file, &table_rows[table], 1, 1, err));
-    TRY(array_file_append(file, table_rows[table].name, values, count, err));
-cleanup:
-    return error_is_clean(err);
+    return add_row(file, &table_rows[table], 1, &flat, err) &&
+           array_file_append(file, table_rows[table].name, values, count, err);
 }
 
 // --- reading ------------------------------------------------------------------------------------

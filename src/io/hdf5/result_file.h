@@ -28,7 +28,8 @@ struct ResultHead {
     double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
     bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
     bool rod_on_spring;   // SERIES_ROD_WAY is written, too
-    bool remembers;   // SERIES_STATE is
+    int32_t states;   // of a contact node, in SERIES_STATE; 0: there is none
+    const char *state_names;   // a line each; NULL or empty: without names
     int32_t contact_count;
     int32_t tangents;   // directions of slip: 0 or 1 in the plane, 2 in space
     const double *nodes[RESULT_NODES_COUNT];

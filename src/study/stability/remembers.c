@@ -30,7 +30,8 @@ cleanup:
 static void change_clock(const StabilityPath *path, double pace, State *state)
 {
     for (int32_t i = 0; i < state->contact_count; i++)
-        state->theta[i] = friction_paced_state(&path->laws[i], state->theta[i], pace);
+        state->theta[i * STATES_MAX] =
+            friction_paced_state(&path->laws[i], state->theta[i * STATES_MAX], pace);
     for (int32_t k = 0; k < state->interface_count; k++) state->slip_rate[k] *= pace;
     for (int32_t k = 0; k < state->dof_count; k++) {
         state->velocity[k] *= pace;
@@ -56,16 +57,19 @@ static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double *
     FrictionLaw law = *friction_at(&path->model->law, i);
     double speed = path->model->scales.slip_velocity;
     double distance = friction_has_memory(&law) ? law.own.memory.slip_distance : 0;
-    friction_set_stage(&law, friction_start_state(&law), LONG * distance / speed);
-    *state = friction_state(&law, speed);
-    return friction_rates(&law, speed, *state);
+    FrictionRates rates;
+    friction_start_state(&law, state);
+    friction_set_stage(&law, state, LONG * distance / speed);
+    friction_state(&law, speed, state);
+    friction_rates(&law, speed, state, &rates);
+    return rates;
 }
 
 double stability_forgets(const StabilityPath *path, int32_t i)
 {
-    double state = 0;
-    FrictionRates rates = steady_rates(path, i, &state);
-    return rates.rate_state < 0 ? -rates.rate_state : INFINITY;
+    double state[STATES_MAX] = {0};
+    FrictionRates rates = steady_rates(path, i, state);
+    return rates.states > 0 && rates.rate_state[0][0] < 0 ? -rates.rate_state[0][0] : INFINITY;
 }
 
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
@@ -75,7 +79,7 @@ void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
     trial->status[i] = CONTACT_SLIP_FORWARD;
     for (int32_t c = 0; c < interface->dim - 1; c++) trial->slip_rate[t + c] = 0;
     if (!path->laws) return;
-    steady_rates(path, i, &trial->theta[i]);
+    steady_rates(path, i, &trial->theta[i * STATES_MAX]);
     trial->slip_rate[t] = path->model->scales.slip_velocity;
 }
 
@@ -84,9 +88,9 @@ void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
 // m.
 double stability_critical_spring(const StabilityPath *path, int32_t i, double pressing)
 {
-    double state = 0;
-    FrictionRates rates = steady_rates(path, i, &state);
+    double state[STATES_MAX] = {0};
+    FrictionRates rates = steady_rates(path, i, state);
     if (!path->laws || rates.mu_speed < 0) return NAN;
-    double memory = -rates.mu_state * rates.rate_speed;
-    return fmax(pressing * (memory + rates.mu_speed * rates.rate_state), 0);
+    double memory = -rates.mu_state[0] * rates.rate_speed[0];
+    return fmax(pressing * (memory + rates.mu_speed * rates.rate_state[0][0]), 0);
 }

@@ -49,6 +49,11 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
+    if (friction_has_memory(&scene->friction) && friction_is_own(&scene->friction))
+        FAIL(err, ERROR_INPUT,
+             "%s: growth rates with friction that remembers are those of the laws that are built "
+             "in; a formula or plug-in with states, or of pressure, goes through `amontons run`",
+             scene->path);
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
@@ -211,8 +216,10 @@ static double mu_at_V(const StabilityPath *path, const State *state, double mu)
         if (!status_slips(state->status[i])) continue;
         double rate = speed * slip_size(&path->model->interface, i, state->slip_rate);
         const FrictionLaw *own = friction_at(law, i);
-        lost += pressure * (friction_rates(own, 0, state->theta[i]).mu -
-                            friction_rates(own, rate, state->theta[i]).mu);
+        FrictionRates rests, slips;
+        friction_rates(own, 0, &state->theta[i * STATES_MAX], &rests);
+        friction_rates(own, rate, &state->theta[i * STATES_MAX], &slips);
+        lost += pressure * (rests.mu - slips.mu);
         pressed += pressure * (friction_drop(own) / friction_drop(law));
     }
     return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction_drop(law)) : mu;

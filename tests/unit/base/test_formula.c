@@ -94,6 +94,7 @@ TEST(test_derivatives)
                                         "exp(-v / 0.3)",
                                         "log(1 + v / 0.1)",
                                         "tanh(2 * v)",
+                                        "0.01 * asinh(300 * v)",
                                         "abs(v - 0.5) + abs(v)",
                                         "min(v, 0.4)",
                                         "max(v ^ 2, v)",
@@ -101,7 +102,7 @@ TEST(test_derivatives)
                                         "points(v, 0, 1, 0.4, 3, 0.4, 2, 2, 0.5)",
                                         "points(v ^ 2, 0, 1, 0.4, 3, 2, 0.5)",
                                         "-v ^ 3"};
-    FormulaNames names = {look_up, NULL, "v", "is unknown"};
+    FormulaNames names = {.look_up = look_up, .variable = "v", .unknown = "is unknown"};
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
         for (double v = 0.05; v < 2; v += 0.1701) {
             Error err = {0};
@@ -120,6 +121,39 @@ TEST(test_derivatives)
     Formula formula;
     assert_false(formula_read("w", &names, &formula, &err));
     assert_string_equal(err.message, "`w` is unknown");
+}
+
+// Two formulas in one list, of three variables: all derivatives, each of its own part.
+TEST(test_partials)
+{
+    static const char *const more[] = {"theta", "p"};
+    static const char *const texts[] = {"0.3 + 0.01 * asinh(v * exp(theta)) / (1 + p)",
+                                        "1 - v * theta / 0.2 + min(p, theta ^ 2)"};
+    FormulaNames names = {.look_up = look_up, .variable = "v", .more = more, .more_count = 2};
+    Error err = {0};
+    Formula formula = {0};
+    int32_t ends[] = {0, 0, 0};
+    for (int k = 0; k < 2; k++) {
+        assert_true(formula_append(texts[k], &names, &formula, &err));
+        ends[k + 1] = formula.count;
+    }
+    const double x[] = {0.7, 1.3, 0.4}, h = 1e-6;
+    double slope[3], ignored[3];
+    double value = formula_partials(&formula, ends, x, 3, slope);
+    assert_true(fabs(value - (0.3 + 0.01 * asinh(0.7 * exp(1.3)) / 1.4)) < 1e-15);
+    for (int part = 0; part < 2; part++) {
+        formula_partials(&formula, ends + part, x, 3, slope);
+        for (int k = 0; k < 3; k++) {
+            double up[] = {x[0], x[1], x[2]}, down[] = {x[0], x[1], x[2]};
+            up[k] += h;
+            down[k] -= h;
+            double difference = (formula_partials(&formula, ends + part, up, 3, ignored) -
+                                 formula_partials(&formula, ends + part, down, 3, ignored)) /
+                                (2 * h);
+            assert_true(fabs(slope[k] - difference) < 1e-8 * (1 + fabs(difference)));
+        }
+    }
+    assert_false(formula_append("theta * phi", &names, &formula, &err));
 }
 
 // A formula of more steps than there is room for is refused.
@@ -185,7 +219,7 @@ TEST(test_bounds)
                                            "sqrt(x)",
                                            "(-2) ^ 3 * x",
                                            "round(x + 0.005) - x"};
-    const FormulaNames names = {look_up_none, NULL, "x", "is unknown"};
+    const FormulaNames names = {.look_up = look_up_none, .variable = "x", .unknown = "is unknown"};
     for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++) {
         Error err = {0};
         Formula formula;

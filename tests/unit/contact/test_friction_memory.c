@@ -44,6 +44,20 @@ static FrictionLaw law_of(int k)
     return law;
 }
 
+static FrictionRates rates_at(const FrictionLaw *law, double speed, double theta)
+{
+    FrictionRates rates;
+    friction_rates(law, speed, &theta, &rates);
+    return rates;
+}
+
+static double state_at(const FrictionLaw *law, double speed)
+{
+    double theta = NAN;
+    friction_state(law, speed, &theta);
+    return theta;
+}
+
 // A difference of order 4; h is small beside what the function varies over.
 static double difference(double (*f)(const FrictionLaw *, double, double), const FrictionLaw *law,
                          double at, double other, double h)
@@ -55,19 +69,19 @@ static double difference(double (*f)(const FrictionLaw *, double, double), const
 
 static double mu_of_speed(const FrictionLaw *law, double speed, double theta)
 {
-    return friction_rates(law, speed, theta).mu;
+    return rates_at(law, speed, theta).mu;
 }
 static double mu_of_state(const FrictionLaw *law, double theta, double speed)
 {
-    return friction_rates(law, speed, theta).mu;
+    return rates_at(law, speed, theta).mu;
 }
 static double rate_of_speed(const FrictionLaw *law, double speed, double theta)
 {
-    return friction_rates(law, speed, theta).rate;
+    return rates_at(law, speed, theta).rate[0];
 }
 static double rate_of_state(const FrictionLaw *law, double theta, double speed)
 {
-    return friction_rates(law, speed, theta).rate;
+    return rates_at(law, speed, theta).rate[0];
 }
 static double stage_of_speed(const FrictionLaw *law, double speed, double unused)
 {
@@ -82,17 +96,17 @@ TEST(test_derivatives)
         FrictionLaw law = law_of(k);
         for (size_t s = 0; s < sizeof speeds / sizeof *speeds; s++) {
             double v = speeds[s], theta = STATES[k], h = 1e-3 * v;
-            FrictionRates rates = friction_rates(&law, v, theta);
+            FrictionRates rates = rates_at(&law, v, theta);
             double scale = 0.1 / v;   // mu over its speed
             assert_near("mu_v", rates.mu_speed, difference(mu_of_speed, &law, v, theta, h),
                         1e-8 * scale);
-            assert_near("mu_theta", rates.mu_state, difference(mu_of_state, &law, theta, v, 1e-3),
-                        1e-9);
-            assert_near("g_v", rates.rate_speed, difference(rate_of_speed, &law, v, theta, h),
-                        1e-8 * fabs(rates.rate_speed) + 1e-9 / v);
-            assert_near("g_theta", rates.rate_state,
+            assert_near("mu_theta", rates.mu_state[0],
+                        difference(mu_of_state, &law, theta, v, 1e-3), 1e-9);
+            assert_near("g_v", rates.rate_speed[0], difference(rate_of_speed, &law, v, theta, h),
+                        1e-8 * fabs(rates.rate_speed[0]) + 1e-9 / v);
+            assert_near("g_theta", rates.rate_state[0][0],
                         difference(rate_of_state, &law, theta, v, 1e-3),
-                        1e-8 * fabs(rates.rate_state) + 1e-9);
+                        1e-8 * fabs(rates.rate_state[0][0]) + 1e-9);
         }
     }
 }
@@ -104,11 +118,11 @@ TEST(test_stage)
     for (int k = 0; k < LAWS; k++) {
         for (int r = 0; r < 4; r++) {
             FrictionLaw law = law_of(k);
-            friction_set_stage(&law, STATES[k], reaches[r]);
+            friction_set_stage(&law, &STATES[k], reaches[r]);
             for (int s = 0; s < 5; s++) {
-                double v = speeds[s], theta = friction_state(&law, v);
-                FrictionRates rates = friction_rates(&law, v, theta);
-                double left = theta - STATES[k] - reaches[r] * rates.rate;
+                double v = speeds[s], theta = state_at(&law, v);
+                FrictionRates rates = rates_at(&law, v, theta);
+                double left = theta - STATES[k] - reaches[r] * rates.rate[0];
                 double scale = fabs(theta) + fabs(STATES[k]) + reaches[r] * (1 + v / 0.02);
                 assert_near("equation of the state", left, 0, 1e-13 * scale);
                 assert_near("mu", friction_coefficient(&law, v), rates.mu, 0);
@@ -130,8 +144,8 @@ static double stepped(int k, double speed, double time, int32_t steps)
     FrictionLaw law = law_of(k);
     double theta = STATES[k];
     for (int32_t n = 0; n < steps; n++) {
-        friction_set_stage(&law, theta, time / steps);
-        theta = friction_state(&law, speed);
+        friction_set_stage(&law, &theta, time / steps);
+        theta = state_at(&law, speed);
     }
     return theta;
 }
@@ -154,7 +168,7 @@ TEST(test_constant_slip)
         double rested = stepped(k, 0, 10, 10000);
         if (k == 3) assert_near("slip law rests", rested, 1.3, 0);   // not without slip
         if (k == 0) assert_near("rested", rested, 12, 1e-9);
-        double fresh = friction_rates(&law, v, memory_steady(&MEMORIES[k], v)).rate;
+        double fresh = rates_at(&law, v, memory_steady(&MEMORIES[k], v)).rate[0];
         assert_near("rate at steady slip", fresh, 0, 1e-12);
     }
 }
@@ -169,17 +183,17 @@ TEST(test_limits)
                                                            .critical_velocity = 0.05};
     memory.healing = 0;
     friction_make_memory(&memory, &law);
-    friction_set_stage(&law, 5, 0.1);
+    friction_set_stage(&law, (const double[]){5}, 0.1);
     for (double v = 0; v < 0.1; v += 0.0037) {
         assert_near("beta = 0", friction_coefficient(&law, v), friction_coefficient(&linear, v), 0);
         assert_near("beta = 0", friction_slope(&law, v), friction_slope(&linear, v), 0);
     }
     for (int k = 0; k < LAWS; k++) {
         FrictionLaw frozen = law_of(k);
-        friction_set_stage(&frozen, STATES[k], 0);
+        friction_set_stage(&frozen, &STATES[k], 0);
         FrictionLaw half = friction_scaled(&frozen, 0.5);
         for (double v = 1e-3; v < 0.1; v += 0.0037) {
-            FrictionRates rates = friction_rates(&frozen, v, STATES[k]);
+            FrictionRates rates = rates_at(&frozen, v, STATES[k]);
             assert_near("frozen", friction_coefficient(&frozen, v), rates.mu, 0);
             assert_near("frozen", friction_slope(&frozen, v), rates.mu_speed, 0);
             assert_near("half", friction_coefficient(&half, v), 0.5 * rates.mu, 1e-15);
@@ -187,7 +201,7 @@ TEST(test_limits)
     }
     FrictionLaw asinh_law = law_of(2);
     double v = 0.004, psi = 0.4;
-    assert_near("the law as it is written", friction_rates(&asinh_law, v, psi).mu,
+    assert_near("the law as it is written", rates_at(&asinh_law, v, psi).mu,
                 0.02 * asinh(v / 0.02 * exp((0.5 + 0.03 * psi) / 0.02)), 1e-15);
 }
 
@@ -195,12 +209,13 @@ TEST(test_limits)
 TEST(test_follow)
 {
     FrictionLaw law = law_of(2);
-    friction_set_stage(&law, 0.3, 0);
+    friction_set_stage(&law, (const double[]){0.3}, 0);
     for (double v = 1e-14; v < 1; v *= 31) {
         double slope = friction_slope(&law, v), mu = friction_coefficient(&law, v);
-        double to = friction_follow(&law, v, 0.05 / slope);
+        double to, through, step = 0.05 / slope, back = -2 * mu / slope;
+        friction_follow(&law, 1, &v, &step, &to);
+        friction_follow(&law, 1, &v, &back, &through);
         assert_near("mu", friction_coefficient(&law, to), mu + 0.05, 1e-12);
-        double through = friction_follow(&law, v, -2 * mu / slope);
         assert_near("through 0", through / -v, 1, 1e-9);
     }
 }

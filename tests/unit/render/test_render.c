@@ -45,7 +45,7 @@ FIXTURE(result_write)
                        .units = "si",
                        .version = "0",
                        .rod_on_spring = true,
-                       .remembers = true,
+                       .states = 1,
                        .contact_count = NODES};
     Error err = {0};
     for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : x;

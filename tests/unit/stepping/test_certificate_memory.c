@@ -90,9 +90,9 @@ static void randomise(Fixture *fixture)
                           : forward                    ? CONTACT_SLIP_FORWARD
                                                        : CONTACT_SLIP_BACKWARD;
         seen->slip_rate[t] = seen->status[i] == CONTACT_STICK ? 0 : forward ? speed : -speed;
-        seen->theta[i] = fixture->laws[i].kind == FRICTION_RATE_STATE
-                             ? steady + random_between(random, -2, 2)
-                             : steady * random_between(random, 0.3, 1);
+        seen->theta[i * STATES_MAX] = fixture->laws[i].kind == FRICTION_RATE_STATE
+                                          ? steady + random_between(random, -2, 2)
+                                          : steady * random_between(random, 0.3, 1);
         seen->reaction[t + 1] = log_between(random, 1e-4, 3e-3);
     }
     memset(seen->rod_touches, 1, (size_t)interface->rod_count);
@@ -126,21 +126,27 @@ static double slope_of(double (*f)(const FrictionLaw *, double, double), const F
 {
     return (f(law, x + h, other) - f(law, x - h, other)) / (2 * h);
 }
+static FrictionRates rates_at(const FrictionLaw *law, double speed, double theta)
+{
+    FrictionRates rates;
+    friction_rates(law, speed, &theta, &rates);
+    return rates;
+}
 static double mu_by_speed(const FrictionLaw *law, double speed, double theta)
 {
-    return friction_rates(law, speed, theta).mu;
+    return rates_at(law, speed, theta).mu;
 }
 static double mu_by_state(const FrictionLaw *law, double theta, double speed)
 {
-    return friction_rates(law, speed, theta).mu;
+    return rates_at(law, speed, theta).mu;
 }
 static double rate_by_speed(const FrictionLaw *law, double speed, double theta)
 {
-    return friction_rates(law, speed, theta).rate;
+    return rates_at(law, speed, theta).rate[0];
 }
 static double rate_by_state(const FrictionLaw *law, double theta, double speed)
 {
-    return friction_rates(law, speed, theta).rate;
+    return rates_at(law, speed, theta).rate[0];
 }
 
 // y' = A y, y = (u, v, theta), into re and im; coupled: what slip adds to the pressure changes
@@ -170,14 +176,17 @@ static int32_t find_rates(Fixture *fixture, bool coupled)
         int32_t t = interface_tangent(&rig->interface, i), k = rig->interface.dofs[t];
         double speed = fabs(seen->slip_rate[t]), d = status_direction(seen->status[i]);
         double force = seen->reaction[t + 1] / rig->bulk.mass[k], h = 1e-4 * speed;
-        double by_state = 1e-4 * fmax(fabs(seen->theta[i]), 1e-2);
+        double by_state = 1e-4 * fmax(fabs(seen->theta[i * STATES_MAX]), 1e-2);
         int64_t v = n + fixture->place[k];
-        a[v * size + v] -= force * slope_of(mu_by_speed, law, speed, seen->theta[i], h);
-        a[theta * size + v] = -d * force *
-                              slope_of(mu_by_state, law, seen->theta[i], speed, by_state);
-        a[v * size + theta] = d * slope_of(rate_by_speed, law, speed, seen->theta[i], h);
-        a[theta * size + theta] = slope_of(rate_by_state, law, seen->theta[i], speed, by_state);
-        double mu = d * friction_rates(law, speed, seen->theta[i]).mu / rig->bulk.mass[k];
+        a[v * size + v] -= force *
+                           slope_of(mu_by_speed, law, speed, seen->theta[i * STATES_MAX], h);
+        a[theta * size + v] =
+            -d * force * slope_of(mu_by_state, law, seen->theta[i * STATES_MAX], speed, by_state);
+        a[v * size + theta] = d *
+                              slope_of(rate_by_speed, law, speed, seen->theta[i * STATES_MAX], h);
+        a[theta * size + theta] =
+            slope_of(rate_by_state, law, seen->theta[i * STATES_MAX], speed, by_state);
+        double mu = d * rates_at(law, speed, seen->theta[i * STATES_MAX]).mu / rig->bulk.mass[k];
         for (int32_t j = 0; coupled && j < n; j++) {
             int64_t from = (int64_t)fixture->free[j] * all + rig->interface.dofs[t + 1];
             a[(int64_t)j * size + v] -= mu * stiffness[from];

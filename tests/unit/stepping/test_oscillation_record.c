@@ -124,12 +124,12 @@ TEST(test_memory)
         double weakening = PRESSURE *
                            (0.28 / 3.4e-4 * strength + gain * at / 1e-4 / (1 / LONG + fades));
         slip(&fixture, 3, 0.05, PRESSURE);
-        fixture.seen.theta[3] = at;
+        fixture.seen.theta[3 * STATES_MAX] = at;
         if (k == 0) see(&fixture, 2 * LONG);
         assert_true(covered(&fixture));
         if (k == 0) assert_near("W", fixture.record.weakening[3], weakening, 1e-12);
     }
-    fixture.seen.theta[3] = 2 * theta;
+    fixture.seen.theta[3 * STATES_MAX] = 2 * theta;
     assert_false(covered(&fixture));
     fixture_destroy(&fixture);
 }

@@ -288,7 +288,7 @@ static bool check_quantity(Study *study, const StudyPlot *plot, PlotKey key, Err
 {
     QuantityRead read = {
         study, {NULL, plot_key_name(key), plot->node[key]}, key != PLOT_CONTOURS, err};
-    FormulaNames names = {find_quantity, &read, NULL, "is no column"};
+    FormulaNames names = {.look_up = find_quantity, .context = &read, .unknown = "is no column"};
     const char *text = plot->text[key];
     Formula formula;
     Error found = {0};

@@ -209,7 +209,7 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
     TRY(made->values = NEW_ARRAY(double, table->count, err));
     for (int32_t k = 0; k < table->count; k++) {
         FormulaPoint at = {table, k, err};
-        FormulaNames names = {value_of, &at, NULL, "is no column"};
+        FormulaNames names = {.look_up = value_of, .context = &at, .unknown = "is no column"};
         Formula formula;
         Error wrong = {0};
         double ignored = 0;

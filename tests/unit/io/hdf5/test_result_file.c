@@ -43,7 +43,7 @@ static ResultHead head_of_a_run(void)
                        .version = "0.1.0",
                        .contact_count = NODES,
                        .rod_on_spring = true,
-                       .remembers = true};
+                       .states = 1};
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) head.numbers[k] = NAN;
     head.numbers[NUMBER_LENGTH] = 1;
     head.numbers[NUMBER_CRITICAL_VELOCITY] = 3.4e-4;
