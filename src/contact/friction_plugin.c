@@ -47,8 +47,10 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
     if (!handle) FAIL(err, ERROR_INPUT, "cannot be opened: %s", dlerror());
     void *version = dlsym(handle, "amontons_friction_interface");
     if (!version)
-        FAIL(err, ERROR_INPUT, "%s has no function amontons_friction_interface "
-             "(amontons_friction.h)", path);
+        FAIL(err, ERROR_INPUT,
+             "%s has no function amontons_friction_interface "
+             "(amontons_friction.h)",
+             path);
     memcpy(&interface, &version, sizeof interface);
     if (interface() < 1 || interface() > AMONTONS_FRICTION_INTERFACE)
         FAIL(err, ERROR_INPUT, "%s was built for version %d of amontons_friction.h, not 1 to %d",

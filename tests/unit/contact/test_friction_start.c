@@ -100,7 +100,8 @@ TEST(test_bound_of_weakening)
             double complex matrix[3][3], x[3], sum = 0;
             for (int32_t k = 0; k < n; k++) {
                 x[k] = rates.rate_speed[k];
-                for (int32_t j = 0; j < n; j++) matrix[k][j] = (k == j) * s - rates.rate_state[k][j];
+                for (int32_t j = 0; j < n; j++)
+                    matrix[k][j] = (k == j) * s - rates.rate_state[k][j];
             }
             for (int32_t k = 0; k < n; k++)   // Gauss: the diagonal is never small here
                 for (int32_t j = k + 1; j < n; j++) {
