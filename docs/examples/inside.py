@@ -27,7 +27,7 @@ print(f"t = {when:.2f}: slip has come to x = {front:.3f}, at up to {velocity[:, 
 
 figure, axes = plt.subplots(figsize=(7, 3.6), layout="constrained")
 drawn = axes.tripcolor(x, z, triangles, velocity[:, 0] / V, shading="gouraud", cmap="inferno")
-figure.colorbar(drawn, label="velocity along x / V")
-axes.set(xlabel="x", ylabel="z", aspect="equal")
+figure.colorbar(drawn, label="velocity along $x$ / $V$")
+axes.set(xlabel="$x / L_0$", ylabel="$z / L_0$", aspect="equal")
 Path("results").mkdir(exist_ok=True)
 figure.savefig("results/inside.png", dpi=150)

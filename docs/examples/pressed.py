@@ -22,9 +22,9 @@ for push in (0, 0.0005, 0.001):   # how far the rod stands inside the undeformed
         x = held["nodes/position"][:][row, 0]
         pressure = held["nodes/reaction"][:][row, 1] / held["contact/weight"][:]
     along = x.argsort()
-    axes.plot(x[along], pressure[along] / 0.003, label=f"rod at {push}")
+    axes.plot(x[along], pressure[along] / 0.003, label=f"rod at {push} $L_0$")
     print(f"rod at {push}: F_T/F_N {answer.rod_force / answer.normal_force:.4f}, {answer.slipping} nodes slip")
-axes.set(xlabel="x", ylabel="contact pressure / P", ylim=(0, 2))
+axes.set(xlabel="$x / L_0$", ylabel="contact pressure / $P$", ylim=(0, 2))
 axes.legend()
 Path("results").mkdir(exist_ok=True)
 figure.savefig("results/pressed.png", dpi=150)

@@ -35,9 +35,9 @@ def pushed(hold):
 figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
 for hold in (0, 100):
     t, mu = pushed(hold)
-    axes.plot(t, mu, label=f"rod stands for {hold}", linewidth=1)
+    axes.plot(t, mu, label=f"rod stands for {hold} $t_0$", linewidth=1)
     print(f"rod stands for {hold}: largest F_T/F_N after the start {mu[t > 400].max():.4f}")
-axes.set(xlabel="time t", ylabel="F_T / F_N")
+axes.set(xlabel="$t / t_0$", ylabel="$F_T / F_N$")
 axes.legend()
 Path("results").mkdir(exist_ok=True)
 figure.savefig("results/stop_and_go.png", dpi=150)

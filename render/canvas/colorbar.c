@@ -7,6 +7,7 @@
 
 enum { TICKS_MAX = 6, LABEL_LENGTH = TICK_LABEL_SIZE + 8 };
 
+static const double NAME_MARGIN = 2;   // points: of the page above and below the name, at least
 static const double SLACK = 1e-9;   // of a step: a range that ends at a number is not widened
 static const double BAR_WIDTH = 7;   // points
 static const double TICK_LENGTH = 2.2;   // points
@@ -106,7 +107,12 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     style.up = 1;
     out += (NUMBER_GAP + numbers_width(page, bar) + LABEL_GAP) * page->point;
-    text_draw(page->text, &style, (Point){out, (colors->top + colors->bottom) / 2}, bar->label);
+    double margin = NAME_MARGIN * page->point;   // a long name gets smaller, and moves
+    double first = page->room.top + margin, last = page->room.bottom - margin;
+    style.size *= fmin(1, (last - first) / text_width(page->text, style.size, bar->label));
+    double half = text_width(page->text, style.size, bar->label) / 2;
+    double middle = fmin((colors->top + colors->bottom) / 2, last - half);
+    text_draw(page->text, &style, (Point){out, fmax(middle, first + half)}, bar->label);
 }
 
 // The same colour map as the picture's, sampled along the bar, so the two cannot differ.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // An image made of pixels, drawn off-screen by OpenGL 3.3: triangles between whose corners a value
-// is linear, or values in rows and columns, shown through a table of colours. This file and gl_image.c are all
-// that knows OpenGL and where it comes from: OSMesa, or EGL without a surface where there is no
-// OSMesa (Mesa 25.1 dropped it). Neither is loaded before the first image. Called by canvas.c.
+// is linear, or values in rows and columns, shown through a table of colours. This file and
+// gl_image.c are all that knows OpenGL and where it comes from: OSMesa, or EGL without a surface
+// where there is no OSMesa (Mesa 25.1 dropped it). Neither is loaded before the first image. Called
+// by canvas.c.
 #ifndef AMONTONS_RENDER_CANVAS_GL_IMAGE_H
 #define AMONTONS_RENDER_CANVAS_GL_IMAGE_H
 

@@ -2,7 +2,8 @@
 // A zlib stream (RFC 1950, 1951) of the rows of a PNG, each as its difference to the row above it
 // (filter "up"). A figure is paper and what goes on from row to row, so that pixel after pixel has
 // the same difference, mostly none: only such runs are looked for. zlib at level 3, which compares
-// every byte with earlier ones, takes ten times as long for a tenth fewer bytes. Called by png_encode.
+// every byte with earlier ones, takes ten times as long for a tenth fewer bytes. Called by
+// png_encode.
 #ifndef AMONTONS_RENDER_CANVAS_RUN_DEFLATE_H
 #define AMONTONS_RENDER_CANVAS_RUN_DEFLATE_H
 

@@ -17,7 +17,8 @@ static const double LEFT = 4, GAP = 5;   // points: beside and between frames
 static const double WORDS_HEIGHT = 12;   // points above each frame
 static const double LEGEND_HEIGHT = 12, NOTE_HEIGHT = 9;   // points below all: two lines
 static const double BOTTOM = 4;   // points
-static const double FREE_MARGIN = 10;   // points around a legend in the place of a frame
+static const double FREE_LEFT = 10, FREE_ABOVE = 6;   // points: to a legend in a frame's place
+static const double FREE_LINE = 8;   // points: its lines
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
 
 typedef struct Strip {
@@ -137,7 +138,7 @@ static void lay_out(const FigureInput *input, Strip *strip)
 static bool has_free_place(const Strip *strip)
 {
     return strip->count % COLUMNS == 1 &&
-           strip->height > FREE_MARGIN + (LEGEND_LINES + 1) * NOTE_HEIGHT;
+           strip->height + WORDS_HEIGHT > FREE_ABOVE + LEGEND_LINES * FREE_LINE;
 }
 
 // "(a) U / L_0 = 0.011491", the part of the page that frame k takes.
@@ -189,14 +190,14 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     Box beside = {.left = all.right + GAP * point, .top = all.top, .bottom = all.bottom};
     colorbar_draw(page, &map.bar, &beside);
     bool free = has_free_place(strip);
-    double line = free ? NOTE_HEIGHT : 0;
+    double line = free ? FREE_LINE : 0;
     Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
     if (free)
-        place = (Point){all.right - (strip->width - FREE_MARGIN) * point,
-                        all.bottom - (strip->height - FREE_MARGIN) * point};
+        place = (Point){all.right - (strip->width - FREE_LEFT) * point,
+                        all.bottom - (strip->height + WORDS_HEIGHT - FREE_ABOVE) * point};
     block_page_legend(page, place, line);
     snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
-    place.y += (NOTE_HEIGHT + (LEGEND_LINES - 2) * line) * point;
+    place.y += (free ? (LEGEND_LINES - 1) * line : NOTE_HEIGHT) * point;
     text_draw(page->text, &style, place, words);
 cleanup:
     return error_is_clean(err);

@@ -133,45 +133,47 @@ static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
     return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
 }
 
-// The nodes that row `row` shows, from *first to *last: they are neighbours.
-static void nodes_of_row(const SpaceTime *data, const PixelGrid *grid, int32_t row, int32_t *first,
-                         int32_t *last)
+// Nodes that are neighbours; none: last < first.
+typedef struct NodeRange {
+    int32_t first, last;
+} NodeRange;
+
+// Those that row `row` shows.
+static NodeRange nodes_of_row(const SpaceTime *data, const PixelGrid *grid, int32_t row)
 {
     double pixel = (grid->x_high - grid->x_low) / grid->rows;
     double x = grid->x_high - (row + 0.5) * pixel;
-    *first = 0;
-    *last = -1;
+    NodeRange range = {0, -1};
     for (int32_t i = 0; i < data->nodes; ++i) {
         if (!node_is_at(data, i, x, pixel)) continue;
-        if (*last < 0) *first = i;
-        *last = i;
+        if (range.last < 0) range.first = i;
+        range.last = i;
     }
+    return range;
 }
 
-// Rows that show the same nodes are one; nodes [2 * rows]: first and last of each of them.
-static void rows_join(const SpaceTime *data, PixelGrid *grid, int32_t *nodes)
+// Rows that show the same nodes are one; ranges: [rows] of which `bands` are filled.
+static void rows_join(const SpaceTime *data, PixelGrid *grid, NodeRange *ranges)
 {
     grid->bands = 0;
     for (int32_t row = 0; row < grid->rows; ++row) {
-        int32_t first = 0, last = -1, before = 2 * (grid->bands - 1);
-        nodes_of_row(data, grid, row, &first, &last);
-        if (grid->bands == 0 || first != nodes[before] || last != nodes[before + 1]) {
-            nodes[2 * grid->bands] = first;
-            nodes[2 * grid->bands++ + 1] = last;
-        }
+        NodeRange range = nodes_of_row(data, grid, row);
+        const NodeRange *before = grid->bands > 0 ? &ranges[grid->bands - 1] : NULL;
+        if (!before || range.first != before->first || range.last != before->last)
+            ranges[grid->bands++] = range;
         grid->band[row] = grid->bands - 1;
     }
 }
 
 // Several nodes in a band: the largest of them; none: NaN.
-static void bands_fill(const SpaceTime *data, PixelGrid *grid, const int32_t *nodes,
+static void bands_fill(const SpaceTime *data, PixelGrid *grid, const NodeRange *ranges,
                        const float *by_column)
 {
     for (int32_t column = 0; column < grid->columns; ++column) {
         const float *value = by_column + (int64_t)column * data->nodes;
         for (int32_t band = 0; band < grid->bands; ++band) {
             float most = NAN;
-            for (int32_t i = nodes[2 * band]; i <= nodes[2 * band + 1]; ++i)
+            for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
                 most = larger(most, value[i]);
             grid->values[(int64_t)band * grid->columns + column] = most;
         }
@@ -182,13 +184,13 @@ static void bands_fill(const SpaceTime *data, PixelGrid *grid, const int32_t *no
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
     float *by_column = NULL;
-    int32_t *nodes = NULL;
+    NodeRange *ranges = NULL;
     int64_t *next = NULL;
     TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
-    TRY(nodes = NEW_ARRAY(int32_t, 2 * (int64_t)grid->rows, err));
+    TRY(ranges = NEW_ARRAY(NodeRange, grid->rows, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
     TRY(grid->band = NEW_ARRAY(int32_t, grid->rows, err));
-    rows_join(data, grid, nodes);
+    rows_join(data, grid, ranges);
     TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->bands * grid->columns, err));
     if (data->slip) {
         columns_mean(data, grid, by_column);
@@ -196,10 +198,10 @@ bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
         columns_gather(data, grid, by_column, next);
         columns_hold(data, grid, next, by_column);
     }
-    bands_fill(data, grid, nodes, by_column);
+    bands_fill(data, grid, ranges, by_column);
 cleanup:
     memory_free(by_column);
-    memory_free(nodes);
+    memory_free(ranges);
     memory_free(next);
     return error_is_clean(err);
 }

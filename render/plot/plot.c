@@ -37,5 +37,6 @@ void plot_destroy(Plot *plot)
     panel_destroy(&plot->inset);
     for (int32_t k = 0; k < plot->panel_count; k++) panel_destroy(&plot->panels[k]);
     memory_free(plot->panels);
+    memory_free(plot->computed);
     *plot = (Plot){0};
 }

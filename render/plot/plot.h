@@ -82,6 +82,7 @@ typedef struct Plot {
     double found[2];   // least and largest value of the maps
     bool has_inset;
     PlotPanel inset;
+    double *computed;   // [count] at main's last series, which is measured; NULL: nothing is; owned
     double place[4];   // of the inset in the frame: left, top, right, bottom; 0 to 1
 } Plot;
 

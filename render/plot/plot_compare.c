@@ -3,7 +3,9 @@
 
 #include "base/memory.h"
 #include "io/text/csv_reader.h"
+#include "io/text/csv_writer.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,22 +79,31 @@ static double computed_at(const PlotSeries *curve, const Axis *axis, double x)
     return NAN;
 }
 
-static void label(Plot *plot, const char *path, PlotSeries *series)
+static bool find_computed(Plot *plot, PlotSeries *curve, const PlotSeries *series, Error *err)
 {
-    PlotSeries *curve = find_curve(plot);
+    if (!curve) return true;
+    if (!curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
+    TRY(plot->computed = NEW_ARRAY(double, series->count, err));
+    for (int32_t k = 0; k < series->count; ++k)
+        plot->computed[k] = computed_at(curve, &plot->main.x, series->x[k]);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void label(const Plot *plot, const char *path, PlotSeries *series)
+{
     const char *slash = strrchr(path, '/');
     double sum = 0, parts = 0;
     int32_t count = 0;
     int length = snprintf(series->label, sizeof series->label, "%.40s", slash ? slash + 1 : path);
-    for (int32_t k = 0; curve && k < series->count; ++k) {
-        double away = series->y[k] - computed_at(curve, &plot->main.x, series->x[k]);
+    for (int32_t k = 0; plot->computed && k < series->count; ++k) {
+        double away = series->y[k] - plot->computed[k];
         double error = (series->high[k] - series->low[k]) / 2;
         if (!isfinite(away)) continue;
         sum += away * away;
         parts += away * away / (error * error);
         ++count;
     }
-    if (curve && !curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
     if (count == 0) return;
     length += snprintf(series->label + length, sizeof series->label - (size_t)length,
                        ": misfit %.3g", sqrt(sum / count));
@@ -126,10 +137,11 @@ bool plot_compare(Plot *plot, const char *path, Error *err)
     if (plot->main.series_count == PLOT_SERIES_MAX)
         FAIL(err, ERROR_INPUT, "the plot has %d curves, and no room for measurements",
              PLOT_SERIES_MAX);
-    PlotSeries *series = &plot->main.series[plot->main.series_count];
+    PlotSeries *series = &plot->main.series[plot->main.series_count], *curve = find_curve(plot);
     plot->main.series_count++;
     *series = (PlotSeries){.marker = MARKER_CROSS, .filled = true, .line = LINE_NONE};
     TRY(read_points(plot, &table, series, err));
+    TRY(find_computed(plot, curve, series, err));
     label(plot, path, series);
     widen(&plot->main.x, series->x, series->count);
     widen(&plot->main.y, series->y, series->count);
@@ -139,4 +151,31 @@ cleanup:
     csv_destroy(&table);
     error_context(err, "measurements %s", path);
     return error_is_clean(err);
+}
+
+bool plot_compare_write(const Plot *plot, const char *picture, Error *err)
+{
+    static const char *const plain[2] = {"x", "y"};
+    char path[PATH_MAX];
+    const char *dot = strrchr(picture, '.');
+    if (!plot->computed) return true;
+    const PlotSeries *series = &plot->main.series[plot->main.series_count - 1];
+    int length = snprintf(path, sizeof path, "%.*s-compared.csv", (int)(dot - picture), picture);
+    if (length >= (int)sizeof path) FAIL(err, ERROR_INPUT, "the picture's path is too long");
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    for (int32_t c = 0; c < 2; ++c) csv_text(csv, plot->column[c][0] ? plot->column[c] : plain[c]);
+    csv_text(csv, "error");
+    csv_text(csv, "computed");
+    csv_end_row(csv);
+    for (int32_t k = 0; k < series->count; ++k) {
+        csv_number(csv, series->x[k]);
+        csv_number(csv, series->y[k]);
+        csv_rounded(csv, (series->high[k] - series->low[k]) / 2);   // a difference: digits are lost
+        csv_number(csv, plot->computed[k]);
+        csv_end_row(csv);
+    }
+    return csv_finish(csv, err);
+cleanup:
+    return false;
 }

@@ -13,4 +13,7 @@
 // several curves there is none. ERROR_INPUT: a column is missing, or the plot is a map.
 bool plot_compare(Plot *plot, const char *path, Error *err);
 
+// Each measurement with what was computed there, into PICTURE-compared.csv, if anything is.
+bool plot_compare_write(const Plot *plot, const char *picture, Error *err);
+
 #endif

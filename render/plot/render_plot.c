@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "render/plot/figure_curves.h"
+#include "render/plot/plot_compare.h"
 #include "render/plot/plot_file.h"
 
 __attribute__((visibility("default"))) bool
@@ -17,6 +18,7 @@ amontons_render_plot(const char *path, const char *picture, const PictureStyle *
     TRY(plot_file_read(path, plot, err));
     TRY(figure_plot(&page, plot, &used, plot->title, err));
     TRY(page_finish(&page, picture, plot->title, err));
+    TRY(plot_compare_write(plot, picture, err));
 cleanup:
     page_destroy(&page);
     if (plot) plot_destroy(plot);

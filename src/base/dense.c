@@ -29,6 +29,9 @@ void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *inf
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
 void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
              const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
+void sgetrf_(const int *m, const int *n, float *a, const int *lda, int *pivots, int *info);
+void sgetrs_(const char *trans, const int *n, const int *nrhs, const float *a, const int *lda,
+             const int *pivots, float *b, const int *ldb, int *info, size_t trans_size);
 void dtrtri_(const char *uplo, const char *diag, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size, size_t diag_size);
 void dlauum_(const char *uplo, const int *n, double *a, const int *lda, int *info,
@@ -108,6 +111,25 @@ void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *
 {
     int info = 0, one = 1;
     if (n > 0) dgetrs_("N", &n, &one, lu, &n, pivots, b, &n, &info, 1);
+}
+
+bool dense_lu_single(float *a, int32_t n, int32_t *pivots)
+{
+    int info = 0;
+    if (n > 0) sgetrf_(&n, &n, a, &n, pivots, &info);
+    return info == 0;
+}
+
+// b over its largest entry, so that nothing is too small for single precision.
+void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, double *b,
+                           float *work)
+{
+    int info = 0, one = 1;
+    double largest = dense_max_abs(b, n);
+    if (largest == 0) return;
+    for (int32_t k = 0; k < n; k++) work[k] = (float)(b[k] / largest);
+    sgetrs_("N", &n, &one, lu, &n, pivots, work, &n, &info, 1);
+    for (int32_t k = 0; k < n; k++) b[k] = largest * (double)work[k];
 }
 
 // Reads the lower triangle only: half the memory of a general product.

@@ -30,12 +30,13 @@ bool contact_discs_create(const Interface *interface, ContactNewton *newton, Con
     discs->row = NEW_ARRAY(DiscRow, interface->contact_count, err);
     discs->kept = NEW_ARRAY(DiscRow, interface->contact_count, err);
     discs->taken = NEW_ARRAY(double, interface->count, err);
-    return error_is_clean(err);
+    return error_is_clean(err) && disc_factors_create(interface, &discs->factors, err);
 }
 
 void contact_discs_destroy(ContactDiscs *discs)
 {
     memory_free_all(discs->row, discs->kept, discs->taken);
+    disc_factors_destroy(&discs->factors);
     *discs = (ContactDiscs){0};
 }
 
@@ -49,6 +50,7 @@ typedef struct Settling {
     double tolerance;
     double residual;   // of the last step with these statuses, over the scale of force
     bool factors_anew;   // a step with kept factors did not gain: none is taken any more
+    bool in_double;   // factors are made in double precision
 } Settling;
 
 // --- statuses and rows --------------------------------------------------------------------------
@@ -169,43 +171,14 @@ static double find_residual(const Settling *settling, bool kept)
     return largest;
 }
 
-// The derivative of these rows by what is free, column after column.
-static void fill_derivative(const Settling *settling, double *out)
+// In double precision, into the factors of the plane.
+static bool factor_double(const Settling *settling)
 {
-    const ContactProblem *problem = settling->problem;
-    const ContactEquations *equations = &settling->newton->equations;
-    int64_t count = problem->interface->count, size = equations->free_count;
-    int32_t rods = interface_rod(problem->interface, 0);
-    for (int64_t b = 0; b < size; b++, out += size) {
-        const double *column = settling->newton->closed + count * equations->free[b];
-        for (int32_t a = 0; a < size; a++) {
-            int32_t k = equations->free[a];
-            if (k >= rods) {
-                out[a] = column[k];
-                continue;
-            }
-            const DiscRow *row = &settling->discs->row[dof_node(3, k)];
-            const double *d = row->d;
-            out[a++] = d[0] * column[k] + d[1] * column[k + 1] + row->mu * column[k + 2];
-            out[a] = (1 - row->theta) * (d[0] * column[k + 1] - d[1] * column[k]);
-        }
-    }
-    out -= size * size;
-    for (int64_t a = 0; a < size; a++) {
-        int32_t k = equations->free[a];
-        if (k >= rods) {
-            if (settling->at->rod_touches[k - rods])
-                out[a * (size + 1)] += rod_stiffness(problem, k - rods);
-            continue;
-        }
-        const DiscRow *row = &settling->discs->row[dof_node(3, k)];
-        double across = row->theta * row->rho, *block = out + a * (size + 1);
-        block[0] += row->along[0];
-        block[size] += row->along[1];
-        block[1] -= across * row->d[1];
-        block[size + 1] += across * row->d[0];
-        a++;
-    }
+    ContactNewton *newton = settling->newton;
+    int64_t size = newton->equations.free_count;
+    for (int32_t b = 0; b < size; b++)
+        disc_column(newton, settling->discs->row, b, newton->factors.lu + b * size);
+    return dense_lu(newton->factors.lu, (int32_t)size, newton->factors.pivots);
 }
 
 // --- steps --------------------------------------------------------------------------------------
@@ -226,14 +199,17 @@ static bool factor(Settling *settling)
     ContactFactors *factors = &newton->factors;
     int32_t size = newton->equations.free_count;
     newton->factorisations++;
-    fill_derivative(settling, factors->lu);
+    bool regular = settling->in_double
+                       ? factor_double(settling)
+                       : disc_factors_make(&settling->discs->factors, newton, settling->discs->row);
     contact_copy_statuses(&newton->equations, factors->status);
     memcpy(settling->discs->kept, settling->discs->row,
            (size_t)settling->problem->interface->contact_count * sizeof(DiscRow));
-    factors->rows = dense_lu(factors->lu, size, factors->pivots) ? size : 0;
-    settling->problem->matrix->factored = factors->rows == size ? newton->factorisations : 0;
+    factors->rows = regular && settling->in_double ? size : 0;
+    if (settling->in_double) settling->discs->factors.rows = 0;
+    settling->problem->matrix->factored = regular ? newton->factorisations : 0;
     newton->factors_gain = true;
-    return factors->rows == size;
+    return regular;
 }
 
 // What forces at open nodes, taken away, do to these rows, off newton->step.
@@ -269,7 +245,11 @@ static bool take_step(Settling *settling)
     if (!isfinite(before)) return false;
     for (int32_t a = 0; a < equations->free_count; a++) newton->step[a] = -newton->step[a];
     if (newton->open_count > 0) add_pull(settling);
-    dense_lu_solve(newton->factors.lu, equations->free_count, newton->factors.pivots, newton->step);
+    if (settling->discs->factors.rows > 0)
+        disc_factors_solve(&settling->discs->factors, newton, newton->step);
+    else
+        dense_lu_solve(newton->factors.lu, equations->free_count, newton->factors.pivots,
+                       newton->step);
     contact_newton_creep(newton);
     memcpy(settling->discs->taken, newton->step, (size_t)equations->free_count * sizeof(double));
     contact_newton_take(newton);
@@ -387,7 +367,7 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
         contact_sweep(problem, solution, sweeps);
         contact_newton_begin(discs->newton, problem, solution, 1e-3 * tolerance);
         settling.residual = INFINITY;
-        settling.factors_anew = true;
+        settling.factors_anew = settling.in_double = true;
         settling.scales = contact_scales(problem, solution->reaction);
         judge_all(&settling);
         contact_newton_settle(discs->newton);
@@ -397,6 +377,27 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
     return solved;
 }
 
+// At a solution e.r_t = 0, and the across row does not turn either: rows are its derivative with
+// their directions held.
+bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
+                          ContactSolution *solution)
+{
+    Settling settling = {.discs = discs, .newton = newton, .problem = problem, .at = solution};
+    memset(solution->velocity, 0, (size_t)problem->interface->count * sizeof(double));
+    contact_newton_begin(newton, problem, solution, 0);
+    newton->reused = false;
+    if (!contact_newton_close(newton)) return false;
+    int32_t size = newton->equations.free_count;
+    if (!factor_double(&settling)) return false;
+    find_residual(&settling, false);
+    for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
+    if (newton->open_count > 0) add_pull(&settling);
+    dense_lu_solve(newton->factors.lu, size, newton->factors.pivots, newton->step);
+    contact_newton_take(newton);
+    contact_newton_react(newton);
+    return true;
+}
+
 // Factors are archived by contact/contact_newton; these are the directions they are in.
 void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive)
 {
@@ -404,6 +405,7 @@ void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *
     archive_count(archive, &discs->iterations);
     archive_count(archive, &discs->sweeps);
     archive_count(archive, &discs->swept);
+    disc_factors_archive(&discs->factors, discs->newton->factors.count, archive);
     for (int32_t i = 0; i < contact_count; i++) {
         DiscRow *row = &discs->kept[i];
         archive_numbers(archive, row->d, TANGENTS_MAX);

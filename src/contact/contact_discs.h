@@ -16,28 +16,21 @@
 // node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
 // does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is
 // condensed out as in the plane (contact/contact_newton).
-// A step that leaves more than there was is halved. Where steps do not settle, sweeps over the
+// Factors are in single precision, after sweeps in double. A step that leaves more than there was
+// is halved. Where steps do not settle, sweeps over the
 // nodes come next (contact/contact_sweeps), then steps again, then more sweeps. Called by
 // contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
 #define AMONTONS_CONTACT_CONTACT_DISCS_H
 
-#include "contact/contact_newton.h"
-#include "contact/slip.h"
-
-// The two equations of a slipping node.
-typedef struct DiscRow {
-    double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
-    double mu;
-    double theta, rho;   // rho: force/width per velocity
-    double along[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
-} DiscRow;
+#include "contact/disc_factors.h"
 
 typedef struct ContactDiscs {
     ContactNewton *newton;   // lists, products with S and factors; not owned
     DiscRow *row;   // [contact_count] of slipping nodes, at the velocities as they are; owned
     DiscRow *kept;   // [contact_count] of the derivative that was factored; owned
     double *taken;   // [interface->count] work: the last step of what is free; owned
+    DiscFactors factors;   // of that derivative, where there were no sweeps; owned
     int64_t iterations;   // counted, Newton steps
     int64_t sweeps;   // counted
     int64_t swept;   // counted, solves that needed any
@@ -52,6 +45,12 @@ void contact_discs_destroy(ContactDiscs *discs);
 // Allocates nothing. false: unsolved.
 bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactProblem *problem,
                          ContactSolution *solution);
+
+// What small changes of g and of the bounds do to the solution just found: `problem` has the
+// changes, and it may have another matrix of as many unknowns; `solution` the statuses, which stay.
+// To first order, by `newton`, in which nothing is kept. false: the derivative is singular.
+bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
+                          ContactSolution *solution);
 
 void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive);
 

@@ -293,3 +293,33 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
     solver->seconds += clock_seconds() - started;
     return solved;
 }
+
+static void take_count(int64_t *count, int64_t *from)
+{
+    *count += *from;
+    *from = 0;
+}
+
+void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from)
+{
+    take_count(&solver->solves, &from->solves);
+    take_count(&solver->iterations, &from->iterations);
+    take_count(&solver->fallbacks, &from->fallbacks);
+    take_count(&solver->rescued, &from->rescued);
+    take_count(&solver->unsolved, &from->unsolved);
+    solver->seconds += from->seconds;
+    from->seconds = 0;
+}
+
+void contact_solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive)
+{
+    archive_section(archive, "contact solver");
+    contact_newton_archive(&solver->newton, archive);
+    archive_count(archive, &solver->solves);
+    archive_count(archive, &solver->iterations);
+    archive_count(archive, &solver->fallbacks);
+    archive_count(archive, &solver->rescued);
+    archive_count(archive, &solver->unsolved);
+    archive_count(archive, &solver->path.steps);
+    if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
+}

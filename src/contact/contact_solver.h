@@ -47,8 +47,14 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
                            Error *err);
 void contact_solver_destroy(ContactSolver *solver);
 
+// What another one has counted counts here, no longer there.
+void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from);
+
 // Solves from the statuses in `solution` (warm start). false: unsolved; `solution` then holds no
 // meaning. Allocates nothing and sets no error: the caller decides what to do.
 bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution);
+
+// Counters (whose factors are used again depends on one of them) and what is kept.
+void contact_solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive);
 
 #endif

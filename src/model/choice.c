@@ -36,30 +36,40 @@ static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36, BYTES_MAX = 6e9;
 
 // In space a sparse factor takes n^2 operations and has n^(4/3) entries; the contact problem and
 // its certificate pass through matrices of m x m and factor those of what slips. What is far is not
-// replaced, so that q = n. Fitted to processor times of cubes of 6, 10, 14 and 20 cells a side and
-// of 20 x 20 x 10, reduced and not.
+// replaced, so that q = n. Contact that is its own mirror image is solved on one side: a half of
+// what passes through m x m, as both sides are certified, a sixth of the factors. Fitted to
+// processor times of cubes of 6, 10, 14 and 20 cells a side and of 40 x 40 x 20, reduced and not.
 static const double SPACE_FACTOR = 1.6e-9;   // rung and n^2
 static const double SPACE_STAGE = 3.7e-8;   // stage and n^(4/3)
-static const double SPACE_CONTACT = 3e-9, SPACE_CONTACT_FACTORS = 1e-11;   // stage and m^2, m^3
+static const double SPACE_CONTACT = 3.4e-9, SPACE_CONTACT_FACTORS = 4e-12;   // stage and m^2, m^3
+static const double SPACE_ONE_SIDE = 0.5, SPACE_ONE_SIDE_FACTORS = 1.0 / 6;   // of those
+static const double SPACE_REDUCED_STAGE = 0.7e-9;   // stage and m^2
 static const double SPACE_REDUCTION = 1.8e-8;   // n^2 of each part
-static const double SPACE_PRODUCTS = 1.2e-9;   // n m^2 of each part
+static const double SPACE_PRODUCTS = 0.55e-9;   // n m^2 of each part
 
 // Numbers that are kept at once: matrices of m x m (rungs, their copies, factors, certificate),
 // entries of a factor, and in a reduction columns of responses over those of a part's border.
-static const double SPACE_SQUARES = 30, SPACE_ENTRIES = 39, SPACE_COLUMNS = 12;
+static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 23, SPACE_ENTRIES = 39,
+                    SPACE_COLUMNS = 12;
 
 static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
 {
     double n = sizes->unknowns, m = sizes->interface, parts = sizes->parts;
     double stages = sizes->stages, of_part = n / parts, border = m / parts;
-    double contact = ANY_STAGE + SPACE_CONTACT * m * m + SPACE_CONTACT_FACTORS * m * m * m;
+    double passes = SPACE_CONTACT * m * m, factors = SPACE_CONTACT_FACTORS * m * m * m;
+    if (parts > 1) {
+        passes *= SPACE_ONE_SIDE;
+        factors *= SPACE_ONE_SIDE_FACTORS;
+    }
+    double contact = ANY_STAGE + passes + factors;
     double reduction = SPACE_REDUCTION * of_part * of_part +
                        SPACE_PRODUCTS * of_part * border * border;
-    double squares = SPACE_SQUARES * m * m, entries = SPACE_ENTRIES * pow(n, 4.0 / 3);
+    double squares = (parts > 1 ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m,
+           entries = SPACE_ENTRIES * pow(n, 4.0 / 3);
     double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
     double full = RUNGS * SPACE_FACTOR * n * n + stages * SPACE_STAGE * pow(n, 4.0 / 3);
     return (ExpectedCost){.reduction = parts * reduction * (sizes->several ? OF_SEVERAL : 1),
-                          .reduced = stages * (contact + REDUCED_STAGE * m * m),
+                          .reduced = stages * (contact + SPACE_REDUCED_STAGE * m * m),
                           .full = full + stages * contact,
                           .bytes_reduced = sizeof(double) * fmax(squares, responses),
                           .bytes_full = sizeof(double) * (squares + RUNGS * entries)};

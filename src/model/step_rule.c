@@ -49,7 +49,9 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
     if (driven) {
         Schedule program = scene_schedule(&scene->rod.program);
         double fastest = scene->rod.velocity * schedule_largest(&program);
-        double longest = STEP_MAX_SLIP * (sizes->slip + sizes->yield) / fastest;
+        // A stiff block behind a stiff machine loses what it remembers over more than that slip.
+        double way = fmax(sizes->slip + sizes->yield, sizes->memory);
+        double longest = STEP_MAX_SLIP * way / fastest;
         def.step_max = def.wave_step * exp2(ceil(log2(longest / def.wave_step)));
     }
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;

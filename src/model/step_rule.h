@@ -10,6 +10,7 @@
 typedef struct StepSizes {
     double slip;   // that the drop of friction drives, (mu_S - mu_K) p H / E, length
     double yield;   // of the machine at that drop, (mu_S - mu_K) F_N / k; 0: rigid; length
+    double memory;   // over which friction loses what it remembers, D_c; 0: nothing; length
     double crossing;   // of the model by a longitudinal wave, L / c_L, time
     double tolerance;   // of the local error over `slip`, where the scene has no time.tolerance
 } StepSizes;

@@ -250,7 +250,8 @@ void levels_estimate(Levels *levels)
     Level *last = &levels->list[levels->count - 1];
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         last->answer[kind] = bar_of(levels, kind);
-    levels->asked = isnan(last->answer[ANSWER_MU_M].value) ? ANSWER_MU_HOLD : ANSWER_MU_M;
+    bool hold = levels->of_hold || isnan(last->answer[ANSWER_MU_M].value);
+    levels->asked = hold ? ANSWER_MU_HOLD : ANSWER_MU_M;
 }
 
 // A trend is part of the error; before all of the contact goes along there is no answer.

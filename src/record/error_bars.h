@@ -68,7 +68,8 @@ typedef struct LevelCut {
 typedef struct Levels {
     double wanted;   // bar over value
     bool met;
-    AnswerKind asked;   // what `wanted` is of
+    bool of_hold;   // `wanted` is of mu_hold, whatever runs have
+    AnswerKind asked;   // what it is of
     const char *ended;   // why no more was computed; static storage
     LevelCut cut;   // the last that was
     int32_t count;
@@ -83,7 +84,7 @@ bool levels_have_runs(const Levels *levels);
 void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps);
 
 // Fills the bars of the last level from the runs of all, and `asked`: mu_M where every run of that
-// level has it, else mu_hold.
+// level has it, else mu_hold, or as `of_hold` says.
 void levels_estimate(Levels *levels);
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
 

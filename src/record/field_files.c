@@ -118,11 +118,8 @@ bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles
         .mesh = mesh, .contact_count = interface->contact_count, .tangents = mesh->dim - 1};
     files->faces = &interface->faces;
     files->line_point_count = interface->contact_count + files->faces->corner_count;
-    TRY(nodal_stress_create(mesh, &files->stress, err));
-    TRY(fill_bulk_grid(files, err));
-    TRY(fill_line_grid(files, interface, err));
-cleanup:
-    return error_is_clean(err);
+    return nodal_stress_create(mesh, &files->stress, err) && fill_bulk_grid(files, err) &&
+           fill_line_grid(files, interface, err);
 }
 
 void field_files_destroy(FieldFiles *files)

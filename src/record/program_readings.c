@@ -94,7 +94,8 @@ static ProgramReading read_stretch(const ProgramStretch *stretch)
     double error = top_error(stretch);
     reading.after = level_of(stretch);
     reading.distance = distance_of(stretch, &reading.after, error);
-    double evolved = fabs(top->mu - reading.after.value) * top->slip / reading.distance.value;
+    double evolved = fabs(top->mu - reading.after.value) *
+                     expm1(top->slip / reading.distance.value);
     if (!isnan(evolved)) error += evolved;
     reading.peak = (Estimate){top->mu - reading.before.value, reading.before.error + error};
     bool compares = reading.kind == READING_STEP || reading.velocity == reading.velocity_before;
@@ -380,7 +381,11 @@ void program_readings_json(const ProgramReadings *readings, JsonWriter *json)
         }
         json_end(json);
     }
-    write_estimate(json, "healing_per_decade", "healing_per_decade_error", healing_of(readings));
+    ProgramSums sums = program_readings_sum(readings);
+    write_estimate(json, "direct_per_ln", "direct_per_ln_error", sums.direct);
+    write_estimate(json, "change_per_ln", "change_per_ln_error", sums.change);
+    write_estimate(json, "slip_distance", "slip_distance_error", sums.distance);
+    write_estimate(json, "healing_per_decade", "healing_per_decade_error", sums.healing);
     json_end(json);
 }
 

@@ -231,6 +231,12 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
     return condensed->schur;
 }
 
+void interface_operator_drop_schur(InterfaceOperator *condensed)
+{
+    memory_free(condensed->schur);
+    condensed->schur = NULL;
+}
+
 const double *interface_operator_schur_lower(const InterfaceOperator *condensed)
 {
     return sparse_schur_lower(condensed->factor);

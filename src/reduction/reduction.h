@@ -33,7 +33,7 @@ typedef struct ReductionDef {
     BulkScales scales;   // of the bulk to reduce
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
-    bool no_patches;   // what is far is not replaced (in space: reduction/far_patches)
+    bool no_patches;   // what is far is not replaced: in space too little is for patches to pay
     int32_t *const
         *node_image;   // [DIM_MAX - 1] of the block (reduction/reduction_block); NULL: none
     const double

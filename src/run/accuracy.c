@@ -339,6 +339,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     accuracy->deadline = INFINITY;
     if (scene->accuracy.within > 0) accuracy->deadline = accuracy->started + scene->accuracy.within;
     accuracy->levels.wanted = scene->accuracy.mu;
+    accuracy->levels.of_hold = scene->accuracy.of == ANSWER_OF_HOLD;
     accuracy->step = STEP;
     if (options->resume)
         FAIL(err, ERROR_INPUT,

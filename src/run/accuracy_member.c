@@ -79,14 +79,16 @@ static Scene *scene_of_run(const Accuracy *accuracy, double refine, double press
 
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
 {
-    const Estimate *mu_M = &answers->mu_M;
+    bool hold = accuracy->levels.of_hold;
+    const Estimate *asked = hold ? &answers->mu_hold : &answers->mu_M;
+    int32_t counted = hold ? answers->regime.count : answers->peaks_counted;
     double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
     if (answers->steady) return true;
     if (answers->regime.run_in != RUN_IN_OVER) return false;
     int32_t least = accuracy->levels.list[accuracy->levels.count - 1].space ? SPACE_PEAKS_MIN
                                                                             : PEAKS_MIN;
-    if (answers->peaks_counted >= least) return mu_M->error <= allowed * mu_M->value;
-    return answers->peaks_counted == 0 && answers->enough;
+    if (counted >= least) return asked->error <= allowed * asked->value;
+    return counted == 0 && answers->enough;
 }
 
 static bool is_steered(const Scene *scene)

@@ -67,8 +67,5 @@ bool amontons_render_plot_file(const char *plot, const char *picture, const Pict
 {
     RenderPlotFunction render =
         (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
-    TRY(render);
-    TRY(render(plot, picture, style, err));
-cleanup:
-    return error_is_clean(err);
+    return render && render(plot, picture, style, err);
 }

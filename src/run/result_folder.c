@@ -206,9 +206,7 @@ static bool rename_aside(const char *folder, const char *from, const char *to, E
     char path[PATH_SIZE], target[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, from);
     snprintf(target, sizeof target, "%s/%s", folder, to);
-    TRY(move_file(path, target, err));
-cleanup:
-    return error_is_clean(err);
+    return move_file(path, target, err);
 }
 
 // Empties folder/name into `to`, or for good, and removes it.

@@ -132,7 +132,7 @@ static void archive_report(Simulation *simulation, int64_t in_loop, Archive *arc
     archive_text(archive, simulation->model.cache_note, sizeof simulation->model.cache_note);
     if (!archive_reads(archive)) return;
     simulation->started = clock_seconds() - elapsed;
-    simulation->allocations_before = memory_counters().allocations - in_loop;
+    simulation->allocations_before = simulation_allocations(simulation) - in_loop;
 }
 
 // A scene that ends elsewhere than the saved one ends where it says itself.
@@ -204,7 +204,7 @@ static bool save(Simulation *simulation, bool output, SavedState *state, Error *
     Hash hash = hash_start();
     char checksum[HASH_TEXT_SIZE];
     SavedHead head;
-    int64_t before = memory_counters().allocations;
+    int64_t before = simulation_allocations(simulation);
     int64_t in_loop = before - simulation->allocations_before;
     *state = (SavedState){0};
     for (int pass = 0; pass < 2; pass++) {
@@ -223,7 +223,7 @@ static bool save(Simulation *simulation, bool output, SavedState *state, Error *
     memcpy((char *)state->bytes + archive.at, checksum, CHECKSUM_SIZE);
 cleanup:
     if (!error_is_clean(err)) amontons_state_free(state);
-    simulation->allocations_before += memory_counters().allocations - before;
+    simulation->allocations_before += simulation_allocations(simulation) - before;
     return error_is_clean(err);
 }
 
@@ -298,9 +298,9 @@ bool amontons_simulation_restore(Simulation *simulation, const SavedState *state
 // What it allocates is not the loop's.
 bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
 {
-    int64_t before = memory_counters().allocations;
+    int64_t before = simulation_allocations(simulation);
     bool done = restore(simulation, false, state, err);
-    simulation->allocations_before += memory_counters().allocations - before;
+    simulation->allocations_before += simulation_allocations(simulation) - before;
     return done;
 }
 

@@ -147,7 +147,7 @@ static bool begin_anew(Simulation *simulation, Error *err)
     TRY(result_folder_clear(&simulation->folder, err));
     TRY(open_recorders(simulation, err));
     TRY(record_step(simulation, err));
-    simulation->allocations_before = memory_counters().allocations;
+    simulation->allocations_before = simulation_allocations(simulation);
 cleanup:
     return error_is_clean(err);
 }

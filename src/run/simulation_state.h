@@ -7,6 +7,7 @@
 #include "amontons.h"
 #include "amontons_simulation.h"
 #include "base/hash.h"
+#include "base/memory.h"
 #include "model/model.h"
 #include "record/contact_arrays.h"
 #include "record/fields.h"
@@ -64,10 +65,16 @@ struct Simulation {
     double last_unquiet;   // when slip was last rapid or not certified, time
     double started;   // wall clock, s
     double deadline;   // of it, when the run ends as if it were stopped; INFINITY: never
-    int64_t allocations_before;   // memory_counters() when the time loop began
+    int64_t allocations_before;   // simulation_allocations() when the time loop began
     int32_t figures;   // drawn
     double figures_seconds;
 };
+
+// Arrays allocated so far, but for those of rungs.
+static inline int64_t simulation_allocations(const Simulation *simulation)
+{
+    return memory_counters().allocations - simulation->control.ladder.allocations;
+}
 
 // What amontons_run and run/accuracy are made of, beside the pieces in amontons.h.
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);

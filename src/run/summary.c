@@ -123,7 +123,7 @@ RunCounters summary_count(const Simulation *simulation)
                          .contact_rescued = solver->rescued,
                          .certificates = control->certificate.checks,
                          .loop_allocations = simulation->allocations_before > 0
-                                                 ? memory_counters().allocations -
+                                                 ? simulation_allocations(simulation) -
                                                        simulation->allocations_before
                                                  : 0};
 }

@@ -26,6 +26,7 @@ static const char *const start_rod_choices[] = {"away", "held", NULL};
 static const char *const start_state_choices[] = {"relaxed", "undeformed", NULL};
 static const char *const scheme_choices[] = {"sdirk2", "explicit", "euler", "sdirk3", NULL};
 static const char *const reduce_choices[] = {"auto", "always", "never", NULL};
+static const char *const answer_choices[] = {"mu_M", "mu_hold", NULL};
 static const char *const accuracy_choices[] = {"draft", "standard", "fine", NULL};
 static const char *const figure_choices[] = {
 #define X(symbol, name, title) name,
@@ -281,7 +282,8 @@ static const SceneKey keys[] = {
                  "drop of friction drives, (mu_S - mu_K) P H / E; 0: by time.accuracy."},
     {"time.step_max", KEY_NUMBER, offsetof(Scene, time.step_max), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Longest step; 0: the rod moves 0.2 of the slip that the drop of friction drives "
-                 "(see time.tolerance) in it, up to twice that; without a rod a 50th of the run."},
+                 "(see time.tolerance), or of friction.slip_distance if that is more, in it, up to "
+                 "twice that; without a rod a 50th of the run."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Shortest step; 0: 1e-10 of the smaller of longest step and wave step."},
     {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
@@ -305,6 +307,10 @@ static const SceneKey keys[] = {
      .sentence = "Error bar wanted of mu_M (of mu_hold where the block does not slide as a whole), "
                  "relative, such as 1%: the mesh is refined and runs are repeated until it is met. "
                  "0: one run on the mesh as it is, whose error is not known."},
+    {"accuracy.of", KEY_CHOICE, offsetof(Scene, accuracy.of), "1", RANGE_ANY, "mu_M",
+     .sentence = "`mu_hold`: the bar is asked of mu_hold in any case. On pads, where some slide "
+                 "before the others, it takes finer meshes than that of mu_M.",
+     .choices = answer_choices},
     {"accuracy.within", KEY_NUMBER, offsetof(Scene, accuracy.within), "1", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Seconds of this computer's time that may go into it; 0: as many as it takes."},
     {"accuracy.window", KEY_NUMBER, offsetof(Scene, accuracy.window), "1", RANGE_PART, "0.01",

@@ -28,6 +28,7 @@ typedef enum SceneScheme {
 } SceneScheme;
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
+typedef enum SceneAnswer { ANSWER_OF_M, ANSWER_OF_HOLD } SceneAnswer;
 
 typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
@@ -96,6 +97,7 @@ typedef struct Scene {
     } time;
     struct {
         double mu, within;   // bar wanted, relative (0: one run); of this computer's time, s
+        SceneAnswer of;   // whose bar it is
         double window;   // of pressures, relative width
     } accuracy;
     struct {

@@ -155,9 +155,7 @@ static bool read_defaults(Reader *reader, Error *err)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
                                  reader->keys[k].standard ? reader->keys[k].standard : "~");
     snprintf(text + used - 2, sizeof text - used, "]");
-    TRY(yaml_parse("defaults", text, 0, &reader->defaults, err));
-cleanup:
-    return error_is_clean(err);
+    return yaml_parse("defaults", text, 0, &reader->defaults, err);
 }
 
 // Gives `group` and every key below it ("": all) its default; a key without one becomes zero.
@@ -431,11 +429,9 @@ bool scene_source_add(SceneSource *source, const SceneSetting *setting, Scene *s
 {
     int32_t first = source->reader.setting_count;
     SceneValue value = {.document = setting->document, .node = setting->node};
-    TRY(gather_outside(&source->reader, setting->key, &value, err));
-    TRY(store_from(&source->reader, first, &source->made, err));
-    TRY(finish_copy(source, scene, err));
-cleanup:
-    return error_is_clean(err);
+    return gather_outside(&source->reader, setting->key, &value, err) &&
+           store_from(&source->reader, first, &source->made, err) &&
+           finish_copy(source, scene, err);
 }
 
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err)

@@ -109,29 +109,29 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool read_in_range(const SceneKey *key, const SceneValue *value, SceneUnits units,
+                          double *number, Error *err)
+{
+    if (!read_number(key, value, units, number, err)) return false;
+    if (!scene_range_holds(key->range, *number)) report_wrong(key, value, err);
+    return error_is_clean(err);
+}
+
 static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     double number = 0;
-    TRY(read_number(key, value, scene->units, &number, err));
-    if (!scene_range_holds(key->range, number))
-        report_wrong(key, value, err);
-    else
-        memcpy(field_of(key, scene), &number, sizeof number);
-cleanup:
-    return error_is_clean(err);
+    if (!read_in_range(key, value, scene->units, &number, err)) return false;
+    memcpy(field_of(key, scene), &number, sizeof number);
+    return true;
 }
 
 static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneNumbers *numbers = field_of(key, scene);
     double number = 0;
-    TRY(read_number(key, value, scene->units, &number, err));
-    if (!scene_range_holds(key->range, number))
-        report_wrong(key, value, err);
-    else
-        numbers->value[numbers->count++] = number;
-cleanup:
-    return error_is_clean(err);
+    if (!read_in_range(key, value, scene->units, &number, err)) return false;
+    numbers->value[numbers->count++] = number;
+    return true;
 }
 
 static bool set_numbers(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -285,17 +285,16 @@ static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scen
 {
     SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
     const char *name = yaml_key(value->document, value->node);
-    SceneKey component = {.name = "load.tractions.x", .type = KEY_NUMBER, .unit = key->unit};
+    static const char *const components[] = {"load.tractions.x", "load.tractions.y",
+                                             "load.tractions.z"};
+    double *const places[] = {&traction->x, &traction->y, &traction->z};
     if (strcmp(name, "group") == 0)
         return copy_text(key, value, GROUP_NAME_SIZE, traction->group, err);
-    if (strcmp(name, "x") == 0)
-        return read_number(&component, value, scene->units, &traction->x, err);
-    component.name = "load.tractions.y";
-    if (strcmp(name, "y") == 0)
-        return read_number(&component, value, scene->units, &traction->y, err);
-    component.name = "load.tractions.z";
-    if (strcmp(name, "z") == 0)
-        return read_number(&component, value, scene->units, &traction->z, err);
+    for (int32_t d = 0; d < 3; d++) {
+        SceneKey component = {.name = components[d], .type = KEY_NUMBER, .unit = key->unit};
+        if (strcmp(name, strrchr(components[d], '.') + 1) == 0)
+            return read_number(&component, value, scene->units, places[d], err);
+    }
     yaml_key_error(value->document, value->node, err,
                    "%s: unknown key `%.60s`; allowed: group, x, y, z", key->name, name);
     return false;

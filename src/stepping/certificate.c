@@ -21,24 +21,43 @@ static const double BETWEEN_RUNGS = 1.0606601717798212;
 // tell it from 1.
 static const double SETTLED = 1e-6;
 
+static bool create_work(const Block *block, Certificate *certificate, Error *err)
+{
+    *certificate = (Certificate){0};
+    int64_t count = block->interface->count;
+    if (!moving_set_create(block, &certificate->moving, err)) return false;
+    certificate->matrix = NEW_ARRAY(double, count *count, err);
+    certificate->vector = NEW_ARRAY(double, count, err);
+    certificate->pivots = NEW_ARRAY(int32_t, count, err);
+    return error_is_clean(err);
+}
+
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
 // (reduction/interface_operator), once for all states.
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
-    *certificate = (Certificate){0};
-    int64_t count = block->interface->count;
-    TRY(moving_set_create(block, &certificate->moving, err));
-    certificate->matrix = NEW_ARRAY(double, count *count, err);
-    certificate->vector = NEW_ARRAY(double, count, err);
-    certificate->pivots = NEW_ARRAY(int32_t, count, err);
-    if (!error_is_clean(err)) goto cleanup;
+    TRY(create_work(block, certificate, err));
     OperatorTerms terms = {.damping = 1, .lift = true};
     certificate->damping = interface_operator_create(block->system, terms, err);
     // Without viscosity (or with eta1 = 0) there is nothing that could certify a weakening slip.
     if (err->code == ERROR_COMPUTE) error_clear(err);
     if (certificate->damping)
-        TRY(contact_matrix_create(interface_operator_schur(certificate->damping), (int32_t)count,
-                                  &certificate->damping_contact, err));
+        TRY(contact_matrix_create(interface_operator_schur(certificate->damping),
+                                  block->interface->count, &certificate->damping_contact, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
+                       bool odd, Certificate *certificate, Error *err)
+{
+    int64_t count = half->interface.count;
+    TRY(create_work(block, certificate, err));
+    if (!whole->damping) goto cleanup;
+    double *damping = certificate->half_damping = NEW_ARRAY(double, count *count, err);
+    if (damping &&
+        contact_half_matrix(half, interface_operator_schur(whole->damping), odd, damping))
+        TRY(contact_matrix_create(damping, (int32_t)count, &certificate->damping_contact, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -47,6 +66,7 @@ void certificate_destroy(Certificate *certificate)
 {
     contact_matrix_destroy(&certificate->damping_contact);
     interface_operator_destroy(certificate->damping);
+    memory_free(certificate->half_damping);
     moving_set_destroy(&certificate->moving);
     memory_free_all(certificate->matrix, certificate->vector, certificate->pivots);
     *certificate = (Certificate){0};
@@ -71,7 +91,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     if (!moving->weakens && !moving->remembers) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
     double part = narrow / BETWEEN_RUNGS, factor = rung ? BETWEEN_RUNGS : 1;
-    if (certificate->damping)
+    if (certificate->damping_contact.schur)
         damping = close_matrix(certificate, state, &certificate->damping_contact);
     if (rung) own = close_matrix(certificate, state, rung);
     if (!damping || (rung && !own)) return false;
@@ -204,13 +224,21 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
     return true;
 }
 
+void certificate_take_counts(Certificate *certificate, Certificate *from)
+{
+    certificate->checks += from->checks;
+    certificate->seconds += from->seconds;
+    from->checks = 0;
+    from->seconds = 0;
+}
+
 void certificate_archive(Certificate *certificate, Archive *archive)
 {
-    bool damped = certificate->damping != NULL;
+    bool damped = certificate->damping_contact.schur != NULL;
     archive_section(archive, "certificate");
     archive_count(archive, &certificate->checks);
     archive_flag(archive, &damped);
-    if (damped != (certificate->damping != NULL)) archive->failed = true;
+    if (damped != (certificate->damping_contact.schur != NULL)) archive->failed = true;
     // It is never factored by the contact solver.
     if (damped) contact_matrix_archive(&certificate->damping_contact, -1, archive);
 }

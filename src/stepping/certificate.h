@@ -46,7 +46,8 @@
 #include "stepping/moving_set.h"
 
 typedef struct Certificate {
-    InterfaceOperator *damping;   // holds S_C; NULL: C is singular; owned
+    InterfaceOperator *damping;   // holds S_C; NULL: C is singular, or it is halved; owned
+    double *half_damping;   // [count^2] S_C halved; NULL: it is not; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
     double *matrix;   // [count^2] work
@@ -57,6 +58,10 @@ typedef struct Certificate {
 } Certificate;
 
 bool certificate_create(const Block *block, Certificate *certificate, Error *err);
+// Of what is even or odd on one side, its unknowns those of `block`, whose bulk is not asked for.
+// Where S_C is not its own image nothing is certified.
+bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
+                       bool odd, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
 
 // The slip set of `state` cannot gain energy. Where friction remembers: |lambda| < 1/reach of all
@@ -90,6 +95,9 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
 // included (stepping/weakening_ratio); INFINITY where S is singular.
 double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
                          double reach);
+
+// What another one has counted counts here, no longer there.
+void certificate_take_counts(Certificate *certificate, Certificate *from);
 
 // What its one matrix keeps, and its counter.
 void certificate_archive(Certificate *certificate, Archive *archive);

@@ -7,9 +7,12 @@
 #define AMONTONS_STEPPING_LADDER_H
 
 #include "reduction/interface_operator.h"
-#include "contact/contact_matrix.h"
+#include "contact/contact_half.h"
 
 enum { LADDER_RUNGS_MAX = 128 };
+
+// What of the contact is asked for.
+typedef enum LadderSide { LADDER_WHOLE, LADDER_EVEN, LADDER_ODD, LADDER_SIDES } LadderSide;
 
 typedef struct Ladder {
     BulkOperator *system;   // not owned
@@ -17,9 +20,15 @@ typedef struct Ladder {
     double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
-    ContactMatrix contact[LADDER_RUNGS_MAX];   // of the rungs that are built; owned
+    // Of the rungs that are built, S, or what is even or odd of it on one side, when first asked
+    // for. S itself is kept only where it was. Owned.
+    ContactMatrix contact[LADDER_SIDES][LADDER_RUNGS_MAX];
+    double *half_schur[LADDER_SIDES][LADDER_RUNGS_MAX];   // that of `contact`, but for both sides
+    const ContactHalf *half;   // by which it is halved; NULL: never; not owned
+    LadderSide side;   // asked for now
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
     double seconds;   // wall time spent on building rungs
+    int64_t allocations;   // counted, arrays that this took
 } Ladder;
 
 // Rungs from step_max down to the last that is not below step_min.
@@ -34,15 +43,18 @@ int32_t ladder_find(const Ladder *ladder, double step);
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
 // Builds what lies between rungs that are built; false: one cannot be factored.
 bool ladder_fill(Ladder *ladder);
-// What the contact sees of rung k; NULL: it is not built.
+// What the contact sees of rung k; NULL: it is not built. From here on it is whole where a S turns
+// out not to be its own image.
 ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
+ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side);
 
 // The largest error that the reduction of the bulk left in a rung that steps were accepted on.
 double ladder_reduction_error(const Ladder *ladder);
 
 // Which rungs are built, how often each was used, and what their contact matrices keep. Reading
-// builds those and no others: which are built decides how a run ends. last: the contact solver's
-// last factorisation. A ladder of other steps is a fault.
-bool ladder_archive(Ladder *ladder, int64_t last, Archive *archive, Error *err);
+// builds those and no others: which are built decides how a run ends. last, last_halved: the
+// contact solver's last factorisation, and that of one side. A ladder of other steps is a fault.
+bool ladder_archive(Ladder *ladder, int64_t last, int64_t last_halved, Archive *archive,
+                    Error *err);
 
 #endif

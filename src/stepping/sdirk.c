@@ -99,6 +99,18 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
 // Of a law that asks for pressure: problems in a row, each with the pressures of the one before.
 enum { PRESSURES_LIMIT = 40 };
 
+// The whole contact, or one side of it. Whether it was settled.
+static bool settle(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
+                   bool *lopsided)
+{
+    if (scheme->ladder->side == LADDER_WHOLE)
+        return contact_solve(&scheme->solver, problem, contact);
+    bool alike, solved = half_step_solve(scheme->half, problem, scheme->odd, contact, &alike);
+    contact_solver_take_counts(&scheme->solver, &scheme->half->solver);
+    *lopsided = !alike;
+    return solved;
+}
+
 // Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
 // settled.
 static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSolution *contact,
@@ -118,11 +130,11 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .matrix = ladder_contact(scheme->ladder, rung),
                               .g = scheme->g,
                               .bound = scheme->bound};
-    *solved = contact_solve(&scheme->solver, &problem, contact);
+    *solved = settle(scheme, &problem, contact, &trial->outcome->lopsided);
     int32_t again = PRESSURES_LIMIT;
     while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
-        *solved = again-- > 0 && contact_solve(&scheme->solver, &problem, contact);
-    TRY(*solved);
+        *solved = again-- > 0 && settle(scheme, &problem, contact, &trial->outcome->lopsided);
+    if (!*solved) goto cleanup;
     scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
     // What is held is held exactly, not to the rounding of the substitution.
@@ -281,6 +293,14 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Before the stages, as it may make the rung anew. false: it cannot be had.
+static bool find_odd(Sdirk *scheme, int32_t k)
+{
+    bool acts = scheme->odd_acts && scheme->ladder->side != LADDER_WHOLE;
+    scheme->odd = acts ? ladder_contact_of(scheme->ladder, k, LADDER_ODD) : NULL;
+    return !acts || scheme->odd || scheme->ladder->side == LADDER_WHOLE;
+}
+
 bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
                 Error *err)
 {
@@ -291,7 +311,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
                    .from = from,
                    .to = to,
                    .outcome = outcome};
-    if (!ladder_rung(scheme->ladder, k, err)) goto cleanup;
+    if (!ladder_rung(scheme->ladder, k, err) || !find_odd(scheme, k)) goto cleanup;
     guess_contact(from, to);
     friction_states_begin(&scheme->memory, from);
     for (int32_t i = 0; i < scheme->tableau.stages; i++) {
@@ -320,20 +340,6 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
     ledger->load_work += outcome->load_work;
 }
 
-// Counters (whose factors are used again depends on one of them) and what is kept.
-static void solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive)
-{
-    archive_section(archive, "contact solver");
-    contact_newton_archive(&solver->newton, archive);
-    archive_count(archive, &solver->solves);
-    archive_count(archive, &solver->iterations);
-    archive_count(archive, &solver->fallbacks);
-    archive_count(archive, &solver->rescued);
-    archive_count(archive, &solver->unsolved);
-    archive_count(archive, &solver->path.steps);
-    if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
-}
-
 void sdirk_archive(Sdirk *scheme, Archive *archive)
 {
     archive_section(archive, "scheme");
@@ -341,5 +347,5 @@ void sdirk_archive(Sdirk *scheme, Archive *archive)
     archive_number(archive, &scheme->reach);
     archive_count(archive, &scheme->steps);
     friction_states_archive(&scheme->memory, archive);
-    solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
+    contact_solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
 }

@@ -15,6 +15,7 @@
 #include "contact/contact_solver.h"
 #include "stepping/energy.h"
 #include "stepping/friction_states.h"
+#include "stepping/half_step.h"
 #include "stepping/ladder.h"
 #include "stepping/load_course.h"
 #include "stepping/tableau.h"
@@ -27,7 +28,10 @@ typedef struct Sdirk {
     const FrictionLaw *law;
     Rod *rod;
     const LoadCourse *course;   // set once the rod moves; NULL: the load stays; not owned
-    ContactSolver solver;   // owned, like all that follows
+    HalfStep *half;   // solves contact where the ladder is asked for one side; not owned
+    bool odd_acts;   // there what is odd is stepped along
+    ContactMatrix *odd;   // by this; NULL: it is not; not owned
+    ContactSolver solver;   // of both sides; its counters are of all; owned, like all that follows
     FrictionStates memory;   // of friction; nothing where none remembers
     double *rhs, *force, *viscous;   // [dof_count] work
     double *predictor;   // [dof_count] work: u_i*
@@ -44,6 +48,7 @@ typedef struct Sdirk {
 
 typedef struct StepOutcome {
     bool solved;   // false: a contact problem had no solution; `to` has no meaning
+    bool lopsided;   // because it was to be halved and is not its own mirror image
     double error;   // size of the estimated local error of u (bulk_operator_size), or of what
         // friction remembers, if that is larger; length
     double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only

@@ -28,6 +28,10 @@ enum { UNCERTIFIED_DROP = 3 };
 // in the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
 static const double SMALL_OSCILLATION = 0.01;
 
+// In space slip goes on by a node at a time among many: it is looked at anew where it has by a part
+// of them all.
+enum { SCANNED_PARTS = 200 };
+
 // Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,
 // and cost a minute.
 static const double STEPS_LEFT_MAX = 1e8;
@@ -37,12 +41,16 @@ static const double STEPS_LEFT_MAX = 1e8;
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
-    *control = (StepControl){.def = *def, .certified = true};
+    *control = (StepControl){.def = *def, .certified = true, .odd_decays = true};
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
+    if (def->use_certificate && !control->scheme.memory.laws)
+        TRY(half_step_create(block, &control->certificate, &control->half, err));
+    if (control->half.exists) control->ladder.half = &control->half.half;
+    control->scheme.half = &control->half;
     TRY(oscillation_record_create(block, def->watch_time, &control->oscillations, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
     TRY(state_create(block->system, block->interface, &control->next, err));
@@ -58,6 +66,7 @@ void step_control_destroy(StepControl *control)
     ladder_destroy(&control->ladder);
     sdirk_destroy(&control->scheme);
     certificate_destroy(&control->certificate);
+    half_step_destroy(&control->half);
     oscillation_record_destroy(&control->oscillations);
     state_destroy(&control->now);
     state_destroy(&control->next);
@@ -84,6 +93,20 @@ void step_control_restart(StepControl *control)
     int32_t first =
         ladder_find(&control->ladder, fmin(control->def.wave_step, control->def.step_max));
     control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
+}
+
+// What the contact is asked for in the next step from `now`.
+static void choose_side(StepControl *control)
+{
+    bool halved = control->ladder.half && !control->lopsided &&
+                  half_step_take_law(&control->half, control->scheme.law);
+    control->ladder.side = halved ? LADDER_EVEN : LADDER_WHOLE;
+    control->scheme.odd_acts = !control->odd_decays;
+}
+
+static BothSides sides_of(StepControl *control)
+{
+    return (BothSides){&control->certificate, &control->half, &control->ladder};
 }
 
 typedef enum Verdict {
@@ -134,8 +157,7 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    return growth > 1 && certificate_oscillates_less(&control->certificate, state, &control->ladder,
-                                                     range, growth);
+    return growth > 1 && both_sides_oscillate_less(sides_of(control), state, range, growth);
 }
 
 // May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates
@@ -156,15 +178,16 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
     else
         all.first = 0;
     return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
-           certificate_excludes_runaway(&control->certificate, state, &control->ladder, all);
+           both_sides_exclude_runaway(sides_of(control), state, all);
 }
 
-// Cheapest first. *certified: of the state the step leads to; true, without a look, where the
-// certificate is switched off.
+// Cheapest first. *certified and *odd_decays: of the state the step leads to; where the certificate
+// is switched off true and false, without a look.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
-                          bool *certified)
+                          bool *certified, bool *odd_decays)
 {
     *certified = true;
+    *odd_decays = false;
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
     // Where no shorter step is left the run's own ledger decides (run/simulation).
@@ -172,12 +195,11 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
     if (!control->def.use_certificate) return STEP_ACCEPTED;
     double reach = ladder_reach(&control->ladder, k);
-    *certified = certificate_holds(&control->certificate, &control->next, reach);
+    *certified = both_sides_hold(sides_of(control), &control->next, reach, odd_decays);
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
         return may_skip_waves(control, &control->next, k) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    bool resolved = certificate_step_resolves(&control->certificate, &control->next,
-                                              ladder_contact(&control->ladder, k), reach);
+    bool resolved = both_sides_resolve(sides_of(control), &control->next, k);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
@@ -280,10 +302,12 @@ static void scan_growth(StepControl *control, int32_t k)
         control->grows = false;
         control->scanned = 0;
     }
-    if (control->certified || slipping <= control->scanned) return;
+    int32_t more = control->scheme.interface->dim > 2 ? control->now.contact_count / SCANNED_PARTS
+                                                      : 0;
+    if (control->certified || slipping <= control->scanned + more) return;
     control->scanned = slipping;
-    control->grows = certificate_finds_runaway(&control->certificate, &control->now,
-                                               &control->ladder, k < wave_rung(control) ? -1 : k);
+    control->grows =
+        both_sides_run_away(sides_of(control), &control->now, k < wave_rung(control) ? -1 : k);
 }
 
 // `now` and `next` exchange their arrays.
@@ -315,16 +339,22 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
     StepCounters *counters = &control->counters;
     int32_t k = fit_rung(control, control->rung, remaining);
-    bool shortened = k != control->rung, retried = false, certified = true;
+    bool shortened = k != control->rung, retried = false, certified = true, odd_decays;
     for (;;) {
         StepOutcome outcome;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
         control->scheme.solver.follows_path = k == control->ladder.rung_count - 1;
+        choose_side(control);
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
-        Verdict verdict = judge_step(control, k, &outcome, &certified);
+        if (outcome.lopsided) {
+            control->lopsided = true;
+            continue;
+        }
+        Verdict verdict = judge_step(control, k, &outcome, &certified, &odd_decays);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
+            control->odd_decays = odd_decays;
             accept_step(control, k, &outcome);
             scan_growth(control, k);
             if (!shortened || retried)
@@ -391,10 +421,13 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     sdirk_archive(&control->scheme, archive);
     oscillation_record_archive(&control->oscillations, archive);
     certificate_archive(&control->certificate, archive);
+    half_step_archive(&control->half, archive);
     archive_section(archive, "step control");
     archive_number(archive, &control->outcome.residual);
     archive_number(archive, &control->last_step);
     archive_flag(archive, &control->certified);
+    archive_flag(archive, &control->odd_decays);
+    archive_flag(archive, &control->lopsided);
     archive_flag(archive, &control->grows);
     archive_flag(archive, &control->settles);
     archive_integer(archive, &control->scanned);
@@ -403,6 +436,7 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
     counters_archive(&control->counters, archive);
-    return ladder_archive(&control->ladder, control->scheme.solver.newton.factorisations, archive,
-                          err);
+    int64_t last = control->scheme.solver.newton.factorisations;
+    int64_t last_halved = control->half.solver.newton.factorisations;
+    return ladder_archive(&control->ladder, last, last_halved, archive, err);
 }

@@ -12,7 +12,7 @@
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
 #define AMONTONS_STEPPING_STEP_CONTROL_H
 
-#include "stepping/certificate.h"
+#include "stepping/both_sides.h"
 #include "stepping/explicit_reference.h"
 #include "stepping/sdirk.h"
 #include "stepping/oscillation_record.h"
@@ -43,7 +43,8 @@ typedef struct StepControl {
     StepControlDef def;
     Ladder ladder;   // owned, like all that follows
     Sdirk scheme;
-    Certificate certificate;
+    Certificate certificate;   // of both sides
+    HalfStep half;   // of one, where they are alike
     OscillationRecord oscillations;
     State now;   // the last accepted state
     State next;   // work
@@ -51,6 +52,8 @@ typedef struct StepControl {
     StepOutcome outcome;   // of the last accepted step
     double last_step;   // its length, time
     bool certified;   // `now` is dissipative
+    bool odd_decays;   // what is odd in it cannot gain energy
+    bool lopsided;   // a problem was not its own mirror image: all are solved whole from then on
     bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some rung's
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then

@@ -34,6 +34,15 @@ class Accuracy(unittest.TestCase):
     def report(self):
         return json.loads((self.folder / "run.json").read_text())
 
+    def test_of_what_holds(self):
+        """`accuracy.of: mu_hold`: that is what the bar is asked of, and met."""
+        pads = ["mesh.file=../../meshes/pads.geo", "mesh.set={n: 6, total_height: 0.5, fill: 0.475, pad_height: 0.12}", "rod.height=0.4"]
+        for of in ("mu_hold", "mu_M"):
+            self.run_it("--to", "4%", "--overwrite", settings=[*SETTINGS, *pads, f"accuracy.of={of}"])
+            found, results = self.report()["accuracy"], self.report()["results"]
+            self.assertEqual((found["of"], found["met"]), (of, True))
+            self.assertLessEqual(results[f"{of}_error"], 0.04 * results[of])
+
     def test_met(self):
         ended = self.run_it("--to", "2%")
         self.assertEqual(ended.returncode, 0, ended.stderr)

@@ -188,6 +188,11 @@ class Compared(unittest.TestCase):
         curve = plot["series"][0]
         expected = np.interp(np.log(0.003), np.log(curve["x"]), curve["y"])   # the second lies beyond the curve
         said = f"misfit {abs(0.3 - expected):.3g}, {abs(0.3 - expected) / 0.02:.3g} of its errors"
+        stored = table(self.folder / "swept/figures/plot-compared.csv")
+        np.testing.assert_allclose(stored["load.pressure"], [0.003, 0.009])
+        np.testing.assert_allclose(stored["results.mu_max"], [0.3, 0.3])
+        np.testing.assert_allclose(stored["error"], [0.02, 0.02])
+        np.testing.assert_allclose(stored["computed"], [expected, np.nan], rtol=1e-12)
         call(self.folder, "render", "swept", "--format", "pdf")
         self.assertIn(said, words_of(self.folder / "swept/figures/plot.pdf"))
         call(self.folder, "render", "swept", "--plot", "{x: load.pressure, y: results.mu_max, log: x, name: two}", "--compare",
@@ -198,6 +203,7 @@ class Compared(unittest.TestCase):
         (self.folder / "study/hand.csv").write_text("x,y\n10,1.5\n")
         call(self.folder, "render", "study/hand.yaml", "--format", "pdf")
         self.assertIn("misfit 0.5", words_of(self.folder / "study/hand.pdf"))
+        self.assertEqual((self.folder / "study/hand-compared.csv").read_text().splitlines(), ["x,y,error,computed", "10,1.5,,1"])
         (self.folder / "study/hand.csv").write_text("a,b\n10,1.5\n")
         self.assertIn("it needs the columns x and y", call(self.folder, "render", "study/hand.yaml", status=2).stderr)
 

@@ -36,6 +36,18 @@ class DenseMap(unittest.TestCase):
         marked = np.abs(inside - colours[counts.argmax()]).sum(axis=2) > 30
         return marked[:, :100].mean(), marked[:, -100:].mean()
 
+    def test_a_long_name_of_colours(self):
+        """It gets smaller where it would leave the page: no ink within a point of its edges."""
+        for words in ("c", "a formula of several results, longer than the map is high, of its own kind"):
+            plot = {"x": {"label": "x"}, "y": {"label": "y"}, "color": {"label": words, "range": [0, 2]},
+                    "panels": [{"map": {"x": [0, 1, 0, 1], "y": [0, 0, 1, 1], "value": [0, 1, 2, 1]}}]}
+            (self.folder / "map.json").write_text(json.dumps(plot))
+            subprocess.run([PROGRAM, "render", "map.json", "--dpi", "144", "--height", "50"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            pixels = np.asarray(Image.open(self.folder / "map.png").convert("L"))
+            name = pixels[:, -24:]   # the last 12 points of the width
+            self.assertTrue((name < 128).any(), "the name is there")
+            self.assertTrue((name[:1] > 200).all() and (name[-1:] > 200).all(), f"{words[:20]} is cut off")
+
     def test_marks(self):
         doubtful, sure = self.picture(66, True)
         self.assertTrue(0.01 < doubtful < 0.12, doubtful)   # each its own: a fifth and more

@@ -190,17 +190,10 @@ class Tricked(Runs):
 
 class Thrift(Runs):
     def test_nothing_is_allocated_in_the_loop(self):
-        """But a rung when it is first used: seven arrays at most."""
-        spent = []
-        for U in (0.0034, 0.0068, 0.0102):
-            _, report = self.run_scene(*PLAIN, "reduction.use=always", f"time.until.U={U}",
-                                       "time.step_max=8.4")
-            spent.append((report["steps"]["loop_allocations"], report["steps"]["factorisations"],
-                          report["steps"]["accepted"]))
-        self.assertGreater(spent[2][2], 2 * spent[0][2])
-        for (before, rungs_before, _), (after, rungs, _) in zip(spent, spent[1:]):
-            self.assertLessEqual(after - before, 7 * (rungs - rungs_before))
-        self.assertLessEqual(spent[2][0], 7 * spent[2][1])
+        """Rungs, made in it when first used, are left out."""
+        _, report = self.run_scene(*PLAIN, "reduction.use=always", "time.until.U=0.0102", "time.step_max=8.4")
+        self.assertGreater(report["steps"]["accepted"], 200)
+        self.assertEqual(report["steps"]["loop_allocations"], 0)
 
     def test_few_steps_are_repeated_where_growth_limits_them(self):
         _, report = self.run_scene(*SET_B, "time.watch=0")

@@ -305,14 +305,18 @@ class Memory(InFolder):
         return json.loads((self.folder / "run/run.json").read_text())["results"]["mu_M"]
 
     def test_memory_of_nothing(self):
-        """healing: 0 is linear weakening, point by point."""
+        """healing: 0 is linear weakening, point by point, of a rod so slow that mu of its slip is that of rest."""
         weakens = self.AGEING.split("healing:")[0].replace("ageing", "linear-weakening").rstrip(", ") + "}"
-        plain, nothing = (self.found(law, words=("--from", "start")) for law in (weakens, self.AGEING % 0))
+        plain, nothing = (self.found(law, "rod.velocity=1e-10", words=("--from", "start")) for law in (weakens, self.AGEING % 0))
         self.assertEqual(len(plain["points"]), len(nothing["points"]))
+        growing = 0
         for one, other in zip(plain["points"], nothing["points"]):
-            crowded = max(one["rate_re"], other["rate_re"]) < -0.5    # at -E/eta: which of them is found goes by the shifts
-            for key in ("l_over_L", "U", "mu", "mu_at_V", "load") + (() if crowded else ("rate_re", "rate_im")):
-                self.assertAlmostEqual(one[key], other[key], delta=1e-5 * max(abs(one[key]), 1), msg=key)
+            grows = max(one["rate_re"], other["rate_re"]) > 0     # with memory slower rates are looked for: more of what decays is found
+            growing += grows
+            for key in ("l_over_L", "U", "mu", "mu_at_V", "load") + (("rate_re", "rate_im") if grows else ()):
+                part = 1e-3 if key.startswith("rate") else 1e-5     # the path's own rod is not as slow, and mu counts in the coupling
+                self.assertAlmostEqual(one[key], other[key], delta=part * max(abs(one[key]), 1), msg=key)
+        self.assertGreater(growing, 3)
         self.assertIsNone(nothing["results"]["critical_stiffness"])
 
     def test_runs_agree(self):

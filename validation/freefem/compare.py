@@ -17,6 +17,7 @@ LAYERS = {"shape": "triangle", "nx": 20, "nz": 8, "nz_layer": 3}
 SQUARE = {"shape": "triangle", "length": 0.04, "height": 0.04, "nx": 32, "nz": 32}
 SPACE = {"shape": "tet", "nx": 5, "ny": 4, "nz": 4}
 FREE_SPACE = {"shape": "tet", "layout": "free", "nx": 6, "ny": 5, "nz": 5, "grade_z": 3}
+PADS_SPACE = {"shape": "tet", "n": 2, "m": 2, "cells_x": 3, "cells_y": 3, "cells_pad_height": 1, "nz": 4}
 MESHES = {"regular": REGULAR, "graded": GRADED, "unstructured": FREE}
 OTHERS = {"four pads": PADS, "on a layer": LAYERS, "32x32": SQUARE}
 
@@ -80,8 +81,9 @@ def compare_in_space(study, case, mesh_name, parameters, order):
     are what touches."""
     folder = study.new_folder(f"freefem-{case}")
     folder.mkdir()
-    surfaces = make_mesh(folder / "linear.msh", "block3d", parameters)
-    make_mesh(folder / "ours.msh", "block3d", parameters, order)
+    geo = "pads3d" if case == "space_pads" else "block3d"
+    surfaces = make_mesh(folder / "linear.msh", geo, parameters)
+    make_mesh(folder / "ours.msh", geo, parameters, order)
     theirs = freefem(FREEFEM / f"{case}.edp", order, folder / "linear.msh", surfaces, folder / "freefem.txt")
     ours = Static(study, FREEFEM / f"{case}.yaml", f"static-{case}", {"mesh.file": folder / "ours.msh", "mesh.set": "{}"})
     assert len(theirs) == len(ours.position)
@@ -91,7 +93,7 @@ def compare_in_space(study, case, mesh_name, parameters, order):
                                        ("reaction", ours.reaction, theirs[:, 6:9], 10 * TOLERANCE)):
         study.add(GROUP, label, f"{name} of every node, largest", np.abs(yours).max(), np.abs(mine).max(),
                   relative(mine, yours), allowed)
-    if case == "space_uplift":
+    if case in ("space_uplift", "space_pads"):
         open_there = int((np.abs(theirs[ours.contact, 8]) <= 1e-10 * np.abs(theirs[:, 8]).max()).sum())
         study.add(GROUP, label, "open contact nodes", open_there, ours.results["open"],
                   abs(open_there - ours.results["open"]), 0, note=f"of {len(ours.contact)}")
@@ -191,6 +193,7 @@ def run(study):
             compare_in_space(study, case, "regular", SPACE, order)
             if not study.quick:
                 compare_in_space(study, case, "unstructured", FREE_SPACE, order)
+        compare_in_space(study, "space_pads", "two materials", PADS_SPACE, order)
     if not study.quick:
         quadrilaterals(study)
     controls(study)

@@ -6,7 +6,7 @@ area that slips before and grooves, with error bars.
     validation/space/papers.py [--seconds S] [--only STUDY ...] [--page] [-o FOLDER]
 
 Each point is run on meshes of 8, 10, 12, 14 and 16 cells to the height, as long as one may be expected to take S seconds of processor
-time (default 110; it goes up with the sixth power). A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
+time (default 40; it goes up with the sixth power). A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
 that was stopped goes on behind the last one. Bars are those of the program's rule (src/record/error_bars.c) on these meshes: of blocks
 in space 98 of 100 held (priors.md). Writes papers.md and its two figures beside it."""
 import argparse
@@ -159,8 +159,9 @@ def points(rows):
 
 def draw(rows, folder):
     """The two figures: mu_M against breadth at each pressure, and against the critical area."""
-    def series(label, places, found):
-        return {"label": label, "x": places, "y": [f[0] for f in found], "low": [f[0] - f[1] for f in found], "high": [f[0] + f[1] for f in found]}
+    def series(number, label, places, found):
+        return {"label": label, "x": places, "y": [f[0] for f in found], "low": [f[0] - f[1] for f in found], "high": [f[0] + f[1] for f in found],
+                "color": number + 1, "marker": ("circle", "square", "triangle", "down", "cross")[number]}
     mu = {"label": "~{μ}_{M}"}
     across = []
     for study, name, keys in [("breadth", f"~{{P}} = {p:g}", [f"{w:g}, P {p:g}" for w in BREADTHS]) for p in PRESSURES] + [
@@ -168,17 +169,17 @@ def draw(rows, folder):
         found = [(w, with_bar(rows.get((study, key), []), "mu_M")) for w, key in zip(BREADTHS, keys)]
         found = [(w, f) for w, f in found if f]
         if found:
-            across.append(series(name, [w for w, _ in found], [f for _, f in found]))
+            across.append(series(len(across), name, [w for w, _ in found], [f for _, f in found]))
     plots = {"papers-breadth": {"x": {"label": "~{W}/~{H}", "scale": "log", "range": [0.4, 2.5]}, "y": mu, "legend": "outside", "series": across}}
     kinds = {}
     for area, value, bar, study, _ in points(rows):
         kinds.setdefault(study, []).append((area, value, bar))
     plots["papers-area"] = {"x": {"label": "~{A}_{c}/~{A}"}, "y": mu, "legend": "outside", "series": [
-        series(study, [p[0] for p in at], [p[1:] for p in at]) | {"line": "none"} for study, at in kinds.items()]}
+        series(k, study, [p[0] for p in at], [p[1:] for p in at]) | {"line": "none"} for k, (study, at) in enumerate(kinds.items())]}
     for name, plot in plots.items():
         path = folder / f"{name}.yaml"
         path.write_text(json.dumps(plot, ensure_ascii=False))
-        subprocess.run([PROGRAM, "render", path, "-o", folder / f"{name}.png", "--overwrite"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "render", path, "--dpi", "200", "--overwrite"], check=True, stdout=subprocess.DEVNULL)
         path.unlink()
 
 
@@ -202,7 +203,7 @@ s: processor time of all meshes of a point. What it means: [README.md](README.md
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=110, help="of processor time for one mesh")
+    parser.add_argument("--seconds", type=float, default=40, help="of processor time for one mesh")
     parser.add_argument("--only", nargs="+", choices=STUDIES)
     parser.add_argument("--page", action="store_true", help="write the page from what was computed, and compute nothing")
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent)

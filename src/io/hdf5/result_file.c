@@ -231,10 +231,8 @@ cleanup:
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err)
 {
-    TRY(add_row(file, &table_rows[table], 1, &flat, err));
-    TRY(array_file_append(file, table_rows[table].name, values, count, err));
-cleanup:
-    return error_is_clean(err);
+    return add_row(file, &table_rows[table], 1, &flat, err) &&
+           array_file_append(file, table_rows[table].name, values, count, err);
 }
 
 // --- reading ------------------------------------------------------------------------------------

@@ -344,8 +344,6 @@ bool yaml_read(const char *path, YamlDocument **document, Error *err)
     *document = NULL;
     char *bytes = NULL;
     int32_t size = 0;
-    TRY(text_file_read(path, YAML_BYTES_MAX, &bytes, &size, err));
-    TRY(parse_bytes(path, bytes, size, 0, document, err));
-cleanup:
-    return error_is_clean(err);
+    return text_file_read(path, YAML_BYTES_MAX, &bytes, &size, err) &&
+           parse_bytes(path, bytes, size, 0, document, err);
 }

@@ -202,10 +202,7 @@ static bool write_table(const Fit *fit, Error *err)
 
 bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
 {
-    TRY(search_answer(&fit->search, print_answer, &(Answer){fit, summary}, err));
-    TRY(write_table(fit, err));
-    TRY(fit_figures(fit, err));
-    TRY(search_leave_best(&fit->search, designs_best(&fit->search.designs), 0, err));
-cleanup:
-    return error_is_clean(err);
+    return search_answer(&fit->search, print_answer, &(Answer){fit, summary}, err) &&
+           write_table(fit, err) && fit_figures(fit, err) &&
+           search_leave_best(&fit->search, designs_best(&fit->search.designs), 0, err);
 }

@@ -95,10 +95,12 @@ static void print_open(const Search *search, int32_t best, FILE *out)
     if (open == 0) fprintf(out, "  better than every other design, with the bars of both\n");
     if (open == 0) return;
     if (settled > 0)
-        fprintf(out,
-                "  %d of them missed the error bar asked for by far, or have none: only more time "
-                "for a run (accuracy.within) would tell\n",
-                settled);
+        fprintf(
+            out,
+            "  %d of them missed the error bar asked for by far, or have none: only more time "
+            "for a run (accuracy.within), or a bar asked of what is ranked (accuracy.of), would "
+            "tell\n",
+            settled);
     if (open == settled) return;
     if (search->study->rank.refine > 0)
         fprintf(out,

@@ -24,6 +24,11 @@ TEST(test_driven)
     assert_near("wave step", def.wave_step, 0.04, 1e-16);
     assert_near("0.04, 0.08, 0.16: not below 0.1", def.step_max, 0.16, 1e-15);
     assert_near("watch", def.watch_time, 6, 1e-15);
+    StepSizes remembers = SIZES;
+    remembers.memory = 0.5;
+    assert_near("0.2 D_c/V = 0.2", step_rule(&scene, &remembers).step_max, 0.32, 1e-15);
+    remembers.memory = 0.01;
+    assert_near("the drop's slip", step_rule(&scene, &remembers).step_max, 0.16, 1e-15);
     assert_near("shortest", def.step_min, 4e-12, 1e-24);
     assert_true(def.use_certificate && def.energy_tolerance == 0.01);
     scene.time.tolerance = 0.1;

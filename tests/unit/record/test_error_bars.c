@@ -129,6 +129,11 @@ TEST(test_without_mu_M)
     begin(&levels, 1, 21);
     add(&levels, 0.3, 0.2, NAN);
     assert_true(levels.asked == ANSWER_MU_M);
+    levels.of_hold = true;
+    levels_estimate(&levels);
+    assert_true(levels.asked == ANSWER_MU_HOLD);
+    levels.of_hold = false;
+    levels_estimate(&levels);
     add(&levels, NAN, 0.22, NAN);
     assert_true(levels.asked == ANSWER_MU_HOLD);
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_M)->bar));   // no value, no bar

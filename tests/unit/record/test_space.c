@@ -188,9 +188,9 @@ TEST_BETWEEN(test_front, setup, teardown)
     assert_near("reach", event->reach, 0.5, 0);
 }
 
-// Over the area. Slow slip has come to the first two cells when it is an event (front > 0); it comes
-// to nodes 6 and 7 half a cell further 2 later, rapid slip to 8 before it: that cell is no part of it.
-// The next rapid front crosses cells 0 and 1 along y, by interpolation at 4.5, 5.5 and 6.5.
+// Over the area. Slow slip has come to the first two cells when it is an event (front > 0). It
+// comes to nodes 6 and 7, half a unit further, 2 later; rapid slip to 8 before it: that cell is no
+// part. The next rapid front crosses cells 0 and 1 along y, by interpolation at 4.5, 5.5 and 6.5.
 TEST_BETWEEN(test_front_over_the_area, setup, teardown)
 {
     int32_t face[16];   // four cells

@@ -18,11 +18,12 @@ enum { NODES = 5, STEPS = 200, PATH_SIZE = 400, FAULTS_MAX = 2000 };
 static char folder[PATH_SIZE];
 
 // Slip spreads from x = 0 with U; mu falls at U = 1.
-static bool steps_write(ArrayFile *file, Error *err)
+static bool steps_write(ArrayFile *file, const ResultHead *head, Error *err)
 {
     for (int32_t k = 0; k < STEPS; ++k) {
         double row[NODES], U = k / 100.0;
         for (int32_t s = 0; s < RESULT_SERIES_COUNT; ++s) {
+            if (!result_series_written(head, (ResultSeries)s)) continue;
             bool of_nodes = result_series_columns((ResultSeries)s) == COLUMNS_NODES;
             int32_t width = of_nodes ? NODES : 2;   // pads
             for (int32_t i = 0; i < width; ++i) row[i] = i < U * NODES ? 0.01 : 0;
@@ -52,7 +53,7 @@ FIXTURE(result_write)
     snprintf(folder, sizeof folder, "/tmp/amontons_render_XXXXXX");
     if (!mkdtemp(folder)) return -1;
     ArrayFile *file = result_file_create(folder, &head, &err);
-    bool done = file && steps_write(file, &err);
+    bool done = file && steps_write(file, &head, &err);
     for (int32_t table = 0; done && table < RESULT_TABLES_COUNT; ++table) {
         const double *values = table == EVENTS_KIND      ? kind
                                : table == EVENTS_U_START ? U_start

@@ -66,15 +66,12 @@ cleanup:
 
 bool source_open(const char *folder, const StudyPlot *plot, Source *source, Error *err)
 {
-    TRY(plot_table_open(folder, &source->table, err));
-    TRY(find_quantities(source, plot, err));
-    TRY(find_doubts(source, plot->text[PLOT_COLOR][0], err));
-    TRY(find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES], &source->series,
-                    err));
-    TRY(find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS], &source->panels,
-                    err));
-cleanup:
-    return error_is_clean(err);
+    return plot_table_open(folder, &source->table, err) && find_quantities(source, plot, err) &&
+           find_doubts(source, plot->text[PLOT_COLOR][0], err) &&
+           find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
+                       &source->series, err) &&
+           find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],
+                       &source->panels, err);
 }
 
 void source_close(Source *source)

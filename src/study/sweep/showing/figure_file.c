@@ -54,12 +54,9 @@ bool figure_end(Figure *figure, Error *err)
     json_end(figure->json);
     ArrayFile *arrays = figure->arrays;
     figure->arrays = NULL;
-    TRY(json_finish(figure->json, err) & array_file_close(arrays, err));
-    TRY(figure_path(figure, "json", path, err));
-    TRY(figure_path(figure, ending, picture, err));
-    TRY(amontons_render_plot_file(path, picture, figure->style, err));
-cleanup:
-    return error_is_clean(err);
+    return json_finish(figure->json, err) & array_file_close(arrays, err) &&
+           figure_path(figure, "json", path, err) && figure_path(figure, ending, picture, err) &&
+           amontons_render_plot_file(path, picture, figure->style, err);
 }
 
 // A long array becomes a column of figures/NAME.h5, and the text says which.

@@ -43,6 +43,12 @@ static void key_words(const char *name, char words[QUANTITY_LABEL_SIZE], bool *i
                  {"rod.velocity", "rod velocity ~{V}", false},
                  {"rod.height", "rod height ~{h}", false},
                  {"friction.critical_velocity", "critical velocity ~{v}_{c}", false},
+                 {"friction.mu_static", "static friction ~{\u03bc}_{S}", false},
+                 {"friction.mu_kinetic", "kinetic friction ~{\u03bc}_{K}", false},
+                 {"material.young", "Young's modulus ~{E}", false},
+                 {"material.poisson", "Poisson's ratio ~{\u03bd}", false},
+                 {"material.eta1", "shear viscosity ~{\u03b7}_{1}", false},
+                 {"material.eta2", "viscosity ~{\u03b7}_{2}", false},
                  {"mesh.set.length", "length ~{L}", true},
                  {"mesh.set.height", "height ~{H}", true},
                  {"mesh.set.pad_height", "pad height", true}};

@@ -100,10 +100,10 @@ TEST_BETWEEN(test_the_front, begin, end)
     designs->aim = 1;
     designs_judge(designs, 2);
     assert_near("one aim", designs->list[2].value, 0.33, 1e-15);
-    designs->lowest = true;
+    study.rank.lowest = true;
     front_find(designs, is_on);
     assert_true(!is_on[0] && is_on[1] == false && is_on[2] && is_on[3]);
-    designs->lowest = false, designs->aim = -1;
+    study.rank.lowest = false, designs->aim = -1;
 }
 
 TEST_BETWEEN(test_the_best, begin, end)

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The questions of stepping/certificate to a state that is looked at as a whole, or where it is its
+// own mirror image to what is even and what is odd of it (stepping/half_step), whichever the ladder
+// is asked for. What is odd is asked no further where it cannot gain energy. Called by
+// stepping/step_control.
+#ifndef AMONTONS_STEPPING_BOTH_SIDES_H
+#define AMONTONS_STEPPING_BOTH_SIDES_H
+
+#include "stepping/half_step.h"
+
+// Nothing is owned.
+typedef struct BothSides {
+    Certificate *whole;
+    HalfStep *half;
+    Ladder *ladder;
+} BothSides;
+
+// certificate_holds. *odd_decays: of what is odd alone; false, too, where there are no halves. The
+// questions that follow are about the state that this was asked about last.
+bool both_sides_hold(BothSides sides, const State *state, double reach, bool *odd_decays);
+
+bool both_sides_resolve(BothSides sides, const State *state, int32_t k);   // _step_resolves
+bool both_sides_run_away(BothSides sides, const State *state, int32_t resolved);   // _finds_runaway
+bool both_sides_oscillate_less(BothSides sides, const State *state, RungRange range, double growth);
+bool both_sides_exclude_runaway(BothSides sides, const State *state, RungRange range);
+
+#endif

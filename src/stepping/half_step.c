@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/half_step.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+// What of a problem is odd, over the largest of what is even, at most: rounding of a state that was
+// stepped as a whole, far below what a step may be off.
+static const double ALIKE = 1e-9;
+
+static bool create_state(const Interface *interface, State *state, Error *err)
+{
+    *state = (State){.interface_count = interface->count,
+                     .contact_count = interface->contact_count,
+                     .rod_count = interface->rod_count};
+    state->slip_rate = NEW_ARRAY(double, interface->count, err);
+    state->reaction = NEW_ARRAY(double, interface->count, err);
+    state->theta = NEW_ARRAY(double, interface->contact_count, err);
+    state->status = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    state->rod_touches = NEW_ARRAY(uint8_t, interface->rod_count, err);
+    return error_is_clean(err);
+}
+
+// A node that stands for two yields half as much to the sum of their forces. false: two are not
+// alike.
+static bool create_rod(const Rod *whole, const ContactHalf *half, Rod *rod, Error *err)
+{
+    rod->softness = NEW_ARRAY(double, half->interface.rod_count, err);
+    rod->lag = NEW_ARRAY(double, half->interface.rod_count, err);
+    bool alike = error_is_clean(err);
+    for (int32_t j = 0; alike && j < half->interface.rod_count; j++) {
+        int32_t own = half->rod[j], across = half->rod_image[j];
+        double softness = whole->softness[own], lag = whole->lag[own];
+        alike = fabs(softness - whole->softness[across]) <= ALIKE * softness &&
+                fabs(lag - whole->lag[across]) <= ALIKE * lag;
+        rod->softness[j] = own == across ? softness : 0.5 * softness;
+        rod->lag[j] = lag;
+    }
+    return alike;
+}
+
+bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err)
+{
+    const Interface *side = &half->half.interface;
+    *half = (HalfStep){0};
+    TRY(contact_half_find(block->interface, &half->half, err));
+    if (side->contact_count == 0) goto cleanup;
+    bool alike = create_rod(block->rod, &half->half, &half->rod, err);
+    TRY(create_state(side, &half->state, err));
+    TRY(contact_solver_create(side, contact_solver_def(), &half->solver, err));
+    half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
+    half->g = NEW_ARRAY(double, side->count, err);
+    half->bound = NEW_ARRAY(double, side->count, err);
+    half->odd_g = NEW_ARRAY(double, side->count, err);
+    half->odd_bound = NEW_ARRAY(double, side->count, err);
+    half->odd_velocity = NEW_ARRAY(double, side->count, err);
+    half->odd_reaction = NEW_ARRAY(double, side->count, err);
+    TRY(contact_newton_create(side, &half->newton, err));
+    Block one = {.interface = side, .law = &half->law, .rod = &half->rod};
+    for (int32_t odd = 0; alike && odd < 2; odd++) {
+        Certificate *certificate = odd ? &half->odd : &half->even;
+        TRY(certificate_halve(whole, &half->half, &one, odd, certificate, err));
+        alike = certificate->damping_contact.schur != NULL;
+    }
+    half->exists = alike;
+cleanup:
+    return error_is_clean(err);
+}
+
+void half_step_destroy(HalfStep *half)
+{
+    certificate_destroy(&half->even);
+    certificate_destroy(&half->odd);
+    contact_solver_destroy(&half->solver);
+    contact_half_destroy(&half->half);
+    state_destroy(&half->state);
+    memory_free(half->rod.softness);
+    memory_free(half->rod.lag);
+    memory_free(half->laws);
+    memory_free(half->g);
+    memory_free(half->bound);
+    memory_free(half->odd_g);
+    memory_free(half->odd_bound);
+    memory_free(half->odd_velocity);
+    memory_free(half->odd_reaction);
+    contact_newton_destroy(&half->newton);
+    *half = (HalfStep){0};
+}
+
+bool half_step_take_law(HalfStep *half, const FrictionLaw *law)
+{
+    half->law = *law;
+    if (!law->each) return true;
+    half->law.each = half->laws;
+    bool alike = true;
+    for (int32_t i = 0; i < half->half.interface.contact_count; i++) {
+        const FrictionLaw *across = &law->each[half->half.node_image[i]];
+        half->laws[i] = law->each[half->half.node[i]];
+        alike = alike && memcmp(&half->laws[i], across, sizeof *across) == 0;
+    }
+    return alike;
+}
+
+// What of a solution is even, on one side.
+static void fold_solution(const ContactHalf *half, const ContactSolution *from,
+                          const ContactSolution *to)
+{
+    contact_half_fold(half, false, from->velocity, to->velocity);
+    contact_half_fold_forces(half, false, from->reaction, to->reaction);
+    contact_half_fold_statuses(half, from->status, from->rod_touches, to);
+}
+
+const State *half_step_fold(HalfStep *half, const State *state)
+{
+    State *one = &half->state;
+    ContactSolution from = {state->slip_rate, state->reaction, state->status, state->rod_touches};
+    ContactSolution to = {one->slip_rate, one->reaction, one->status, one->rod_touches};
+    fold_solution(&half->half, &from, &to);
+    return one;
+}
+
+// `one` has what is even, as it is for one side.
+static bool follow_odd(HalfStep *half, const ContactProblem *one, ContactMatrix *matrix,
+                       const ContactSolution *even, ContactSolution *solution)
+{
+    ContactProblem problem = *one;
+    problem.matrix = matrix;
+    problem.g = half->odd_g;
+    problem.bound = half->odd_bound;
+    ContactSolution odd = {half->odd_velocity, half->odd_reaction, even->status, even->rod_touches};
+    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &odd)) return false;
+    contact_half_add(&half->half, true, odd.velocity, solution->velocity);
+    contact_half_add_forces(&half->half, true, odd.reaction, solution->reaction);
+    return true;
+}
+
+// Folds what pushes. Whether it is its own image.
+static bool fold_problem(HalfStep *half, const ContactProblem *problem)
+{
+    const ContactHalf *side = &half->half;
+    int32_t count = side->interface.count;
+    contact_half_fold_forces(side, false, problem->g, half->g);
+    contact_half_fold_forces(side, true, problem->g, half->odd_g);
+    contact_half_fold(side, false, problem->bound, half->bound);
+    contact_half_fold(side, true, problem->bound, half->odd_bound);
+    double force = dense_max_abs(half->g, count);
+    double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
+    return dense_max_abs(half->odd_g, count) <= ALIKE * force &&
+           dense_max_abs(half->odd_bound, count) <= ALIKE * speed;
+}
+
+bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *odd,
+                     ContactSolution *solution, bool *alike)
+{
+    const ContactHalf *side = &half->half;
+    State *one = &half->state;
+    size_t bytes = (size_t)side->whole * sizeof(double);
+    ContactSolution at = {one->slip_rate, one->reaction, one->status, one->rod_touches};
+    *alike = fold_problem(half, problem);
+    if (!*alike) return false;
+    fold_solution(side, solution, &at);
+    ContactProblem one_side = *problem;
+    one_side.interface = &side->interface;
+    one_side.law = &half->law;
+    one_side.rod_softness = half->rod.softness;
+    one_side.rod_lag = half->rod.lag;
+    one_side.g = half->g;
+    one_side.bound = half->bound;
+    if (!contact_solve(&half->solver, &one_side, &at)) return false;
+    memset(solution->velocity, 0, bytes);
+    memset(solution->reaction, 0, bytes);
+    contact_half_add(side, false, at.velocity, solution->velocity);
+    contact_half_add_forces(side, false, at.reaction, solution->reaction);
+    contact_half_unfold_statuses(side, &at, solution->status, solution->rod_touches);
+    return !odd || follow_odd(half, &one_side, odd, &at, solution);
+}
+
+void half_step_archive(HalfStep *half, Archive *archive)
+{
+    if (!half->exists) return;
+    contact_solver_archive(&half->solver, half->half.interface.contact_count, archive);
+    certificate_archive(&half->even, archive);
+    certificate_archive(&half->odd, archive);
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A block in space stepped on one side and as a whole: the same steps; what is certified of the
+// whole is what is certified of both halves; and who pushes it aside gets the whole.
+#include "space_rig.h"
+#include "stepping/relaxation.h"
+
+typedef struct Pushed {
+    BlockRig rig;
+    StepControl control;
+} Pushed;
+
+// Half as high as long, the rod along its breadth.
+static void pushed_build(const int32_t cells[3], Pushed *pushed)
+{
+    Error err = {0};
+    int64_t count = 0;
+    SpaceDef shape = {
+        .kind = ELEMENT_HEX8, .cells = {cells[0], cells[1], cells[2]}, .size = {0.5, 0.5, 0.25}};
+    RigDef def = rig_def();
+    def.rod_kind = ROD_AWAY;
+    def.rod_width = 0.13;
+    StepControlDef steps = {.tolerance = 2e-6,
+                            .step_max = 2,
+                            .step_min = 1e-7,
+                            .wave_step = 0.1,
+                            .use_certificate = true};
+    space_rig_build(&shape, &def, (double[]){0, 0, -0.003}, &pushed->rig);
+    BlockRig *rig = &pushed->rig;
+    assert_true(step_control_create(&rig->block, &steps, &pushed->control, &err));
+    RelaxationDef relaxation = {.speed_max = 1e-9, .duration_max = 1e5};
+    assert_true(relax(&pushed->control, &relaxation, &count, &err));
+    for (int32_t j = 0; j < rig->interface.rod_count; j++)
+        rig->rod.origin[j] =
+            pushed->control.now
+                .displacement[rig->interface.dofs[interface_rod(&rig->interface, j)]];
+    assert_true(rig->interface.rod_count > 1);
+    rig->rod.kind = ROD_PUSHES;
+    rig->rod.velocity = 1e-4;
+    step_control_restart(&pushed->control);
+}
+
+static void pushed_destroy(Pushed *pushed)
+{
+    step_control_destroy(&pushed->control);
+    rig_destroy(&pushed->rig);
+}
+
+static void compare_certificates(StepControl *control)
+{
+    const State *now = &control->now, *one = half_step_fold(&control->half, now);
+    bool even = certificate_holds(&control->half.even, one, 0);
+    bool odd = certificate_holds(&control->half.odd, one, 0);
+    assert_int_equal(certificate_holds(&control->certificate, now, 0), even && odd);
+}
+
+static void same_steps(const int32_t cells[3])
+{
+    Error err = {0};
+    Pushed half, whole;
+    int32_t halved = 0, certified = 0, count = 0, slipping = 0;
+    pushed_build(cells, &half);
+    pushed_build(cells, &whole);
+    whole.control.lopsided = true;
+    assert_true(half.control.half.exists);
+    for (; half.control.now.time < 45; count++) {
+        assert_true(step_control_advance(&half.control, INFINITY, &err));
+        assert_true(step_control_advance(&whole.control, INFINITY, &err));
+        const State *one = &half.control.now, *other = &whole.control.now;
+        assert_near("time", one->time, other->time, 1e-12);
+        assert_all_near("u", one->displacement, other->displacement, one->dof_count, 1e-10);
+        assert_all_near("r", one->reaction, other->reaction, one->interface_count, 1e-11);
+        assert_memory_equal(one->status, other->status, (size_t)one->contact_count);
+        assert_int_equal(half.control.certified, whole.control.certified);
+        halved += half.control.ladder.side == LADDER_EVEN;
+        certified += half.control.certified;
+        slipping += one->status[one->contact_count / 2] != CONTACT_STICK;
+        compare_certificates(&half.control);
+    }
+    assert_false(half.control.lopsided);
+    print_message("%d steps, %d on one side, %d certified\n", count, halved, certified);
+    assert_true(halved > 0.8 * count && certified < count && slipping > 10);
+    pushed_destroy(&half);
+    pushed_destroy(&whole);
+}
+
+// With nodes on the middle line, and without.
+TEST(test_same_steps)
+{
+    same_steps((int32_t[]){4, 4, 2});
+    same_steps((int32_t[]){4, 3, 2});
+}
+
+// All of one side move by way * (1, 1, 0), those of the other by way * (-1, 1, 0).
+static void push_aside(double way, Pushed *pushed)
+{
+    State *now = &pushed->control.now;
+    const Mesh *mesh = &pushed->rig.mesh;
+    for (int32_t i = 0; i < mesh->node_count; i++) {
+        now->velocity[3 * i] += mesh->position[3 * i + 1] < 0.25 ? way : -way;
+        now->velocity[3 * i + 1] += way;
+    }
+    for (int32_t k = 0; k < now->interface_count; k++)
+        now->slip_rate[k] = now->velocity[pushed->rig.interface.dofs[k]];
+    bulk_operator_apply(pushed->control.scheme.system, BULK_MASS, now->velocity, now->momentum);
+}
+
+// What is odd and above rounding is found at once, and from there on steps are those of the whole.
+TEST(test_pushed_aside)
+{
+    Error err = {0};
+    Pushed half, whole;
+    const int32_t cells[] = {4, 4, 2};
+    pushed_build(cells, &half);
+    pushed_build(cells, &whole);
+    whole.control.lopsided = true;
+    Pushed *both[] = {&half, &whole};
+    for (int32_t k = 0; k < 2; k++) {
+        while (both[k]->control.now.time < 12)
+            assert_true(step_control_advance(&both[k]->control, INFINITY, &err));
+        push_aside(1e-6, both[k]);
+    }
+    assert_false(half.control.lopsided);
+    for (int32_t k = 0; k < 40; k++) {
+        assert_true(step_control_advance(&half.control, INFINITY, &err));
+        assert_true(step_control_advance(&whole.control, INFINITY, &err));
+        assert_all_near("u", half.control.now.displacement, whole.control.now.displacement,
+                        half.control.now.dof_count, 1e-11);
+    }
+    assert_true(half.control.lopsided);
+    pushed_destroy(&half);
+    pushed_destroy(&whole);
+}
+
+// A disturbance to one side below what counts as such, in a state in which it might grow: to first
+// order it does what it does to the whole.
+TEST(test_odd_is_followed)
+{
+    enum { STEPS = 12 };
+    Error err = {0};
+    Pushed half, whole;
+    double odd[2][STEPS];
+    int32_t acting = 0;
+    const int32_t cells[] = {4, 4, 2};
+    pushed_build(cells, &half);
+    pushed_build(cells, &whole);
+    whole.control.lopsided = true;
+    while (half.control.odd_decays) {
+        assert_true(half.control.now.time < 60);
+        assert_true(step_control_advance(&half.control, INFINITY, &err));
+        assert_true(step_control_advance(&whole.control, INFINITY, &err));
+    }
+    Pushed *both[] = {&half, &whole};
+    for (int32_t k = 0; k < 2; k++) {
+        push_aside(1e-14, both[k]);
+        for (int32_t n = 0; n < STEPS; n++) {
+            const State *now = &both[k]->control.now;
+            const Interface *interface = &both[k]->rig.interface;
+            assert_true(step_control_advance(&both[k]->control, INFINITY, &err));
+            acting += k == 0 && !half.control.odd_decays;
+            odd[k][n] = 0;
+            for (int32_t i = 0; i < interface->contact_count; i++)
+                odd[k][n] += (interface->y[i] - 0.25) * now->slip_rate[3 * i];
+        }
+    }
+    assert_false(half.control.lopsided);
+    assert_true(acting > 0);
+    for (int32_t n = 0; n < acting; n++)
+        assert_near("odd", odd[0][n], odd[1][n], 1e-2 * fabs(odd[1][0]));
+    pushed_destroy(&half);
+    pushed_destroy(&whole);
+}
