@@ -196,8 +196,9 @@ void contact_newton_creep(ContactNewton *newton)
     const ContactSolution *at = newton->equations.at;
     int32_t tangents = slip_tangents(problem->interface);
     int64_t count = problem->interface->count;
+    if (!newton->creeps) return;
     double fastest = contact_scales(problem, at->reaction).velocity;
-    for (int32_t a = 0; newton->creeps && a < newton->equations.free_count; a++) {
+    for (int32_t a = 0; a < newton->equations.free_count; a++) {
         int32_t k = newton->free[a], i = contact_slipping_node(&newton->equations, k);
         if (i < 0 || !friction_creeps(friction_at(problem->law, i))) continue;
         if (k != interface_tangent(problem->interface, i)) continue;
