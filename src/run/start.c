@@ -30,7 +30,7 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     StepSizes sizes = {
         .slip = model_friction_slip(model),
         .yield = model_machine_yield(model),
-        .memory = friction_has_memory(&model->law) ? model->law.own.memory.slip_distance : 0,
+        .memory = model->law.remembers ? model->law.own.memory.slip_distance : 0,
         .crossing = model_crossing(model),
         .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
