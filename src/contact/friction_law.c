@@ -286,7 +286,7 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
 {
     bool last = piece > 0 && !isfinite(friction_kink(law, piece)) && !law->remembers;
     double before, after, bends = law->critical_velocity;
-    if (law->remembers && law->own.memory.reach > 0)
+    if (law->remembers && law->own.memory.reach * law->own.memory.slip_distance > 0)
         bends = fmin(bends, law->own.memory.slip_distance / law->own.memory.reach);
     if (last || !(friction_drop(law) > 0 || law->bend > 0)) return true;
     if (fabs(to - from) > BEND * fmax(bends, from)) return false;

@@ -24,7 +24,7 @@ typedef struct FrictionSource {
     const void *context;   // for it
     const FrictionStateText *state;   // [state_count]
     int32_t state_count;
-    double rod_velocity, rest, pressure;   // friction.rest; nominal; 0: not given
+    double rod_velocity, rest, pressure, slip_distance;   // friction.rest; nominal; 0: not given
     const double *parameters;   // [parameter_count] of a plug-in
     int32_t parameter_count;
     double end;   // of a formula or plug-in, velocity

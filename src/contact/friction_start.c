@@ -155,7 +155,7 @@ static bool look_along(const FrictionSource *source, FrictionMemory *memory, dou
         steady[k] = rates.mu;
         *steepest = fmax(*steepest, -rates.mu_speed);
     }
-    memory->slip_distance = lost > 0 ? 1 / lost : INFINITY;   // times the drop
+    memory->slip_distance = lost > 0 ? 1 / lost : 0;   // times the drop; 0: none is lost
 cleanup:
     memcpy(memory->from, memory->start, sizeof memory->from);
     return error_is_clean(err);
@@ -182,6 +182,7 @@ static void set_scales(const FrictionSource *source, FrictionMemory *memory, con
     while (last > 1 && !(steady[last - 1] - memory->mu_kinetic > LEFT * drop)) last--;
     if (!(memory->critical_velocity > 0)) memory->critical_velocity = look_speed(source, last);
     memory->slip_distance *= drop;
+    if (source->slip_distance > 0) memory->slip_distance = source->slip_distance;
 }
 
 bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,

@@ -121,6 +121,7 @@ FrictionSource scene_friction_source(const SceneNumbersOf *of)
                             .rod_velocity = scene->rod.velocity,
                             .rest = own->rest,
                             .pressure = scene->load.pressure,
+                            .slip_distance = own->slip_distance,
                             .parameters = own->parameters.value,
                             .parameter_count = own->parameters.count,
                             .end = scene_fastest_slip(scene)};
