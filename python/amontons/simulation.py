@@ -33,7 +33,7 @@ class Simulation:
     `step` is one StepView, written anew in each step: copy what you keep. x, slip_rate, slip, pressure, shear, status
     are numpy arrays over the simulation's own memory, [nodes] each (in space slip_rate, slip, shear are [nodes, 2],
     along x and y, and there is y, too; in the plane y is None): no copies, always those of the last accepted step. state
-    is that of friction that remembers, None where nothing does.
+    is that of friction that remembers ([nodes, states] where there are several), None where nothing does.
 
     folder: for results, written by `finish`; None: nothing is written. whole_block: `displacement` will be asked for.
     """

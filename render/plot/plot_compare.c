@@ -171,7 +171,7 @@ bool plot_compare_write(const Plot *plot, const char *picture, Error *err)
     for (int32_t k = 0; k < series->count; ++k) {
         csv_number(csv, series->x[k]);
         csv_number(csv, series->y[k]);
-        csv_number(csv, (series->high[k] - series->low[k]) / 2);
+        csv_rounded(csv, (series->high[k] - series->low[k]) / 2);   // a difference: digits are lost
         csv_number(csv, plot->computed[k]);
         csv_end_row(csv);
     }

@@ -57,8 +57,8 @@ bool formula_has(const Formula *formula, int32_t variable);
 double formula_partials(const Formula *formula, const int32_t part[2], const double *x,
                         int32_t count, double *slope);
 
-// Of a formula of one variable the value at x, and through *slope its derivative: exact but for rounding. Where abs, min or max
-// have a kink it is that of one side; where round jumps, 0.
+// Of a formula of one variable the value at x, and through *slope its derivative: exact but for
+// rounding. Where abs, min or max have a kink it is that of one side; where round jumps, 0.
 double formula_at(const Formula *formula, double x, double *slope);
 
 // Between which values it stays while the variable is between x[0] and x[1], rounding aside, or

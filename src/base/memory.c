@@ -42,8 +42,9 @@ static bool fault_is_due(MemoryTally *tally)
 static void *aligned(size_t bytes)
 {
     if (bytes < 2 * LARGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
-    void *array = aligned_alloc(LARGE_PAGE, bytes);
-    if (array) madvise(array, bytes, MADV_HUGEPAGE);
+    void *array = NULL;   // posix_memalign: aligned_alloc takes multiples of the alignment only
+    if (posix_memalign(&array, LARGE_PAGE, bytes) != 0) return NULL;
+    madvise(array, bytes, MADV_HUGEPAGE);
     return array;
 }
 

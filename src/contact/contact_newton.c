@@ -188,16 +188,17 @@ void contact_newton_take(ContactNewton *newton)
 
 // Nodes that never stick: friction there is steep at rest and flat above, over many decades of v.
 // Where it outweighs S, or the step would turn slip round, the step is taken in friction instead of
-// in v; no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round at
-// 0, where nothing jumps.
+// in v; no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round
+// at 0, where nothing jumps.
 void contact_newton_creep(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
     int32_t tangents = slip_tangents(problem->interface);
     int64_t count = problem->interface->count;
+    if (!newton->creeps) return;
     double fastest = contact_scales(problem, at->reaction).velocity;
-    for (int32_t a = 0; newton->creeps && a < newton->equations.free_count; a++) {
+    for (int32_t a = 0; a < newton->equations.free_count; a++) {
         int32_t k = newton->free[a], i = contact_slipping_node(&newton->equations, k);
         if (i < 0 || !friction_creeps(friction_at(problem->law, i))) continue;
         if (k != interface_tangent(problem->interface, i)) continue;

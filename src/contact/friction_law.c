@@ -21,7 +21,7 @@ FrictionLaw friction_scaled(const FrictionLaw *law, double factor)
     scaled.bend *= factor;
     scaled.fall *= factor;
     scaled.factor *= factor;
-    if (friction_has_memory(law)) scaled.own.memory.factor *= factor;
+    if (law->remembers) scaled.own.memory.factor *= factor;
     return scaled;
 }
 
@@ -112,8 +112,8 @@ static inline double drop_of(const FrictionLaw *law)
 static double lasting_drop(const FrictionLaw *law)
 {
     const FrictionMemory *memory = &law->own.memory;
-    return friction_has_memory(law) ? memory->factor * (memory->mu_static - memory->mu_kinetic)
-                                    : drop_of(law);
+    return law->remembers ? memory->factor * (memory->mu_static - memory->mu_kinetic)
+                          : drop_of(law);
 }
 
 double friction_drop(const FrictionLaw *law)
@@ -174,7 +174,7 @@ static __attribute__((noinline)) double remembered_slope(const FrictionLaw *law,
 // Continuous at v_c, where the linear law has its kink.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
-    if (friction_has_memory(law)) return memory_coefficient(&law->own.memory, speed, NULL);
+    if (law->remembers) return memory_coefficient(&law->own.memory, speed, NULL);
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         if (speed >= law->critical_velocity) return law->mu_kinetic;
@@ -198,7 +198,7 @@ double friction_coefficient(const FrictionLaw *law, double speed)
 // more.
 double friction_slope(const FrictionLaw *law, double speed)
 {
-    if (friction_has_memory(law)) return remembered_slope(law, speed);
+    if (law->remembers) return remembered_slope(law, speed);
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         return speed < law->critical_velocity ? -drop_of(law) / law->critical_velocity : 0.0;
@@ -219,8 +219,8 @@ double friction_slope(const FrictionLaw *law, double speed)
 
 double friction_steepest(const FrictionLaw *law)
 {
-    if (friction_has_memory(law) && law->own.memory.creeps) return law->steepest;
-    if (friction_is_own(law) && !friction_has_memory(law)) return law->steepest;
+    if (law->remembers && law->own.memory.creeps) return law->steepest;
+    if (friction_is_own(law) && !law->remembers) return law->steepest;
     return fmax(-friction_slope(law, 0), law->steepest);
 }
 
@@ -234,7 +234,7 @@ bool friction_is_convex(const FrictionLaw *law)
 // which nobody knows of.
 double friction_kink(const FrictionLaw *law, int32_t k)
 {
-    if (friction_has_memory(law) && friction_is_own(law)) return INFINITY;
+    if (law->remembers && friction_is_own(law)) return INFINITY;
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
     case FRICTION_AGEING:
@@ -284,16 +284,16 @@ static const double TURN = 0.1;   // of the largest: the slope of one's own law 
 // The last piece of a law with kinks is level, as is a law without a drop.
 bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to)
 {
-    bool last = piece > 0 && !isfinite(friction_kink(law, piece)) && !friction_has_memory(law);
+    bool last = piece > 0 && !isfinite(friction_kink(law, piece)) && !law->remembers;
     double before, after, bends = law->critical_velocity;
-    if (friction_has_memory(law) && law->own.memory.reach > 0)
+    if (law->remembers && law->own.memory.reach > 0)
         bends = fmin(bends, law->own.memory.slip_distance / law->own.memory.reach);
     if (last || !(friction_drop(law) > 0 || law->bend > 0)) return true;
     if (fabs(to - from) > BEND * fmax(bends, from)) return false;
     if (friction_is_convex(law)) return true;
     friction_branch(law, piece, from, &before);
     friction_branch(law, piece, to, &after);
-    double bend = friction_has_memory(law) ? fmax(fabs(after), fabs(before)) : law->bend;
+    double bend = law->remembers ? fmax(fabs(after), fabs(before)) : law->bend;
     return fabs(after - before) <= TURN * bend;
 }
 
@@ -301,7 +301,7 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
 // safe.
 bool friction_weakens(const FrictionLaw *law, double speed)
 {
-    if (friction_has_memory(law)) {
+    if (law->remembers) {
         double state[STATES_MAX], falls = 0;
         FrictionRates rates;
         memory_state(&law->own.memory, speed, state);
@@ -322,7 +322,7 @@ static const double SPENT = 5;
 
 double friction_spent_speed(const FrictionLaw *law)
 {
-    if (friction_has_memory(law)) return memory_spent_speed(&law->own.memory);
+    if (law->remembers) return memory_spent_speed(&law->own.memory);
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         return law->critical_velocity;

@@ -73,7 +73,7 @@ static inline const FrictionLaw *friction_at(const FrictionLaw *law, int32_t i)
     return law->each ? &law->each[i] : law;
 }
 
-// The law with `factor` >= 0 times the coefficient at every speed.
+// With `factor` >= 0 times the coefficient at every speed.
 FrictionLaw friction_scaled(const FrictionLaw *law, double factor);
 
 // What stands for the laws `each` [count] of the nodes together: the largest mu_S, the largest
@@ -89,13 +89,7 @@ const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind
 // A table, a formula or a plug-in.
 bool friction_is_own(const FrictionLaw *law);
 
-// It has states (contact/friction_state).
-static inline bool friction_has_memory(const FrictionLaw *law)
-{
-    return law->remembers;
-}
-
-// The law has mu_K and v_c; else they mean nothing.
+// It has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);
 
 // What the law loses at most from a speed to a faster one, 1: mu_S - mu_K where it is nowhere above

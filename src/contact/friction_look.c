@@ -166,7 +166,7 @@ bool friction_look(FrictionLaw *law, Error *err)
 {
     double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0, rise = 0;
     double highest = 0, fall = 0;
-    if (friction_has_memory(law)) return true;   // contact/friction_start has
+    if (law->remembers) return true;   // contact/friction_start has
     law->mu_static = friction_coefficient(law, 0);
     law->steepest = law->fall = 0;
     for (int32_t k = 0; isfinite(speed = friction_look_speed(law, k)); k++) {

@@ -81,8 +81,8 @@ double memory_coefficient(const FrictionMemory *memory, double speed, double *sl
 double memory_feedback(const FrictionRates *rates, double reach);
 
 // Of a law that creeps: the velocity [count] to which a step of Newton's method leads that is taken
-// in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v of the
-// law at its present states, so that friction is nearly linear along it. count: 1, in space 2.
+// in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v of
+// the law at its present states, so that friction is nearly linear along it. count: 1, in space 2.
 void memory_follow(const FrictionMemory *memory, int32_t count, const double *velocity,
                    const double *step, double *next);
 

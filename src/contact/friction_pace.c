@@ -4,7 +4,7 @@
 FrictionLaw friction_paced(const FrictionLaw *law, double pace)
 {
     FrictionLaw paced = *law;
-    if (!friction_has_memory(law)) return paced;
+    if (!law->remembers) return paced;
     FrictionMemory *memory = &paced.own.memory;
     memory->reference_velocity *= pace;
     memory->healing_time /= pace;

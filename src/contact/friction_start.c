@@ -130,8 +130,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Steady slip at all speeds, each from the state at the speed before: its mu [count], NaN where none
-// is found.
+// Steady slip at all speeds that are looked at: its mu, NaN where none is found.
 static bool look_along(const FrictionSource *source, FrictionMemory *memory, double *steady,
                        double *steepest, const char **key, Error *err)
 {

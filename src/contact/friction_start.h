@@ -9,8 +9,8 @@
 
 // memory: kind, states and functions are set. Completes it and the law:
 //
-//   start    given by the scene or the plug-in; else that of steady slip at the rod's velocity; then
-//            the contacts rest for source->rest, d state/dt = g(0, state)
+//   start    given by the scene or the plug-in; else that of steady slip at the rod's velocity;
+//            then the contacts rest for source->rest, d state/dt = g(0, state)
 //   creeps   mu(0) is 0 at the start and in steady slip, and rises with v
 //   mu_S     mu(0) at the start; of a law that creeps the most of steady slip
 //   mu_K     the least mu of steady slip

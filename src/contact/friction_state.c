@@ -9,15 +9,15 @@
 bool friction_remembers(const FrictionLaw *law, int32_t count)
 {
     for (int32_t i = 0; law->each && i < count; i++)
-        if (friction_has_memory(&law->each[i])) return true;
-    return friction_has_memory(law);
+        if (law->each[i].remembers) return true;
+    return law->remembers;
 }
 
 int32_t friction_states(const FrictionLaw *law, int32_t count)
 {
-    int32_t most = friction_has_memory(law) ? law->own.memory.states : 0;
+    int32_t most = law->remembers ? law->own.memory.states : 0;
     for (int32_t i = 0; law->each && i < count; i++) {
-        bool more = friction_has_memory(&law->each[i]) && law->each[i].own.memory.states > most;
+        bool more = law->each[i].remembers && law->each[i].own.memory.states > most;
         if (more) most = law->each[i].own.memory.states;
     }
     return most;
@@ -25,7 +25,7 @@ int32_t friction_states(const FrictionLaw *law, int32_t count)
 
 void friction_set_stage(FrictionLaw *law, const double *from, double reach)
 {
-    if (!friction_has_memory(law)) return;
+    if (!law->remembers) return;
     FrictionMemory *memory = &law->own.memory;
     memcpy(memory->from, from, (size_t)memory->states * sizeof(double));
     memory->reach = reach;
@@ -34,7 +34,7 @@ void friction_set_stage(FrictionLaw *law, const double *from, double reach)
 
 double friction_set_pressure(FrictionLaw *law, double pressure, double speed)
 {
-    if (!friction_has_memory(law) || !law->own.memory.feels_pressure) return 0;
+    if (!law->remembers || !law->own.memory.feels_pressure) return 0;
     FrictionMemory *memory = &law->own.memory;
     double before = memory_coefficient(memory, speed, NULL);
     memory->pressure = pressure;
@@ -44,12 +44,12 @@ double friction_set_pressure(FrictionLaw *law, double pressure, double speed)
 
 void friction_state(const FrictionLaw *law, double speed, double *state)
 {
-    if (friction_has_memory(law)) memory_state(&law->own.memory, speed, state);
+    if (law->remembers) memory_state(&law->own.memory, speed, state);
 }
 
 void friction_rates(const FrictionLaw *law, double speed, const double *state, FrictionRates *rates)
 {
-    if (friction_has_memory(law)) {
+    if (law->remembers) {
         memory_rates(&law->own.memory, speed, state, rates);
         return;
     }
@@ -81,11 +81,11 @@ double friction_weakens_at(const FrictionRates *rates, double reach)
 
 // With G = D + O, D the diagonal, and R = (s - D)^-1, |R_kk| <= P_kk = reach/sqrt(1 + (reach
 // G_kk)^2) at such s where G_kk <= 0: (s - G)^-1 = R + R O R + R O R O R + ... The first term is a
-// sum over the states, of which only those that weaken count, as Re R_kk >= 0 (a state that grows by
-// itself, G_kk > 0, has 1/reach - G_kk in the place of 1/P_kk, and counts either way); all others
-// together are no more, entry by entry, than (P^-1 - |O|)^-1 |g_v| - P |g_v|, where these sums
-// converge: where (P^-1 - |O|)^-1 (1, ..., 1) is above 0 (Berman and Plemmons, Nonnegative Matrices
-// in the Mathematical Sciences, 1994, ch. 6).
+// sum over the states, of which only those that weaken count, as Re R_kk >= 0 (a state that grows
+// by itself, G_kk > 0, has 1/reach - G_kk in the place of 1/P_kk, and counts either way); all
+// others together are no more, entry by entry, than (P^-1 - |O|)^-1 |g_v| - P |g_v|, where these
+// sums converge: where (P^-1 - |O|)^-1 (1, ..., 1) is above 0 (Berman and Plemmons, Nonnegative
+// Matrices in the Mathematical Sciences, 1994, ch. 6).
 double friction_weakens_most(const FrictionRates *rates, double reach)
 {
     double matrix[STATES_MAX * STATES_MAX], coupled[STATES_MAX], ones[STATES_MAX];
@@ -119,12 +119,12 @@ double friction_weakens_most(const FrictionRates *rates, double reach)
 
 void friction_start_state(const FrictionLaw *law, double *state)
 {
-    if (!friction_has_memory(law)) return;
+    if (!law->remembers) return;
     memcpy(state, law->own.memory.start, (size_t)law->own.memory.states * sizeof(double));
 }
 
 double friction_shown_state(const FrictionLaw *law, int32_t k, double state)
 {
-    bool has = friction_has_memory(law) && k < law->own.memory.states;
+    bool has = law->remembers && k < law->own.memory.states;
     return has ? memory_shown(&law->own.memory, state) : 0;
 }

@@ -27,8 +27,8 @@ void friction_follow(const FrictionLaw *law, int32_t count, const double *veloci
 // law without memory.
 void friction_set_stage(FrictionLaw *law, const double *from, double reach);
 
-// Its pressure in that stage, of a law that asks for it; returns by how much mu at this speed changes
-// with that, 1.
+// Its pressure in that stage, of a law that asks for it; returns by how much mu at this speed
+// changes with that, 1.
 double friction_set_pressure(FrictionLaw *law, double pressure, double speed);
 
 // The states of a node at the end of that stage [friction_states], none without memory.

@@ -27,12 +27,11 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     Model *model = &simulation->model;
-    StepSizes sizes = {
-        .slip = model_friction_slip(model),
-        .yield = model_machine_yield(model),
-        .memory = friction_has_memory(&model->law) ? model->law.own.memory.slip_distance : 0,
-        .crossing = model_crossing(model),
-        .tolerance = TOLERANCES[scene->time.accuracy]};
+    StepSizes sizes = {.slip = model_friction_slip(model),
+                       .yield = model_machine_yield(model),
+                       .memory = model->law.remembers ? model->law.own.memory.slip_distance : 0,
+                       .crossing = model_crossing(model),
+                       .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
     def.relax_step = model->scales.time;
     def.slip_per_mu = model_slip_per_mu(model);

@@ -18,8 +18,7 @@ bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Erro
 // Whose numbers a formula may name.
 typedef struct SceneNumbersOf {
     const Scene *scene;
-    const FrictionLaw
-        *law;   // mu_static, mu_kinetic, critical_velocity: of the scene or of an item
+    const FrictionLaw *law;   // its numbers: of the scene, or of an item of contacts
 } SceneNumbersOf;
 
 // What the scene gives for a law of one's own; `of` must outlive it.

@@ -28,7 +28,6 @@ typedef enum SceneScheme {
 } SceneScheme;
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
-typedef enum SceneAnswer { ANSWER_OF_M, ANSWER_OF_HOLD } SceneAnswer;
 
 typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
@@ -97,8 +96,8 @@ typedef struct Scene {
     } time;
     struct {
         double mu, within;   // bar wanted, relative (0: one run); of this computer's time, s
-        SceneAnswer of;   // whose bar it is
         double window;   // of pressures, relative width
+        SceneAnswer of;   // whose bar it is
     } accuracy;
     struct {
         SceneReduce use, decided;   // decided: no key; by a run that goes on; REDUCE_AUTO: not yet
@@ -107,8 +106,7 @@ typedef struct Scene {
         int32_t runs;   // no key: of a sweep, those that step on this basis; 0: no sweep
     } reduction;
     struct {
-        bool history;
-        bool fields;   // output.fields: none, or {every_U, every_t, every_step, at_events, film}
+        bool history, fields;   // fields: none, or {every_U, every_t, every_step, at_events, film}
         double fields_every_U, fields_every_t;
         bool fields_every_step, fields_at_events, fields_film;
         SceneWindow window;

@@ -3,9 +3,8 @@
 // checks. Settings are gathered first and stored after, because `units` must be known before any
 // number is.
 //
-// A later setting wins over an earlier one, key by key; a map given as a whole (--set
-// time.until={t: 3}) first gives its keys their defaults back. `sources` remembers where each value
-// stands, for errors that only the checks can find.
+// A later setting wins, key by key; a map given whole (--set time.until={t: 3}) first gives its
+// keys their defaults back. `sources` remembers where each value stands, for errors of the checks.
 #include "scene/scene.h"
 
 #include "base/memory.h"
@@ -16,6 +15,7 @@
 #include "scene/materials.h"
 #include "scene/own_law.h"
 #include "scene/profile.h"
+#include "scene/states.h"
 #include "scene/value.h"
 
 #include <stdio.h>
@@ -199,6 +199,8 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     if (key->type == KEY_FIELDS) TRY(store_defaults(reader, fields, scene, err));
     if (key->type == KEY_MATERIALS)
         TRY(scene_materials_set(&value, scene, err));
+    else if (key->type == KEY_STATES)
+        TRY(scene_states_set(key, &value, scene, err));
     else
         TRY(scene_value_set(key, &value, scene, err));
     bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&

@@ -15,6 +15,8 @@ enum {
     SCENE_MATERIALS_MAX = 16
 };
 
+typedef enum SceneAnswer { ANSWER_OF_M, ANSWER_OF_HOLD } SceneAnswer;
+
 typedef struct SceneNames {
     int32_t count;
     char name[SCENE_LIST_MAX][GROUP_NAME_SIZE];

@@ -5,7 +5,6 @@
 #include "scene/value.h"
 
 #include "base/text.h"
-#include "scene/states.h"
 #include "scene/units.h"
 
 #include <math.h>
@@ -419,8 +418,7 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
     case KEY_CONTACT_LAWS:   // read when all that they may leave out is (scene/contact_laws)
         if (yaml_kind(value->document, value->node) != YAML_LIST) report_wrong(key, value, err);
         return error_is_clean(err);
-    case KEY_STATES:
-        return scene_states_set(key, value, scene, err);
+    case KEY_STATES:   // scene/states
     case KEY_MATERIALS:   // scene/materials
         return true;
     case KEY_FIELDS:

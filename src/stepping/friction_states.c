@@ -13,7 +13,7 @@ static bool acts(const FrictionLaw *law)
 {
     double state[STATES_MAX];
     FrictionRates rates;
-    if (!friction_has_memory(law)) return false;
+    if (!law->remembers) return false;
     friction_start_state(law, state);
     for (int32_t k = 0; k < law->own.memory.states; k++) state[k] = fmax(state[k], 1);
     friction_rates(law, 0, state, &rates);
@@ -140,7 +140,7 @@ void friction_states_archive(FrictionStates *states, Archive *archive)
     for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
         FrictionMemory *memory = &states->laws[i].own.memory;
         double from[STATES_MAX], reach = memory->reach;
-        if (!friction_has_memory(&states->laws[i])) continue;
+        if (!states->laws[i].remembers) continue;
         memcpy(from, memory->from, sizeof from);
         archive_numbers(archive, from, memory->states);
         archive_number(archive, &memory->pressure);

@@ -97,7 +97,7 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
 }
 
 // Of a law that asks for pressure: problems in a row, each with the pressures of the one before.
-enum { PRESSURES_MAX = 40 };
+enum { PRESSURES_LIMIT = 40 };
 
 // The whole contact, or one side of it. Whether it was settled.
 static bool settle(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
@@ -131,7 +131,7 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .g = scheme->g,
                               .bound = scheme->bound};
     *solved = settle(scheme, &problem, contact, &trial->outcome->lopsided);
-    int32_t again = PRESSURES_MAX;
+    int32_t again = PRESSURES_LIMIT;
     while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
         *solved = again-- > 0 && settle(scheme, &problem, contact, &trial->outcome->lopsided);
     if (!*solved) goto cleanup;

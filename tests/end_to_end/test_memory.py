@@ -193,8 +193,6 @@ class Memory(Driven):
                 ("run", "friction.healing: the law `linear-weakening` does not read it", ["friction.healing=0.1"]),
                 ("run", "friction.rest: missing", ["friction={law: slip-weakening, mu_static: 0.3, mu_kinetic: 0.2, healing_time: 1, "
                                                    "slip_distance: 1}", "rod={kind: none}", "time.until={t: 1}"]),
-                ("run", "`rate-and-state` is for a mesh in the plane",
-                 ["friction=" + rate_state(slip_distance=1e-4), f"mesh={{file: {SOURCE}/meshes/block3d.geo, set: {{nx: 3, ny: 2, nz: 2}}}}"]),
                 ("static", "what holds at rest goes by what the contacts remember", [ageing, "rod.displacement=1e-3"]),
                 ("model1d", "`ageing` remembers", [ageing])):
             self.assertIn(words, self.call(command, *settings, status=2, flags=("-q",) if command != "model1d" else ("--theory",)))

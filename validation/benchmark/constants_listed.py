@@ -141,8 +141,16 @@ NOT_A_CHOICE = {
     "contact/path_bounds.h": {"PATH_AT_END": "a name", "PATH_AT_NO_BOUND": "a name"},
     "contact/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
     "contact/friction_memory.c": {
-        "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's, from below: all digits",
-        "MANY": "a first guess beyond the weakening, as SPENT"},
+        "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's: all digits",
+        "HALVINGS": "of a step: all digits", "NEAR": "Newton's next step is its square, which is rounding",
+        "ROUNDING": ROUNDING, "BEFORE_STATES": "of v and p", "MANY": "a first guess beyond the weakening, as SPENT"},
+    "contact/friction_memory.h": {"STATES_MAX": SIZE},
+    "contact/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
+    "contact/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
+    "contact/friction_start.c": {
+        "SLIGHT": "as in contact/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
+        "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
+        "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
     "contact/friction_law.c": {
         "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
                 "tests/property/test_contact_problems.c",
@@ -157,6 +165,7 @@ NOT_A_CHOICE = {
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
+    "stepping/friction_states.c": {"PRESSED": "of mu: the contact problem's own rounding"},
     "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double",
                                "SETTLED": "digits that tell a ratio from 1, with room"},
     "contact/contact_discs.c": {

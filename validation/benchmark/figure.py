@@ -20,7 +20,7 @@ def draw(path, title, x_label, y_label, curves, guide=None):
                        "filled": number < 4, "line": "none" if guide else "thin"})
         if name == guide:
             series[-1] |= {"color": 0, "marker": "none", "line": "dashed"}
-    plot = {"title": title, "x": {"label": x_label, "scale": "log"},
+    plot = {"title": title or "", "x": {"label": x_label, "scale": "log"},
             "y": {"label": y_label, "scale": "log"}, "series": series}
     file = path.with_suffix(".yaml")
     file.write_text(json.dumps(plot, indent=1, ensure_ascii=False) + "\n")

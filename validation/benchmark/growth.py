@@ -3,6 +3,7 @@
 """How cost grows, beside theory, and where the time goes.
 
     validation/benchmark/growth.py [--quick] [--only NAME ...] [-o FOLDER]
+    validation/benchmark/growth.py --draw validation/benchmark/growth.md      # its figures anew
 
 Set A of the paper. Series: `cells` (n x n cells, n to 400: the reduction of a cold run, and the full
 sparse path), `contact` (contact nodes, to 2000, on meshes graded to the contact line), `L`, `P`, `V`
@@ -81,7 +82,7 @@ def exponent_lines(x_name, x, columns, theory):
 
 
 class Series:
-    """A table, its exponents and its figure."""
+    """A table and its exponents; draw_page draws it."""
 
     def __init__(self, name, title, x_name, head, theory):
         self.name, self.title, self.x_name, self.head, self.theory = name, title, x_name, head, theory
@@ -97,12 +98,9 @@ class Series:
             column += [None] * (len(self.x) - len(column))
         print(f"{self.name}: " + "  ".join(str(cell) for cell in cells), flush=True)
 
-    def write(self, folder):
+    def write(self):
         """Its part of the page."""
-        curves = {name: tuple(zip(*[(x, y) for x, y in zip(self.x, values) if y]))
-                  for name, values in self.columns.items() if any(values)}
         lines = exponent_lines(self.x_name, self.x, self.columns, self.theory)
-        draw(folder / f"growth-{self.name}", self.title, self.x_name, "s, MB, steps: as named", curves)
         return (f"### {self.title}\n\n{markdown_table(self.head, self.rows)}\n\n"
                 + markdown_table(["what", "in", "exponent", "theory"], lines)
                 + f"\n\n![{self.title}](growth-{self.name}.png)\n")
@@ -267,21 +265,52 @@ SERIES = {"cells": cells_series, "contact": contact_series, "L": length_series,
 TABLES = {"sweep": sweep_rates, "phases": phase_table}
 
 
+# Of each figure: its axis, and what column of its table (the first is 0) is shown by what name, in what unit.
+FIGURES = {
+    "cells": ("cells along the block ~{n}", {"reduction (s)": (3, 1), "reduction (MB)": (4, 1), "reduced stage (s)": (5, 1e-3),
+                                             "reduced factor (s)": (6, 1), "full path (MB)": (7, 1), "full stage (s)": (8, 1e-3),
+                                             "full factor (s)": (9, 1)}),
+    "contact": ("contact nodes", {"stage (s)": (3, 1e-3), "factor (s)": (5, 1), "memory (MB)": (2, 1)}),
+    "L": ("length ~{L} / ~{L}_{0}", {"steps": (1, 1), "processor time (s)": (4, 1)}),
+    "P": ("pressure ~{P}_{ext} / ~{E}", {"steps": (1, 1), "processor time (s)": (4, 1)}),
+    "V": ("rod velocity ~{V} / (~{L}_{0} / ~{t}_{0})", {"steps": (1, 1), "processor time (s)": (4, 1)}),
+}
+
+
+def draw_page(page):
+    """The figures of a page that is there, from its tables."""
+    text = page.read_text()
+    for name, (x_label, columns) in FIGURES.items():
+        if f"(growth-{name}.png)" not in text:
+            continue
+        part = text[:text.index(f"(growth-{name}.png)")].rsplit("### ", 1)[1]
+        table = part[part.index("\n|"):].split("\n\n")[0].strip().splitlines()[2:]
+        cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in table]
+        curves = {label: tuple(zip(*[(float(row[0]), factor * float(row[column])) for row in cells
+                                     if row[column].replace(".", "").isdigit()])) for label, (column, factor) in columns.items()}
+        draw(page.parent / f"growth-{name}", None, x_label, "as the legend names it", curves)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/growth")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", nargs="*", default=[*SERIES, *TABLES],
                         choices=[*SERIES, *TABLES])
+    parser.add_argument("--draw", type=Path, help="the figures of this growth.md anew, from its tables; nothing is computed")
     options = parser.parse_args()
+    if options.draw:
+        draw_page(options.draw)
+        return
     options.output.mkdir(parents=True, exist_ok=True)
     parts = [f"## How cost grows\n\nversion {commit()}; set A of the paper, Q4; processor time.\n"]
     for name in options.only:
         if name in SERIES:
-            parts.append(SERIES[name](options.quick).write(options.output))
+            parts.append(SERIES[name](options.quick).write())
         else:
             parts.append(TABLES[name](options.quick))
         (options.output / "growth.md").write_text("\n".join(parts))
+    draw_page(options.output / "growth.md")
     print(f"{options.output}/growth.md")
 
 

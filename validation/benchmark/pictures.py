@@ -5,7 +5,9 @@ counts it; least and median of --repeats runs. What is drawn: a slip map of 20 0
 of that run, a field of 80 x 80 elements, maps of sweeps of 1e5 points (a grid, and scattered ones), the latter from a sweep.h5
 that is written here.
 
-    validation/benchmark/pictures.py [--program build/bin/amontons] [--repeats 9]
+    validation/benchmark/pictures.py [--program build/bin/amontons] [--repeats 9] [--before OTHER/build/bin/amontons]
+
+--before: each picture is drawn by both in turn; the last column is the median of the ratios of their times.
 
 Exit status 1: a least time is over its limit.
 """
@@ -25,7 +27,7 @@ from measured_run import PROGRAM, ROOT, markdown_table
 STEPS, POINTS = 20_000, 100_000
 SCENE = ROOT / "docs/examples/block.yaml"
 MAP = "{x: load.pressure, y: mesh.set.length, color: mu_M, contours: l_c}"
-HEAD = ["picture", "least, s", "median, s", "limit, s"]
+HEAD = ["picture", "least, s", "median, s", "limit, s", "over before"]
 
 
 def processor_time(arguments):
@@ -79,6 +81,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--repeats", type=int, default=9)
+    parser.add_argument("--before")
     options = parser.parse_args()
     rows, missed = [], False
     with tempfile.TemporaryDirectory() as temporary:
@@ -94,8 +97,13 @@ def main():
                 ("the same, PDF", None, ("field", "--figure", "field", "--format", "pdf")),
                 ("map of 1e5 points, a grid", 2, ("grid", "--plot", MAP)),
                 ("map of 1e5 points, scattered", 2, ("scattered", "--plot", MAP))]:
-            times = [processor_time([options.program, "render", folder / words[0], *words[1:]]) for _ in range(options.repeats)]
-            rows.append([name, f"{min(times):.3f}", f"{statistics.median(times):.3f}", limit or ""])
+            times, ratios = [], []
+            for _ in range(options.repeats):
+                times.append(processor_time([options.program, "render", folder / words[0], *words[1:]]))
+                if options.before:
+                    ratios.append(times[-1] / processor_time([options.before, "render", folder / words[0], *words[1:]]))
+            ratio = f"{statistics.median(ratios):.2f}" if ratios else ""
+            rows.append([name, f"{min(times):.3f}", f"{statistics.median(times):.3f}", limit or "", ratio])
             missed = missed or (limit is not None and min(times) > limit)
     print(markdown_table(HEAD, rows))
     print(f"\nLoad of the machine: {os.getloadavg()[0]:.1f}, {os.cpu_count()} cores.")

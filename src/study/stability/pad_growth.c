@@ -213,8 +213,8 @@ static double fall_of_mu(PadWork *work)
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
         const FrictionLaw *own = friction_at(law, i);
-        double kinetic = friction_has_memory(own) ? own->mu_kinetic
-                                                  : fmax(own->mu_static - friction_drop(own), 0);
+        double kinetic = own->remembers ? own->mu_kinetic
+                                        : fmax(own->mu_static - friction_drop(own), 0);
         if (friction_creeps(own)) return NAN;   // nothing ends its fall
         work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
                           kinetic * path->runaway.reaction[interface_normal(interface, i)];

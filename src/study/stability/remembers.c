@@ -56,7 +56,7 @@ static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double *
     static const double LONG = 1e9;   // slip of such a stage, of the law's own distance
     FrictionLaw law = *friction_at(&path->model->law, i);
     double speed = path->model->scales.slip_velocity;
-    double distance = friction_has_memory(&law) ? law.own.memory.slip_distance : 0;
+    double distance = law.remembers ? law.own.memory.slip_distance : 0;
     FrictionRates rates;
     friction_start_state(&law, state);
     friction_set_stage(&law, state, LONG * distance / speed);

@@ -49,7 +49,7 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
-    if (friction_has_memory(&scene->friction) && friction_is_own(&scene->friction))
+    if (scene->friction.remembers && friction_is_own(&scene->friction))
         FAIL(err, ERROR_INPUT,
              "%s: growth rates with friction that remembers are those of the laws that are built "
              "in; a formula or plug-in with states, or of pressure, goes through `amontons run`",

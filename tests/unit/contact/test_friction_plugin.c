@@ -65,7 +65,7 @@ TEST(test_first_interface)
     assert_int_equal(setenv("AMONTONS_TRUST", "yes", 1), 0);
     FrictionLaw own =
         own_law((FrictionLaw){.kind = FRICTION_PLUGIN, .critical_velocity = 1e-3}, &source);
-    assert_false(friction_has_memory(&own));
+    assert_false(own.remembers);
     assert_near("mu", friction_coefficient(&own, 3e-3), 0.1, 1e-15);
     assert_near("slope", friction_slope(&own, 1e-3), -100, 1e-11);
 }

@@ -72,8 +72,8 @@ TEST(test_scales)
     assert_near("f_0", rates.mu, 0.6, 1e-12);
 }
 
-// Beside the real part of -mu_theta (s - G)^-1 g_v on the boundary of where |s| >= 1/reach and Re s >=
-// 0, on which it is the largest. It is no less, and of one state no more than 1.5 times that.
+// Beside the real part of -mu_theta (s - G)^-1 g_v on the boundary of where |s| >= 1/reach and
+// Re s >= 0, on which it is the largest: it is no less.
 TEST(test_bound_of_weakening)
 {
     Random random = {.state = 5};
