@@ -148,8 +148,9 @@ static bool fold_problem(HalfStep *half, const ContactProblem *problem)
     contact_half_fold(side, true, problem->bound, half->odd_bound);
     double force = dense_max_abs(half->g, count);
     double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
-    return dense_max_abs(half->odd_g, count) <= ALIKE * force &&
-           dense_max_abs(half->odd_bound, count) <= ALIKE * speed;
+    half->odd_part = fmax(dense_max_abs(half->odd_g, count) / force,
+                          dense_max_abs(half->odd_bound, count) / speed);
+    return half->odd_part <= ALIKE;
 }
 
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *odd,
@@ -181,6 +182,7 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
 void half_step_archive(HalfStep *half, Archive *archive)
 {
     if (!half->exists) return;
+    archive_number(archive, &half->odd_part);
     contact_solver_archive(&half->solver, half->half.interface.contact_count, archive);
     certificate_archive(&half->even, archive);
     certificate_archive(&half->odd, archive);

@@ -25,6 +25,7 @@ typedef struct HalfStep {
     ContactNewton newton;   // of what is odd, like the next
     double *odd_g, *odd_bound, *odd_velocity, *odd_reaction;
     Certificate even, odd;
+    double odd_part;   // of the last problem, over what is even: followed where it is not rounding
     bool odd_decays;   // of the state last asked about (stepping/both_sides)
 } HalfStep;
 

@@ -32,6 +32,9 @@ static const double SMALL_OSCILLATION = 0.01;
 // of them all.
 enum { SCANNED_PARTS = 200 };
 
+// What is odd is stepped along where it is more than this part of what is even: rounding.
+static const double ODD_LIMIT = 1e-12;
+
 // Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,
 // and cost a minute.
 static const double STEPS_LEFT_MAX = 1e8;
@@ -101,7 +104,7 @@ static void choose_side(StepControl *control)
     bool halved = control->ladder.half && !control->lopsided &&
                   half_step_take_law(&control->half, control->scheme.law);
     control->ladder.side = halved ? LADDER_EVEN : LADDER_WHOLE;
-    control->scheme.odd_acts = !control->odd_decays;
+    control->scheme.odd_acts = !control->odd_decays || control->half.odd_part > ODD_LIMIT;
 }
 
 static BothSides sides_of(StepControl *control)

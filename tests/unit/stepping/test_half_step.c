@@ -132,13 +132,13 @@ TEST(test_pushed_aside)
 }
 
 // A disturbance to one side below what counts as such, in a state in which it might grow: to first
-// order it does what it does to the whole.
+// order it does what it does to the whole, which is pushed further, out of rounding.
 TEST(test_odd_is_followed)
 {
     enum { STEPS = 12 };
     Error err = {0};
     Pushed half, whole;
-    double odd[2][STEPS];
+    double odd[2][STEPS], way[] = {1e-16, 1e-13};
     int32_t acting = 0;
     const int32_t cells[] = {4, 4, 2};
     pushed_build(cells, &half);
@@ -151,7 +151,7 @@ TEST(test_odd_is_followed)
     }
     Pushed *both[] = {&half, &whole};
     for (int32_t k = 0; k < 2; k++) {
-        push_aside(1e-14, both[k]);
+        push_aside(way[k], both[k]);
         for (int32_t n = 0; n < STEPS; n++) {
             const State *now = &both[k]->control.now;
             const Interface *interface = &both[k]->rig.interface;
@@ -165,7 +165,7 @@ TEST(test_odd_is_followed)
     assert_false(half.control.lopsided);
     assert_true(acting > 0);
     for (int32_t n = 0; n < acting; n++)
-        assert_near("odd", odd[0][n], odd[1][n], 1e-2 * fabs(odd[1][0]));
+        assert_near("odd", odd[0][n] / way[0], odd[1][n] / way[1], 2e-2 * fabs(odd[1][0] / way[1]));
     pushed_destroy(&half);
     pushed_destroy(&whole);
 }
