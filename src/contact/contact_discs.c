@@ -332,19 +332,29 @@ static void start_rows(Settling *settling)
     }
 }
 
-// Which way nodes slip along the drive; what touches nothing has no force.
-static void clean_solution(const Settling *settling)
+// What touches nothing has no force, not even by rounding.
+static void release_open(const Settling *settling)
 {
     const Interface *interface = settling->problem->interface;
     ContactSolution *at = settling->at;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t t = interface_tangent(interface, i);
-        if (status_slips(at->status[i])) at->status[i] = status_of_slip(at->velocity[t]);
         for (int32_t c = 0; at->status[i] == CONTACT_OPEN && c < interface->dim; c++)
             at->reaction[t + c] = 0;
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
         if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
+}
+
+// Which way nodes slip along the drive.
+static void clean_solution(const Settling *settling)
+{
+    const Interface *interface = settling->problem->interface;
+    ContactSolution *at = settling->at;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (status_slips(at->status[i]))
+            at->status[i] = status_of_slip(at->velocity[interface_tangent(interface, i)]);
+    release_open(settling);
 }
 
 bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactProblem *problem,
@@ -395,6 +405,7 @@ bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const Cont
     dense_lu_solve(newton->factors.lu, size, newton->factors.pivots, newton->step);
     contact_newton_take(newton);
     contact_newton_react(newton);
+    release_open(&settling);
     return true;
 }
 

@@ -17,8 +17,8 @@
 //   v_c      the speed at which steady slip has lost 1 - 1/e of that drop
 //   D_c      drop over the most that mu loses in a unit of slip by its states
 //
-// A mu_S, mu_K, v_c or D_c that the scene gives stays. ERROR_INPUT, with the velocity and the states:
-// not finite, negative; or no steady state is found. *key: of the map `friction`.
+// A mu_S, mu_K, v_c or D_c that the scene gives stays. ERROR_INPUT, with the velocity and the
+// states: not finite, negative; or no steady state is found. *key: of the map `friction`.
 bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
                     const char **key, Error *err);
 

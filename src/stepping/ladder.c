@@ -129,8 +129,10 @@ bool ladder_fill(Ladder *ladder)
 
 ContactMatrix *ladder_contact(Ladder *ladder, int32_t k)
 {
+    ContactMatrix *made = contact_of(ladder, k);
+    if (made || !ladder->rung[k]) return made;
     Error err = {0};
-    return ladder->rung[k] && ladder_rung(ladder, k, &err) ? contact_of(ladder, k) : NULL;
+    return ladder_rung(ladder, k, &err) ? contact_of(ladder, k) : NULL;
 }
 
 ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side)

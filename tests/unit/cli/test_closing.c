@@ -183,9 +183,10 @@ TEST(test_error_bars)
     summary.mu_hold_error = 0.003;
     said = closing("", &summary);
     assert_says(said, "error bar       1.5 % of mu_hold");
-    assert_says(said, "0.2000 +- 0.0030 so far:");   // no part is known
+    assert_says(said, "0.2000 +- 0.0030: what the contact holds, by the runs behind");   // no part
     summary.mu_hold_parts[1] = 0.001;
-    assert_says(closing("", &summary), "0.2000 +- 0.0030 (branches 0.001) so far:");
+    assert_says(closing("", &summary),
+                "0.2000 +- 0.0030 (branches 0.001): what the contact holds, by the runs behind");
     summary.mu_M = 0.25;
     summary.mu_M_known_to = 0.03;
     summary.bar_meshes = 2;
