@@ -67,8 +67,9 @@ static void same_steps(const int32_t cells[3])
         assert_true(step_control_advance(&whole.control, INFINITY, &err));
         const State *one = &half.control.now, *other = &whole.control.now;
         assert_near("time", one->time, other->time, 1e-12);
-        assert_all_near("u", one->displacement, other->displacement, one->dof_count, 1e-10);
-        assert_all_near("r", one->reaction, other->reaction, one->interface_count, 1e-11);
+        // Each solve is settled to 1e-12, and slip that weakens amplifies what is left.
+        assert_all_near("u", one->displacement, other->displacement, one->dof_count, 1e-9);
+        assert_all_near("r", one->reaction, other->reaction, one->interface_count, 1e-9);
         assert_memory_equal(one->status, other->status, (size_t)one->contact_count);
         assert_int_equal(half.control.certified, whole.control.certified);
         halved += half.control.ladder.side == LADDER_EVEN;
@@ -131,14 +132,15 @@ TEST(test_pushed_aside)
     pushed_destroy(&whole);
 }
 
-// A disturbance to one side below what counts as such, in a state in which it might grow: to first
-// order it does what it does to the whole, which is pushed further, out of rounding.
+// A disturbance to one side below what counts as such (1e-9 of 1e-4) and above rounding (1e-12), in
+// a state in which it might grow: to first order it does what it does to the whole, which is pushed
+// further, as its solver settles slip rates to 1e-12 only.
 TEST(test_odd_is_followed)
 {
     enum { STEPS = 12 };
     Error err = {0};
     Pushed half, whole;
-    double odd[2][STEPS], way[] = {1e-16, 1e-13};
+    double odd[2][STEPS], way[] = {3e-15, 1e-13};
     int32_t acting = 0;
     const int32_t cells[] = {4, 4, 2};
     pushed_build(cells, &half);
