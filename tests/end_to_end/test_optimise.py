@@ -112,7 +112,7 @@ best: {over: front, designs: 9}
         listed = re.findall(r"^  rod.velocity=(\S+) mesh.set.length=([\d.]+): \S+, \S+", said.split("by values alone:")[1].split("\nmu_max,")[0],
                             re.M)
         self.assertEqual({(float(a), float(b)) for a, b in listed}, {(float(a), float(b)) for a, b in front})
-        self.assertTrue(1 < len(front) < len(values))
+        self.assertLess(len(front), len(values))     # one alone where it is best at both: the aims are not at odds, those below are
         self.assertGreater((self.folder / "out/figures/front.png").stat().st_size, 10000)
         self.front_of_several_results()
         text = text.replace("over: front", "over: deviation")
