@@ -164,8 +164,6 @@ bool mesh_space_draw(const RenderMesh *mesh, const Page *page, const Box *box, c
     }
     draw_faces(page, faces, seen);
 cleanup:
-    memory_free(outer);
-    memory_free(faces);
-    memory_free(view.groups);
+    memory_free_all(outer, faces, view.groups);
     return error_is_clean(err);
 }

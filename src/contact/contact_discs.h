@@ -17,9 +17,8 @@
 // does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. What is open is
 // condensed out as in the plane (contact/contact_newton).
 // Factors are in single precision, after sweeps in double. A step that leaves more than there was
-// is halved. Where steps do not settle, sweeps over the
-// nodes come next (contact/contact_sweeps), then steps again, then more sweeps. Called by
-// contact/contact_solver.
+// is halved. Where steps do not settle, sweeps over the nodes come next (contact/contact_sweeps),
+// then steps again, then more sweeps. Called by contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
 #define AMONTONS_CONTACT_CONTACT_DISCS_H
 

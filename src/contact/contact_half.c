@@ -104,13 +104,8 @@ bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err
 
 void contact_half_destroy(ContactHalf *half)
 {
-    memory_free(half->unknown);
-    memory_free(half->image);
-    memory_free(half->sign);
-    memory_free(half->node);
-    memory_free(half->node_image);
-    memory_free(half->rod);
-    memory_free(half->rod_image);
+    memory_free_all(half->unknown, half->image, half->sign, half->node, half->node_image, half->rod,
+                    half->rod_image);
     *half = (ContactHalf){0};
 }
 

@@ -16,10 +16,7 @@ bool disc_factors_create(const Interface *interface, DiscFactors *factors, Error
 
 void disc_factors_destroy(DiscFactors *factors)
 {
-    memory_free(factors->lu);
-    memory_free(factors->pivots);
-    memory_free(factors->single);
-    memory_free(factors->column);
+    memory_free_all(factors->lu, factors->pivots, factors->single, factors->column);
     *factors = (DiscFactors){0};
 }
 

@@ -10,8 +10,8 @@
 #include <string.h>
 
 static const double EXPONENT_MAX = 690;   // exp of it is finite
-static const double LEAST_SPEED = 1e-300;   // ln of it is finite: at rest the slip law keeps its
-    // state
+// ln of it is finite: at rest the slip law keeps its state.
+static const double LEAST_SPEED = 1e-300;
 
 // --- the laws -----------------------------------------------------------------------------------
 

@@ -258,8 +258,7 @@ bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
         FAIL(err, ERROR_INPUT, "%s has 0 points; two or more are needed", table.path);
     TRY(lay_out(&table, profile, err));
 cleanup:
-    memory_free(bytes);
-    memory_free(table.points);
+    memory_free_all(bytes, table.points);
     if (!error_is_clean(err)) scene_profile_destroy(profile);
     return error_is_clean(err);
 }

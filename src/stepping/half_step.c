@@ -77,15 +77,8 @@ void half_step_destroy(HalfStep *half)
     contact_solver_destroy(&half->solver);
     contact_half_destroy(&half->half);
     state_destroy(&half->state);
-    memory_free(half->rod.softness);
-    memory_free(half->rod.lag);
-    memory_free(half->laws);
-    memory_free(half->g);
-    memory_free(half->bound);
-    memory_free(half->odd_g);
-    memory_free(half->odd_bound);
-    memory_free(half->odd_velocity);
-    memory_free(half->odd_reaction);
+    memory_free_all(half->rod.softness, half->rod.lag, half->laws, half->g, half->bound,
+                    half->odd_g, half->odd_bound, half->odd_velocity, half->odd_reaction);
     contact_newton_destroy(&half->newton);
     *half = (HalfStep){0};
 }
