@@ -20,7 +20,8 @@ bool figure_state_map(const Page *whole, ResultView *view, Error *err)
     MapPage map = {.sign = largest ? 1 : -1};
     TRY(window_find(view, &page.style, &window, err));
     TRY(state_read(view, false, &states, err));
-    TRY(state_scale(view, window.low, window.high, states, &page.style, &map.bar, err));
+    TRY(state_scale(view, (const double[2]){window.low, window.high}, states, &page.style, &map.bar,
+                    err));
     map.states = states;
     key_draw(&page, entries, map_page_key(view, &window, entries));
     map_page_layout(&page, view, window.low, window.high, &map);

@@ -39,7 +39,7 @@ ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE])
                         .decades = strcmp(view->state_unit, "1") != 0};
 }
 
-bool state_scale(const ResultView *view, double low, double high, const double *states,
+bool state_scale(const ResultView *view, const double range[2], const double *states,
                  const PictureStyle *style, Colorbar *bar, Error *err)
 {
     char name[VIEW_STATE_SIZE];
@@ -48,7 +48,8 @@ bool state_scale(const ResultView *view, double low, double high, const double *
     WeighedValue *values = NEW_ARRAY(WeighedValue, total / every + view->nodes, err);
     TRY(values);
     for (int64_t row = 0; row < view->rows; row += every)
-        for (int32_t i = 0; i < view->nodes && view->U[row] >= low && view->U[row] <= high; ++i)
+        for (int32_t i = 0; i < view->nodes && view->U[row] >= range[0] && view->U[row] <= range[1];
+             ++i)
             values[count++] = (WeighedValue){states[row * view->nodes + i], 1};
     TRY(value_bar_fit(values, count, &words, style, bar, err));
 cleanup:

@@ -14,8 +14,8 @@ bool state_read(ResultView *view, bool whole, double **states, Error *err);
 // Name and unit of that state; `name` is what the words stand in.
 ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE]);
 
-// The bar of states [rows * nodes] while U is from `low` to `high`, all counted alike.
-bool state_scale(const ResultView *view, double low, double high, const double *states,
+// The bar of states [rows * nodes] while U is from range[0] to range[1], all counted alike.
+bool state_scale(const ResultView *view, const double range[2], const double *states,
                  const PictureStyle *style, Colorbar *bar, Error *err);
 
 #endif

@@ -115,7 +115,7 @@ void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *
     draw_disc(page->canvas, DOT_COLOR, place, DOT * point);
 }
 
-// --- slip rate, or a state -----------------------------------------------------------------------------------
+// --- slip rate, or a state -----------------------------------------------------------------------
 
 void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
 {

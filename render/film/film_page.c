@@ -173,7 +173,7 @@ int32_t film_page_still(const FilmPage *page)
     return page->block.still_most;
 }
 
-// What is shown of the contact: the state that def->of names, or slip rates; of the block the field.
+// Of the contact: the state that def->of names, or slip rates; of the block the field.
 static bool choose_values(FilmPage *page, Error *err)
 {
     const FilmPageDef *def = &page->def;
@@ -183,10 +183,10 @@ static bool choose_values(FilmPage *page, Error *err)
     bool state = def->of && result_view_choose_state(view, def->of);
     TRY(block_quantity_find(state ? NULL : def->of, &page->block.quantity, err));
     if (state) {
-        double from = film_moment(view, clock->t[0]).U;
-        double to = film_moment(view, clock->t[clock->frames - 1]).U;
+        const double range[2] = {film_moment(view, clock->t[0]).U,
+                                 film_moment(view, clock->t[clock->frames - 1]).U};
         TRY(state_read(view, false, &page->states, err));
-        TRY(state_scale(view, from, to, page->states, NULL, &bar, err));
+        TRY(state_scale(view, range, page->states, NULL, &bar, err));
     }
     page->band.map.bar = page->profile.bar = page->plane.bar = bar;
     page->band.map.states = page->states;

@@ -90,8 +90,9 @@ int command_render(int argc, char **argv)
         {"figure", 'f', "NAME",
          "Draw only this picture: force, slip-map, contact-density, state-map (of friction that "
          "remembers), contact-plane (of a block in space), precursors (length of slip over "
-         "F_T/F_N), front-speed, field or field-strip (up "
-         "to six frames of one sliding). May be given several times; without it those that the "
+         "F_T/F_N), "
+         "front-speed, field or field-strip (up to six frames of one sliding). May be given "
+         "several times; without it those that the "
          "result has fields and events for, and those that --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",

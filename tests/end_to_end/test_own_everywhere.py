@@ -5,6 +5,7 @@ bars, searches and fits, shares of a table, windows, films, pages, Python and C.
 import csv
 import json
 import os
+import re
 import subprocess
 import unittest
 
@@ -133,6 +134,25 @@ class OwnEverywhere(Driven):
         one, two = self.study("sweep", "own", text), self.study("sweep", "own", text, "-j", "2")
         self.assertEqual([row["mu_max"] for row in one], [row["mu_max"] for row in two])
         self.assertEqual(len({row["mu_max"] for row in one}), 3)
+
+    def test_negative_coefficient(self):
+        """A formula that falls below 0 where a run leads ends it, with the place, the speed and the states; by explicit steps, too."""
+        falls = "friction={law: formula, formula: '0.3 - 0.003 * s', state: {s: {rate: 1, start: START}}}"
+        pressed = "friction={law: formula, formula: '0.4 - 90 * p'}"
+        program = "load.program={t: [0, 100], factor: [1, 2]}"
+        for settings, when in (((falls.replace("START", "0"), "time.until.U=0.02"), 100),
+                               ((falls.replace("START", "96"), "time.scheme=explicit"), 4), ((pressed, program), 48)):
+            said = self.call("run", *settings, status=1, flags=("-q", "--overwrite", "-o", "negative"))
+            found = re.search(r"at U = (\S+), t = (\S+) friction has come to a coefficient of (-\S+), at contact node \d+, x = \S+: "
+                              r"velocity \S+, pressure (\d\.?[\de-]+)(?:, state (\S+)\.)?", said)
+            self.assertIsNotNone(found, said)
+            U, t, mu, pressure = map(float, found.groups()[:4])
+            self.assertAlmostEqual(U, 1e-4 * t, delta=1e-5 * U)
+            self.assertAlmostEqual(t, when, delta=0.1 * when)
+            wanted = 0.3 - 0.003 * float(found[5]) if found[5] else 0.4 - 90 * pressure
+            self.assertAlmostEqual(mu, wanted, delta=1e-5)
+        kept = "friction={law: formula, formula: 'max(0, 0.3 - 0.003 * s)', state: {s: {rate: 1, start: 0}}}"
+        self.call("run", kept, "time.until.U=0.012", flags=("-q", "--overwrite", "-o", "negative"))
 
 
 if __name__ == "__main__":
