@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A law of one's own that remembers goes wherever built-in laws go. The same law, rate and state, is given by its name and by
 formulas, and each command must say the same of both: sweeps over its numbers with what is read off velocity steps, error
-bars, searches and fits, shares of a table, windows, films, pages, Python and C."""
+bars, searches and fits, shares of a table, windows, films and pages."""
 import csv
 import json
 import os
@@ -83,6 +83,20 @@ class OwnEverywhere(Driven):
         name = "results.program.slip_distance"
         for one, other in zip(rows, built):
             self.assertAlmostEqual(float(one[name]) / float(other[name]), 1, delta=1e-3)
+
+    def test_table_of_velocity_steps(self):
+        """The law of docs/examples/measured_law.yaml: velocity steps read its table, a and D_c back, as the cookbook says."""
+        program = "{t: [0, 1, 1000, 1000, 1500], factor: [0, 1, 1, 10, 10]}"
+        self.amontons("run", SOURCE / "docs/examples/measured_law.yaml", "-q", "-o", "table-steps", "--set", "material={young: 1000, poisson: 0.34, "
+                      "eta1: 1000, eta2: 1000}", "mesh.set.nx=6", "mesh.set.nz=3", "friction.slip_distance=0.015", "time={until: {t: 1500}, step_max: 0.2}",
+                      "output={figures: []}", f"rod={{velocity: 1e-4, kind: bonded, height: 0.1, program: {program}}}")
+        found = json.loads((self.folder / "table-steps/run.json").read_text())["results"]["program"]
+        step, = found["steps"]
+        for name, v in (("mu_before", 1e-4), ("mu_after", 1e-3)):
+            wanted = numpy.interp(numpy.log(v), (-16, -13, -10, -7, -4), (0.46, 0.42, 0.34, 0.22, 0.16))
+            self.assertAlmostEqual(step[name], wanted, delta=3e-4, msg=name)
+        self.assertAlmostEqual(step["direct_per_ln"], 0.015, delta=3e-4)
+        self.assertAlmostEqual(step["slip_distance"] / 0.015, 1.9, delta=0.1)
 
     def test_bars(self):
         """A bar is met, and holds what the built-in law's says."""
