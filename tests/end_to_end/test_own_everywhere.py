@@ -98,6 +98,32 @@ class OwnEverywhere(Driven):
         self.assertAlmostEqual(step["direct_per_ln"], 0.015, delta=3e-4)
         self.assertAlmostEqual(step["slip_distance"] / 0.015, 1.9, delta=0.1)
 
+    def test_rate_of_pressure(self):
+        """The scene of docs/scenes.md: chi in the place of theta, whose rate has dp/dt (Linker and Dieterich). That rate, integrated
+        along the slip rate and pressure of a node, gives its friction, while the load is raised by a third within D_c/75."""
+        law = re.search(r"`alpha` = 0.2[^`]*?\n\n((?:    .*\n)+)", (SOURCE / "docs/scenes.md").read_text())[1]
+        text = "\n".join(line[4:] for line in law.splitlines())
+        load = "load: {pressure: 0.003, program: {t: [0, 100, 102], factor: [1, 1, 1.3]}}"
+        scene = re.sub(r"friction: FRICTION\n", lambda _: text + "\n", STEPS).replace("load: {pressure: 0.003}", load)
+        scene = re.sub(r"factor: \[0, 1, 1, 10, 10\]", "factor: [0, 1, 1, 1, 1]", scene)
+        (self.folder / "pressed.yaml").write_text(scene.replace("t: 1500}", "t: 200}").replace("history: false", "figures: []"))
+        self.amontons("run", "pressed.yaml", "-q", "-o", "pressed")
+        with h5py.File(self.folder / "pressed/history.h5") as file:
+            t, chi = file["series/time"][()], file["interface/state"][()]
+            p, tau, v = (file[f"interface/{name}"][()].astype(float) for name in ("pressure", "shear", "slip_rate"))
+        a, b, D_c, V_0, alpha, first = 0.01, 0.015, 0.015, 1e-4, 0.2, numpy.searchsorted(t, 2)
+        for i in (0, 3, 6):
+            psi = chi[first, i] - alpha / b * numpy.log(p[first, i] / 0.003)
+            for k in range(first, len(t) - 1):
+                h, slip_rate = (t[k + 1] - t[k]) / 10, (v[k, i] + v[k + 1, i]) / 2
+                for _ in range(10):   # of the midpoint rule
+                    pressed = alpha / b * numpy.log(p[k + 1, i] / p[k, i]) / (10 * h)
+                    middle = psi + h / 2 * ((V_0 * numpy.exp(-psi) - slip_rate) / D_c - pressed)
+                    psi += h * ((V_0 * numpy.exp(-middle) - slip_rate) / D_c - pressed)
+                mu = a * numpy.arcsinh(v[k + 1, i] / (2 * V_0) * numpy.exp((0.3 + b * psi) / a))
+                self.assertAlmostEqual(mu, tau[k + 1, i] / p[k + 1, i], delta=1e-4, msg=(i, t[k + 1]))
+        self.assertGreater(p.max() / p.min(), 2)
+
     def test_bars(self):
         """A bar is met, and holds what the built-in law's says."""
         found = []
