@@ -117,7 +117,7 @@ static SpaceTime view_space_time(const ResultView *view)
                        .nodes = view->nodes,
                        .x = view->x,
                        .pad = view->pad,
-                       .slip_rate = view->slip_rate,
+                       .value = view->slip_rate,
                        .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
                        .event_count = view->rapid_count,
                        .events = (const double(*)[2])view->rapid};
@@ -128,11 +128,31 @@ bool map_page_fill(const ResultView *view, const double *status, MapPage *map, E
     SpaceTime data = view_space_time(view);
     data.status = status;
     if (map->mean) data.slip = view->slip;
+    if (map->states) {
+        data.value = map->states;
+        data.sign = map->sign;
+    }
     if (map->grid.columns < 2 || map->grid.rows < 2)
         FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
     TRY(space_time_to_pixels(&data, &map->grid, err));
 cleanup:
     return error_is_clean(err);
+}
+
+void map_page_levels(MapPage *map)
+{
+    int64_t count = (int64_t)map->grid.bands * map->grid.columns;
+    for (int64_t k = 0; k < count; ++k)
+        map->grid.values[k] = colorbar_level(&map->bar, (double)map->grid.values[k]);
+}
+
+int32_t map_page_key(const ResultView *view, const Window *window, KeyEntry entries[2])
+{
+    int32_t count = 0;
+    if (view->pad[view->nodes - 1] > 0)
+        entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
+    if (window && window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    return count;
 }
 
 // Hatches [low, high] of x over all U.

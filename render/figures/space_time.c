@@ -54,15 +54,16 @@ static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, dou
     return column_of(grid, U);
 }
 
-// by_column: [columns * nodes]; an open node counts as more than any rate.
+// by_column: [columns * nodes], times the sign; an open node counts as more than any rate.
 static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
 {
-    const double *rate = data->slip_rate + row * data->nodes;
+    const double *value = data->value + row * data->nodes;
     const double *status = data->status ? data->status + row * data->nodes : NULL;
     float *cell = by_column + (int64_t)column * data->nodes;
     for (int32_t i = 0; i < data->nodes; ++i) {
         bool open = status && status[i] == 0;
-        cell[i] = larger(cell[i], open ? INFINITY : (float)fabs(rate[i]));
+        double counts = data->sign ? data->sign * value[i] : fabs(value[i]);
+        cell[i] = larger(cell[i], open ? INFINITY : (float)counts);
     }
 }
 
@@ -175,7 +176,7 @@ static void bands_fill(const SpaceTime *data, PixelGrid *grid, const NodeRange *
             float most = NAN;
             for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
                 most = larger(most, value[i]);
-            grid->values[(int64_t)band * grid->columns + column] = most;
+            grid->values[(int64_t)band * grid->columns + column] = data->sign < 0 ? -most : most;
         }
     }
 }

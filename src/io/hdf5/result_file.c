@@ -119,14 +119,13 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const 
 {
     char words[200];
     bool space = head->tangents > 1, states = row == &series_rows[SERIES_STATE];
+    const char *unit = space ? unit_in_space(row) : row->unit;
+    if (states && head->state_unit) unit = head->state_unit;
     int32_t components = row_components(row, head);
     const char *more = states ? "; then the next state" : "; then the same along y";
     snprintf(words, sizeof words, "%s%s", row->description, components > 1 ? more : "");
-    ArraySeries series = {.name = row->name,
-                          .type = row->type,
-                          .width = width,
-                          .unit = space ? unit_in_space(row) : row->unit,
-                          .description = words};
+    ArraySeries series = {
+        .name = row->name, .type = row->type, .width = width, .unit = unit, .description = words};
     return array_file_add_vectors(file, &series, components, err);
 }
 
@@ -141,6 +140,8 @@ static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err
     if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
     if (head->state_names && *head->state_names)
         TRY(array_file_set_text(file, "states", head->state_names, err));
+    if (head->state_unit && head->states > 0)
+        TRY(array_file_set_text(file, "state_unit", head->state_unit, err));
     if (head->tangents > 1)
         TRY(array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
@@ -278,6 +279,11 @@ cleanup:
 bool result_file_has_faces(ArrayFile *file)
 {
     return array_file_has(file, faces_rows[FACES_NODES].name);
+}
+
+bool result_file_remembers(ArrayFile *file)
+{
+    return array_file_has(file, series_rows[SERIES_STATE].name);
 }
 
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,

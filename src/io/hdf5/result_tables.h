@@ -91,7 +91,7 @@ typedef enum ResultColumns {
       "mean speed of the front along the contact; nan: none")
 
 // Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (the
-// contact curves' names, a line each), states (names of one's own), warnings (absent: none).
+// contact curves' names, a line each), states (likewise), state_unit, warnings (absent: none).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_FORMAT, "format", "1",                                                                \
