@@ -93,9 +93,10 @@ static bool next_accuracy(const Search *search, Design *design)
     const Optimise *self = search->judge.context;
     double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
     double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
+    double has = fmin(asked, came_out);
     if (!design->has_bar || came_out > MISSED_BY_FAR * asked) design->settled = true;
-    if (design->settled || !(limit > 0) || asked <= limit) return false;
-    design->accuracy = fmax(fmin(asked, came_out) / 2, limit);
+    if (design->settled || !(limit > 0) || has <= limit) return false;
+    design->accuracy = fmax(has / 2, limit);
     return true;
 }
 
