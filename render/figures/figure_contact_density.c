@@ -6,7 +6,7 @@
 
 #include "render/canvas/key.h"
 #include "render/figures/map_page.h"
-#include "render/figures/zoom.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 

@@ -7,8 +7,8 @@
 #include "render/figures/map_page.h"
 #include "render/figures/measured.h"
 #include "render/figures/slip_scale.h"
-#include "render/figures/window.h"
-#include "render/figures/zoom.h"
+#include "render/view/window.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 
 #include "render/canvas/colorbar.h"
 #include "render/figures/figures.h"
-#include "render/figures/space_time.h"
+#include "render/view/space_time.h"
 
 typedef struct MapPage {
     Axes axes;

@@ -2,7 +2,7 @@
 #include "model/contact_laws.h"
 
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "model/place_formula.h"
 #include "scene/contact_laws.h"
 
