@@ -29,10 +29,10 @@ typedef struct ResultView {
     double *mu;   // [rows] 1; owned
     int32_t nodes;   // contact nodes, at least 1; in space those of the line along the middle
     double *x;   // [nodes] ascending, length; owned
-    double *pad;   // [nodes] number of the contact curve; owned
+    double *pad;   // [nodes] number of the pad; owned
     int32_t all_nodes;   // of the contact
     int32_t *line;   // [nodes] which of them are shown; NULL in the plane: all; owned
-    char *pad_names;   // a line a contact curve, by number; empty: without names; owned
+    char *pad_names;   // a line a pad, by number; empty: without names; owned
     char *warnings;   // of the run, one a line; empty: none; owned
     double *slip_rate;   // [rows * nodes] velocity, or NULL: not read yet; owned
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
