@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "render/canvas/key.h"
 #include "render/figures/measured.h"
-#include "render/figures/window.h"
-#include "render/figures/zoom.h"
+#include "render/view/window.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "render/canvas/key.h"
-#include "render/figures/zoom.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "render/figures/map_page.h"
 #include "render/figures/measured.h"
 #include "render/figures/slip_scale.h"
-#include "render/figures/zoom.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -17,7 +17,7 @@
 #define AMONTONS_RENDER_FIGURES_MEASURED_H
 
 #include "render/canvas/axes.h"
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 
 enum { MEASURED_WORDS_SIZE = 200 };
 

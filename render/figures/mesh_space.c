@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "render/figures/camera.h"
-#include "render/figures/outer_faces.h"
+#include "render/view/camera.h"
+#include "render/view/outer_faces.h"
 
 #include <math.h>
 #include <stdlib.h>

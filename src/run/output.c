@@ -5,9 +5,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "io/files/open_file.h"
-#include "run/pictures.h"
+#include "run/result/pictures.h"
 #include "run/warnings.h"
 #include "scene/window.h"
 

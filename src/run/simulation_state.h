@@ -17,7 +17,7 @@
 #include "record/turning.h"
 #include "run/kept_states.h"
 #include "run/report.h"
-#include "run/result_folder.h"
+#include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
 
 struct Simulation {
