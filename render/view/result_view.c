@@ -376,6 +376,8 @@ void result_view_close(ResultView *view)
     memory_free(view->slip);
     memory_free(view->front);
     memory_free(view->status);
+    memory_free_all(view->precursors.at, view->precursors.value);
+    memory_free_all(view->front_speed.at, view->front_speed.value);
     memory_free(view->contact_status);
     contact_plane_destroy(&view->plane);
     memory_free(view->events);

@@ -19,6 +19,12 @@ typedef struct ViewPeak {
     bool counts;   // for mu_M
 } ViewPeak;
 
+// Values over something whose numbers do not fall: of the whole history, or of a figure.
+typedef struct ViewCurve {
+    int64_t count;
+    double *at, *value;   // [count]
+} ViewCurve;
+
 typedef struct ResultView {
     ArrayFile *file;   // owned
     char *title;   // of the scene; may be empty; owned
@@ -38,6 +44,8 @@ typedef struct ResultView {
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
     double *front;   // [rows] x, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
+    ViewCurve precursors;   // of that figure; `at` NULL: not computed yet; owned
+    ViewCurve front_speed;   // likewise
     ContactPlane plane;   // in space; patch_count 0: not read yet; owned
     double *contact_status;   // [rows * all_nodes] in space, or NULL: not read yet; owned
     int32_t states;   // of friction that remembers; 0: it does not

@@ -41,7 +41,9 @@ static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, dou
                                int32_t *count)
 {
     double width = (grid->U_high - grid->U_low) / grid->columns;
+    int32_t column = column_of(grid, U);
     *count = 1;
+    if (column < 0 || column == grid->columns) return column;   // of most steps of a long run
     for (int32_t k = 0; k < data->event_count; ++k) {
         const double *event = data->events[k];
         double room = (grid->event_columns + ROUND_DOWN) * width;
@@ -51,7 +53,7 @@ static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, dou
         *count = grid->event_columns;
         return middle - *count / 2 < 0 ? 0 : middle - *count / 2;
     }
-    return column_of(grid, U);
+    return column;
 }
 
 // by_column: [columns * nodes], times the sign; an open node counts as more than any rate.
