@@ -6,7 +6,7 @@
     validation/pads/study.py --draw [--publish]
 
 DIR (default results/pads) gets a folder a sweep, tables.md and figures/*.png; what is there already
-is not computed again. Answers with error bars are those of bars.py, which it calls (20 minutes of one processor).
+is not computed again. Answers with error bars are those of bars.py, which it calls (17 minutes of processor time).
 --publish copies tables and figures beside this file, for README.md. --draw: figures of mu alone, from the tables beside this file.
 Needs h5py (python3-h5py) for the figure of the loads in time.
 """
