@@ -294,8 +294,7 @@ void bulk_operator_archive(BulkOperator *system, Archive *archive)
 {
     archive_section(archive, "bulk");
     archive_numbers(archive, system->load, system->dof_count);
-    archive_count(archive, &system->factorisations);
-    archive_count(archive, &system->solves);
+    archive_counts_of(archive, &system->factorisations, &system->solves);
 }
 
 static void hash_numbers(Hash *hash, const double *numbers, int64_t count)

@@ -351,8 +351,7 @@ cleanup:
 void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
 {
     archive_section(archive, "explicit steps");
-    archive_number(archive, &scheme->time);
-    archive_number(archive, &scheme->rod_way);
+    archive_numbers_of(archive, &scheme->time, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
     archive_numbers(archive, scheme->mesh.now,

@@ -306,9 +306,8 @@ NOT_A_CHOICE = {
 def places(constant, text):
     """Where the value of `constant` stands in the text of its file: spans; one is right."""
     if constant.is_key:
-        entry = re.search(rf'\{{"{re.escape(constant.name)}",[^}}]*\}}', text)
-        values = list(re.finditer(rf'"({NUMBER})"', entry[0])) if entry else []   # the last: default
-        return [tuple(entry.start() + k for k in values[-1].span(1))] if values else []
+        entry = rf'NUMBER\({re.escape(constant.name)},\s*"[^"]*",\s*\w+,\s*"({NUMBER})"'
+        return [found.span(1) for found in re.finditer(entry, text)]
     before = r"(?<![\w\])])" if constant.name[0] != "[" else ""
     pattern = rf"{before}{re.escape(constant.name)} =\s*({NUMBER})(?=\s*[,;}}\n])"
     return [found.span(1) for found in re.finditer(pattern, text)]
