@@ -58,25 +58,20 @@ static bool write_front(const char *path, ResultView *view, Error *err)
 
 static bool write_lengths(const char *path, ResultView *view, Error *err)
 {
-    FigureCurve curve = {0};
-    bool done = precursors_curve(view, &curve, err);
-    const DataColumn columns[] = {{"F_T/F_N", NULL, curve.at, 1},
-                                  {"l/L", NULL, curve.value, 1 / view->number[NUMBER_LENGTH]}};
-    done = done && write_columns(path, columns, 2, curve.count, view->si, err);
-    figure_curve_destroy(&curve);
-    return done;
+    if (!precursors_compute(view, err)) return false;
+    const DataColumn columns[] = {
+        {"F_T/F_N", NULL, view->precursors.at, 1},
+        {"l/L", NULL, view->precursors.value, 1 / view->number[NUMBER_LENGTH]}};
+    return write_columns(path, columns, 2, view->precursors.count, view->si, err);
 }
 
 static bool write_speeds(const char *path, ResultView *view, Error *err)
 {
-    FigureCurve curve = {0};
-    bool done = front_speed_curve(view, &curve, err);
+    if (!front_speed_compute(view, err)) return false;
     const DataColumn columns[] = {
-        {"x/L", NULL, curve.at, 1 / view->number[NUMBER_LENGTH]},
-        {"v/c_R", NULL, curve.value, 1 / view->number[NUMBER_C_RAYLEIGH]}};
-    done = done && write_columns(path, columns, 2, curve.count, view->si, err);
-    figure_curve_destroy(&curve);
-    return done;
+        {"x/L", NULL, view->front_speed.at, 1 / view->number[NUMBER_LENGTH]},
+        {"v/c_R", NULL, view->front_speed.value, 1 / view->number[NUMBER_C_RAYLEIGH]}};
+    return write_columns(path, columns, 2, view->front_speed.count, view->si, err);
 }
 
 static int compare_numbers(const void *left, const void *right)

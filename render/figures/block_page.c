@@ -6,6 +6,7 @@
 #include "render/figures/rod_mark.h"
 #include "render/figures/space_page.h"
 #include "render/figures/value_range.h"
+#include "render/view/space_time.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -155,12 +156,10 @@ static void draw_contact(const Page *page, const BlockPage *map, int64_t row, co
 {
     const ResultView *view = map->view;
     const double *status = view->status + row * view->nodes;
-    double unit = map->share * page->point, floor_y = axes_place(axes, 0, 0).y;
+    double unit = map->share * page->point, floor_y = axes_place(axes, 0, 0).y, from, to;
+    SpaceTime contact = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
     for (int32_t i = 0; i < view->nodes; ++i) {
-        bool before = i > 0 && view->pad[i - 1] == view->pad[i];
-        bool after = i + 1 < view->nodes && view->pad[i + 1] == view->pad[i];
-        double from = before ? (view->x[i - 1] + view->x[i]) / 2 : view->x[i];
-        double to = after ? (view->x[i] + view->x[i + 1]) / 2 : view->x[i];
+        node_extent(&contact, i, &from, &to);
         int32_t kind = (int32_t)status[i];
         Box box = {axes_place(axes, from, 0).x, floor_y + CONTACT_GAP * unit,
                    axes_place(axes, to, 0).x, floor_y + (CONTACT_GAP + CONTACT_HEIGHT) * unit};

@@ -5,7 +5,7 @@
 #include "render/figures/figures.h"
 
 #include "render/figures/map_page.h"
-#include "render/figures/zoom.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "render/canvas/key.h"
 #include "render/figures/contact_map.h"
-#include "render/figures/contact_moments.h"
+#include "render/view/contact_moments.h"
 #include "render/figures/slip_scale.h"
 #include "render/figures/state_scale.h"
 #include "render/render.h"

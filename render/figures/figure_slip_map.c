@@ -6,7 +6,7 @@
 #include "render/figures/map_page.h"
 #include "render/figures/measured.h"
 #include "render/figures/slip_scale.h"
-#include "render/figures/zoom.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,7 +72,7 @@ bool figure_slip_map_measured(ResultView *view, const char *path, Measured *meas
 {
     TRY(measured_read(path, MEASURED_FRONT, view, measured, err));
     if (measured->count > 0) TRY(result_view_read_front(view, err));
-    const ComputedCurve curve = {view->rows, view->U, view->front};
+    const ViewCurve curve = {view->rows, view->U, view->front};
     if (measured->count > 0) measured_compare(measured, view, computed_on_curve, &curve);
 cleanup:
     return error_is_clean(err);

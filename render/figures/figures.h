@@ -57,17 +57,10 @@ bool figure_precursors_measured(ResultView *view, const char *path, Measured *me
 bool figure_front_speed_measured(ResultView *view, const char *path, Measured *measured,
                                  Error *err);
 
-// The curve of each of the last two: owned by the caller; columns "F_T/F_N, l/L" and "x/L, v/c_R".
-typedef struct FigureCurve {
-    int64_t count;
-    double *at, *value;   // [count] owned
-} FigureCurve;
-typedef bool (*CurveFunction)(ResultView *view, FigureCurve *curve, Error *err);
-void figure_curve_destroy(FigureCurve *curve);   // zeroed is fine
-bool figure_curve_measured(ResultView *view, const char *path, MeasuredKind kind,
-                           CurveFunction compute, Measured *measured, Error *err);
-bool precursors_curve(ResultView *view, FigureCurve *curve, Error *err);
-bool front_speed_curve(ResultView *view, FigureCurve *curve, Error *err);
+// The curves of the last two, view->precursors and view->front_speed: length over F_T/F_N, velocity
+// over x.
+bool precursors_compute(ResultView *view, Error *err);
+bool front_speed_compute(ResultView *view, Error *err);
 
 // The figure called `name`, one of the history alone, on a fresh page. In render.c.
 bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,

@@ -192,6 +192,15 @@ static double pad_front(const ResultView *view, int64_t row, int32_t first, int3
     return front;
 }
 
+// Whether it, or a line to a row beside it, lies in what is shown.
+static bool row_is_shown(const ResultView *view, int64_t row, const Axis *shown)
+{
+    double before = view->U[row > 0 ? row - 1 : row], here = view->U[row];
+    double after = view->U[row + 1 < view->rows ? row + 1 : row];
+    return fmax(fmax(before, here), after) >= shown->low &&
+           fmin(fmin(before, here), after) <= shown->high;
+}
+
 // A front a pad: one line over all of them would leap over gaps, and would not see what goes on
 // ahead of the first node that sticks.
 bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err)
@@ -203,7 +212,10 @@ bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage
     for (int32_t first = 0, last = 0; first < view->nodes; first = ++last) {
         while (last + 1 < view->nodes && view->pad[last + 1] == view->pad[first]) ++last;
         for (int64_t row = 0; row < view->rows; ++row)
-            line[row] = axes_place(&map->axes, view->U[row], pad_front(view, row, first, last));
+            line[row] = row_is_shown(view, row, &map->axes.x)
+                            ? axes_place(&map->axes, view->U[row],
+                                         pad_front(view, row, first, last))
+                            : (Point){NAN, NAN};
         draw_line(page->canvas, &stroke, line, view->rows);
     }
     canvas_clip(page->canvas, NULL);

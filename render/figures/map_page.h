@@ -7,8 +7,8 @@
 #include "render/canvas/colorbar.h"
 #include "render/canvas/key.h"
 #include "render/figures/figures.h"
-#include "render/figures/space_time.h"
-#include "render/figures/window.h"
+#include "render/view/space_time.h"
+#include "render/view/window.h"
 
 typedef struct MapPage {
     Axes axes;

@@ -5,7 +5,7 @@
 #define AMONTONS_RENDER_FIGURES_SLIP_SCALE_H
 
 #include "render/canvas/colorbar.h"
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 
 // Its bar, up to the half decade above all slip of the view, whose slip rates have been read.
 // V: of the rod, velocity > 0.

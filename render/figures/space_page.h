@@ -5,7 +5,7 @@
 #define AMONTONS_RENDER_FIGURES_SPACE_PAGE_H
 
 #include "render/canvas/colorbar.h"
-#include "render/figures/surface.h"
+#include "render/view/surface.h"
 
 typedef struct SpacePage {
     const ResultView *view;   // its plane has been read, if it has one

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_FIGURES_STATE_SCALE_H
 #define AMONTONS_RENDER_FIGURES_STATE_SCALE_H
 
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 #include "render/figures/value_range.h"
 
 // That which view->state says: *states [rows * nodes], or of the whole contact [rows * all_nodes],

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "render/figures/figures.h"
-#include "render/figures/space_time.h"
+#include "render/view/space_time.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/film/film_times.h"
 
-#include "render/figures/block.h"
+#include "render/view/block.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_FILM_FILM_TIMES_H
 #define AMONTONS_RENDER_FILM_FILM_TIMES_H
 
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 
 typedef struct FilmMoment {
     double t, U, mu;   // time, length, 1

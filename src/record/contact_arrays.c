@@ -4,7 +4,7 @@
 #include "record/contact_arrays.h"
 
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <stdio.h>

@@ -59,8 +59,7 @@ void state_copy(const State *from, State *to)
 void state_archive(State *state, Archive *archive)
 {
     archive_section(archive, "state");
-    archive_number(archive, &state->time);
-    archive_number(archive, &state->rod_way);
+    archive_numbers_of(archive, &state->time, &state->rod_way);
     archive_numbers(archive, state->displacement, state->dof_count);
     archive_numbers(archive, state->velocity, state->dof_count);
     archive_numbers(archive, state->elastic_force, state->dof_count);
