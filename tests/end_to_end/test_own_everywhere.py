@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A law of one's own that remembers goes wherever built-in laws go. The same law, rate and state, is given by its name and by
 formulas, and each command must say the same of both: sweeps over its numbers with what is read off velocity steps, error
-bars, searches and fits, shares of a table, windows, films and pages."""
+bars, searches and fits, shares of a table, windows, films, pages,
+Python and C."""
 import csv
 import json
 import os
 import re
 import subprocess
+import sys
 import unittest
 
 import h5py
 import numpy
 
 from drive_fixture import PROGRAM, SOURCE, Driven
+from sanitizer_fixture import preload
 
 PARTS = "direct_effect: 0.01, evolution_effect: 0.02, mu_reference: 0.3, reference_velocity: 1e-5, slip_distance: 2e-4"
 # Scales that rate and state has by itself: what it meets at V and at the speed of sound.
@@ -98,6 +101,18 @@ class OwnEverywhere(Driven):
         self.assertAlmostEqual(step["direct_per_ln"], 0.015, delta=3e-4)
         self.assertAlmostEqual(step["slip_distance"] / 0.015, 1.9, delta=0.1)
 
+    def test_examples_of_the_page(self):
+        """Each law of docs/scenes.md that remembers runs."""
+        page = (SOURCE / "docs/scenes.md").read_text()
+        part = page[page.index("### Friction that remembers"):page.index("### Friction by contact, and along it")]
+        blocks = [re.sub("^    ", "", block, flags=re.M) for block in re.findall(r"\n\n((?:    .*\n)+)", part)]
+        laws = [law for block in blocks for law in (block.splitlines() if block.count("friction:") > 1 else [block])]
+        self.assertEqual(len(laws), 4)
+        for law in laws:
+            text = re.sub(r"friction: FRICTION\n", lambda _: law + "\n", SCENE).replace("U: 0.02", "U: 0.002")
+            (self.folder / "page.yaml").write_text(text)
+            self.amontons("run", "page.yaml", "-q", "--overwrite", "-o", "page")
+
     def test_rate_of_pressure(self):
         """The scene of docs/scenes.md: chi in the place of theta, whose rate has dp/dt (Linker and Dieterich). That rate, integrated
         along the slip rate and pressure of a node, gives its friction, while the load is raised by a third within D_c/75."""
@@ -151,6 +166,34 @@ class OwnEverywhere(Driven):
         self.assertGreater((self.folder / "film.gif").stat().st_size, 20000)
         self.amontons("report", "filmed", "-o", "page.html")
         self.assertIn("What friction remembers at each place", (self.folder / "page.html").read_text())
+
+    def test_python_and_c(self):
+        """The module steps it by the C interface: its state is the history's, and a step gone back to comes to the same bits."""
+        script = """
+import sys
+import numpy, amontons
+simulation = amontons.Simulation("own.yaml", {"time.until": {"U": 0.004}}, "stepped")
+states = [simulation.state.copy()]
+for step in simulation:
+    states.append(simulation.state.copy())
+    if len(states) == 20:
+        saved = simulation.save()
+end = simulation.state.copy()
+simulation.finish()
+history = amontons.open_result("stepped").history
+assert numpy.array(states, "f4").tobytes() == history.state.tobytes()
+assert history.numbers["states"] == "psi"
+again = amontons.Simulation("own.yaml", {"time.until": {"U": 0.004}})
+again.restore(saved)
+for step in again:
+    pass
+assert again.state.tobytes() == end.tobytes()
+print(len(states))
+"""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=self.folder,
+                              env={**os.environ, "PYTHONPATH": str(PROGRAM.resolve().parent.parent / "python")} | preload(PROGRAM.parent / "libamontons.so"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(int(done.stdout), 20)
 
     def test_search_and_fit(self):
         """Over D_c and b: a design that is better than the first, and b found again from mu_max at two loads."""
