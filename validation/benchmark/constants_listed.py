@@ -165,6 +165,7 @@ NOT_A_CHOICE = {
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
+    "record/contact_arrays.c": {"SLIGHT": "as in friction/friction_look.c"},
     "stepping/friction_states.c": {"PRESSED": "of mu: the contact problem's own rounding"},
     "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double",
                                "SETTLED": "digits that tell a ratio from 1, with room"},
