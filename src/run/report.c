@@ -8,6 +8,7 @@
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"
+#include "record/program_results.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -188,7 +189,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     write_slip(json, report->least_resolved, report->pads);
     pads_write_json(report->pads, json);
     if (report->model->interface.dim > 2) turning_write_json(report->turning, json);
-    if (report->readings->course) program_readings_json(report->readings, json);
+    if (report->readings->course) program_results_json(report->readings, json);
     write_events(json, report->events, report->pads);
     json_end(json);
 }
