@@ -4,10 +4,10 @@
 // A row is linear in r, so that rows of an earlier r (a warm start) meet the r of this g.
 #include "contact/contact_discs.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/contact_sweeps.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 
 #include <string.h>
 
@@ -418,16 +418,12 @@ bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const Cont
 void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive)
 {
     archive_section(archive, "contact discs");
-    archive_count(archive, &discs->iterations);
-    archive_count(archive, &discs->sweeps);
-    archive_count(archive, &discs->swept);
+    archive_counts_of(archive, &discs->iterations, &discs->sweeps, &discs->swept);
     disc_factors_archive(&discs->factors, discs->newton->factors.count, archive);
     for (int32_t i = 0; i < contact_count; i++) {
         DiscRow *row = &discs->kept[i];
         archive_numbers(archive, row->d, TANGENTS_MAX);
-        archive_number(archive, &row->mu);
-        archive_number(archive, &row->theta);
-        archive_number(archive, &row->rho);
+        archive_numbers_of(archive, &row->mu, &row->theta, &row->rho);
         archive_numbers(archive, row->along, TANGENTS_MAX);
     }
 }

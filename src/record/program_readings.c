@@ -252,18 +252,14 @@ bool program_readings_at(const ProgramReadings *readings, int32_t k, ProgramRead
 
 static void archive_estimate(Estimate *estimate, Archive *archive)
 {
-    archive_number(archive, &estimate->value);
-    archive_number(archive, &estimate->error);
+    archive_numbers_of(archive, &estimate->value, &estimate->error);
 }
 
 static void archive_reading(ProgramReading *reading, Archive *archive)
 {
     archive_index(archive, &reading->kind, 0, READING_KINDS);
-    archive_number(archive, &reading->t);
-    archive_number(archive, &reading->U);
-    archive_number(archive, &reading->velocity_before);
-    archive_number(archive, &reading->velocity);
-    archive_number(archive, &reading->duration);
+    archive_numbers_of(archive, &reading->t, &reading->U, &reading->velocity_before,
+                       &reading->velocity, &reading->duration);
     archive_estimate(&reading->before, archive);
     archive_estimate(&reading->after, archive);
     archive_estimate(&reading->peak, archive);
@@ -275,19 +271,14 @@ static void archive_stretch(ProgramStretch *stretch, Archive *archive)
     ProgramTop *top = &stretch->top;
     archive_reading(&stretch->reading, archive);
     archive_flag(archive, &stretch->level);
-    archive_number(archive, &stretch->begins);
-    archive_number(archive, &stretch->ends);
-    archive_number(archive, &stretch->mu);
-    archive_number(archive, &stretch->slip);
-    archive_number(archive, &stretch->width);
+    archive_numbers_of(archive, &stretch->begins, &stretch->ends, &stretch->mu, &stretch->slip,
+                       &stretch->width);
     archive_index(archive, &stretch->count, 0, PROGRAM_BINS + 1);
     archive_numbers(archive, stretch->at, stretch->count);
     archive_numbers(archive, stretch->first, stretch->count);
     archive_numbers(archive, stretch->low, stretch->count);
     archive_numbers(archive, stretch->high, stretch->count);
-    archive_number(archive, &top->mu);
-    archive_number(archive, &top->slip);
-    archive_number(archive, &top->off);
+    archive_numbers_of(archive, &top->mu, &top->slip, &top->off);
     archive_flag(archive, &stretch->fell);
 }
 
@@ -296,9 +287,7 @@ void program_readings_archive(ProgramReadings *readings, Archive *archive)
     if (!readings->course) return;
     archive_section(archive, "program readings");
     archive_flag(archive, &readings->started);
-    archive_number(archive, &readings->mu);
-    archive_number(archive, &readings->slip);
-    archive_number(archive, &readings->U);
+    archive_numbers_of(archive, &readings->mu, &readings->slip, &readings->U);
     archive_stretch(&readings->now, archive);
     archive_index(archive, &readings->count, 0, PROGRAM_READINGS_MAX + 1);
     for (int32_t k = 0; k < readings->count; k++) archive_reading(&readings->list[k], archive);

@@ -3,9 +3,9 @@
 // (stepping/explicit_sweep).
 #include "stepping/explicit_reference.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -351,8 +351,7 @@ cleanup:
 void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
 {
     archive_section(archive, "explicit steps");
-    archive_number(archive, &scheme->time);
-    archive_number(archive, &scheme->rod_way);
+    archive_numbers_of(archive, &scheme->time, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
     archive_numbers(archive, scheme->mesh.now,

@@ -2,7 +2,7 @@
 #include "stepping/friction_states.h"
 
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -140,8 +140,7 @@ void friction_states_archive(FrictionStates *states, Archive *archive)
         if (!states->laws[i].remembers) continue;
         memcpy(from, memory->from, sizeof from);
         archive_numbers(archive, from, memory->states);
-        archive_number(archive, &memory->pressure);
-        archive_number(archive, &reach);
+        archive_numbers_of(archive, &memory->pressure, &reach);
         if (archive_reads(archive)) friction_set_stage(&states->laws[i], from, reach);
     }
 }

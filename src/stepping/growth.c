@@ -17,9 +17,9 @@
 // them twice, and keep_rate drops the second.
 #include "stepping/growth.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_response.h"
+#include "friction/friction_response.h"
 #include "stepping/weakening_ratio.h"
 
 #include <math.h>

@@ -74,8 +74,7 @@ void state_friction(const State *state, const Interface *interface, const Fricti
 void state_archive(State *state, Archive *archive)
 {
     archive_section(archive, "state");
-    archive_number(archive, &state->time);
-    archive_number(archive, &state->rod_way);
+    archive_numbers_of(archive, &state->time, &state->rod_way);
     archive_numbers(archive, state->displacement, state->dof_count);
     archive_numbers(archive, state->velocity, state->dof_count);
     archive_numbers(archive, state->elastic_force, state->dof_count);

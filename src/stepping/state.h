@@ -6,7 +6,7 @@
 #include "base/archive.h"
 #include "reduction/interface_operator.h"
 #include "contact/contact_problem.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 
 // What is stepped: the bulk, where it meets the world, and by which laws. Nothing is owned.
 typedef struct Block {

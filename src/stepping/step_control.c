@@ -412,12 +412,9 @@ cleanup:
 
 static void counters_archive(StepCounters *counters, Archive *archive)
 {
-    archive_count(archive, &counters->accepted);
-    archive_count(archive, &counters->rejected_error);
-    archive_count(archive, &counters->rejected_energy);
-    archive_count(archive, &counters->rejected_uncertified);
-    archive_count(archive, &counters->unsolved);
-    archive_count(archive, &counters->stepped_over_oscillations);
+    archive_counts_of(archive, &counters->accepted, &counters->rejected_error,
+                      &counters->rejected_energy, &counters->rejected_uncertified,
+                      &counters->unsolved, &counters->stepped_over_oscillations);
 }
 
 bool step_control_archive(StepControl *control, Archive *archive, Error *err)
@@ -429,8 +426,7 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     certificate_archive(&control->certificate, archive);
     half_step_archive(&control->half, archive);
     archive_section(archive, "step control");
-    archive_number(archive, &control->outcome.residual);
-    archive_number(archive, &control->last_step);
+    archive_numbers_of(archive, &control->outcome.residual, &control->last_step);
     archive_flag(archive, &control->certified);
     archive_flag(archive, &control->odd_decays);
     archive_flag(archive, &control->lopsided);

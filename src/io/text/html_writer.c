@@ -83,6 +83,13 @@ void html_text(HtmlWriter *html, const char *text)
     }
 }
 
+void html_around(HtmlWriter *html, const char *before, const char *text, const char *after)
+{
+    html_raw(html, before);
+    html_text(html, text);
+    html_raw(html, after);
+}
+
 void html_number(HtmlWriter *html, double value, int32_t digits)
 {
     char words[40];

@@ -19,6 +19,8 @@ void html_raw(HtmlWriter *html, const char *markup);   // as it is, of any lengt
 // Text and values of attributes: & < > " ' are escaped, what is no UTF-8 or not printable becomes
 // U+FFFD.
 void html_text(HtmlWriter *html, const char *text);
+// Text between markup of our own.
+void html_around(HtmlWriter *html, const char *before, const char *text, const char *after);
 // A value as people read it: to `digits`, U+2212 for minus, "1.1 x 10^-4" with the power raised.
 void html_number(HtmlWriter *html, double value, int32_t digits);
 // "data:TYPE;base64,...": a file inside of the page.

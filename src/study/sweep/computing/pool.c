@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/transfer.h"
 #include "study/sweep/computing/tally.h"
 
 #include <errno.h>
@@ -50,20 +51,6 @@ typedef struct Pool {
     int32_t next, step;   // point to look at for the next worker; to the one behind it
 } Pool;
 
-// Whether all of it came before the other end was closed.
-static bool read_whole(int socket, void *bytes, size_t size)
-{
-    char *next = bytes;
-    while (size > 0) {
-        ssize_t count = read(socket, next, size);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
-        next += count;
-        size -= (size_t)count;
-    }
-    return true;
-}
-
 static bool send_whole(int socket, const void *bytes, size_t size)
 {
     const char *next = bytes;
@@ -89,7 +76,7 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
     if (getppid() != parent) _exit(1);
     mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
     mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
-    while (read_whole(socket, &point, sizeof point)) {
+    while (transfer_read(socket, &point, sizeof point, -1) == sizeof point) {
         Error err = {0};
         Reply reply = {0};
         char *report = NULL;
@@ -193,10 +180,10 @@ cleanup:
 // *report: what follows the reply; NULL: nothing. false: the child has ended.
 static bool receive(int socket, Reply *reply, char **report, Error *err)
 {
-    if (!read_whole(socket, reply, sizeof *reply)) return false;
+    if (transfer_read(socket, reply, sizeof *reply, -1) != sizeof *reply) return false;
     if (reply->size <= 0) return true;
     *report = memory_array((int64_t)reply->size + 1, 1, err);
-    return *report && read_whole(socket, *report, (size_t)reply->size);
+    return *report && transfer_read(socket, *report, reply->size, -1) == reply->size;
 }
 
 // The next point is handed out before the result of the last is looked at.

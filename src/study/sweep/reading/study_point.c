@@ -31,7 +31,7 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
     const SceneKey *keys = scene_keys(&count);
     *words = 0;
     *number = NAN;
-    if (index >= 0 && keys[index].may_lack && !scene->given[index]) return;
+    if (index >= 0 && scene_key_may_lack(&keys[index]) && !scene->given[index]) return;
     if (scene_number(scene, key, number))
         snprintf(words, (size_t)size, "%.12g", *number);
     else if (parameter)
