@@ -46,11 +46,10 @@ static bool stays_within(const FrictionLaw *law, double highest, Error *err)
         double mu = friction_coefficient(law, middle);
         if (!(mu >= least) && !look_at(law, middle, err)) return false;
         if (mu > most)
-            return REFUSE(
-                err,
-                "at velocity %g the coefficient is %g, but at the velocities looked at no more "
-                "than %g: a peak must be wider",
-                middle, mu, highest);
+            return REFUSE(err,
+                          "at velocity %g the coefficient is %g, but at the velocities looked at "
+                          "no more than %g: a peak must be wider",
+                          middle, mu, highest);
         piece[1] = middle;
         pieces[count + 1][0] = middle;
         pieces[count + 1][1] = high;
@@ -93,8 +92,7 @@ static bool slope_fits(const FrictionLaw *law, double speed, Error *err)
     if (slope < fmin(before, after) - allowed || slope > fmax(before, after) + allowed)
         return REFUSE(
             err,
-            "at velocity %g the slope is said to be %g, but differences of the coefficient give "
-            "%g",
+            "at velocity %g the slope is said to be %g, but differences of the coefficient give %g",
             speed, slope, 0.5 * (before + after));
     return true;
 }

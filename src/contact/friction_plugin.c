@@ -35,20 +35,17 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
     char name[PATH_MAX];
     int (*interface)(void) = NULL;
     if (!trust || !*trust)
-        return REFUSE(
-            err,
-            "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, if you "
-            "know where it comes from",
-            path);
+        return REFUSE(err,
+                      "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, "
+                      "if you know where it comes from",
+                      path);
     if (!open_check(path, err)) return false;   // the loader would wait for a pipe
     snprintf(name, sizeof name, "%s%s", strchr(path, '/') ? "" : "./", path);
     void *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (!handle) return REFUSE(err, "cannot be opened: %s", dlerror());
     void *version = dlsym(handle, "amontons_friction_interface");
     if (!version)
-        return REFUSE(err,
-                      "%s has no function amontons_friction_interface "
-                      "(amontons_friction.h)",
+        return REFUSE(err, "%s has no function amontons_friction_interface (amontons_friction.h)",
                       path);
     memcpy(&interface, &version, sizeof interface);
     if (interface() < 1 || interface() > AMONTONS_FRICTION_INTERFACE)

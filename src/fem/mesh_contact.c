@@ -213,28 +213,25 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);
     if (mesh->z_min < -tolerance)
-        return REFUSE(
-            err,
-            "%s: the block reaches down to z = %g, below the substrate at z = 0 that group '%s' "
-            "touches",
-            mesh->path, mesh->z_min, contact->pads[0].name);
+        return REFUSE(err,
+                      "%s: the block reaches down to z = %g, below the substrate at z = 0 that "
+                      "group '%s' touches",
+                      mesh->path, mesh->z_min, contact->pads[0].name);
     for (int32_t k = 1; k < contact->node_count; k++) {
         int32_t b = contact->nodes[k], a = node_over(mesh, contact, k, tolerance);
         const char *name = contact->pads[contact->pad_of[k]].name;
         if (a < 0) continue;
         const double *at_b = mesh_place(mesh, b);
         if (fabs(mesh_height(mesh, b) - mesh_height(mesh, a)) > tolerance)
-            return REFUSE(
-                err,
-                "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a face is "
-                "no contact",
-                mesh->path, name, at_b[0], mesh_height(mesh, a), mesh_height(mesh, b));
-        return REFUSE(
-            err,
-            "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "
-            "glued together there",
-            mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b], name,
-            at_b[0]);
+            return REFUSE(err,
+                          "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a "
+                          "face is no contact",
+                          mesh->path, name, at_b[0], mesh_height(mesh, a), mesh_height(mesh, b));
+        return REFUSE(err,
+                      "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh "
+                      "is not glued together there",
+                      mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b],
+                      name, at_b[0]);
     }
     return true;
 }

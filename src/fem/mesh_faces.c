@@ -83,8 +83,8 @@ static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, E
     }
     if (memcmp(known->key.inner, face->key.inner, sizeof known->key.inner) != 0)
         return REFUSE(err,
-                      "%s: elements %lld and %lld share the %s but not its mid-side node: "
-                      "elements of different order do not fit together",
+                      "%s: elements %lld and %lld share the %s but not its mid-side node: elements "
+                      "of different order do not fit together",
                       mesh->path, (long long)mesh->element_number[known->element],
                       (long long)mesh->element_number[face->element],
                       describe(mesh, &face->key, what));

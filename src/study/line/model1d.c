@@ -30,11 +30,10 @@ static bool check_scene(const Scene *scene, Error *err)
 {
     const char *path = scene->path;
     if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
-        return REFUSE(
-            err,
-            "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and rod.kind push "
-            "or bonded",
-            path);
+        return REFUSE(err,
+                      "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and "
+                      "rod.kind push or bonded",
+                      path);
     if (scene->rod.program.factor.count > 0 || scene->load.program.factor.count > 0)
         return REFUSE(err, "%s: %s.program: the 1D model has one load and one rod velocity", path,
                       scene->rod.program.factor.count > 0 ? "rod" : "load");
@@ -46,18 +45,16 @@ static bool check_scene(const Scene *scene, Error *err)
     if (scene->rod.stiffness > 0)
         return REFUSE(err, "%s: rod.stiffness: the 1D model's rod goes where it is driven", path);
     if (friction_remembers(&scene->friction, 0))
-        return REFUSE(
-            err,
-            "%s: friction.law: the 1D model's closed forms are of friction that depends on slip "
-            "rate alone; `%s` remembers (`amontons run` takes it)",
-            path, friction_law_name(&scene->friction));
+        return REFUSE(err,
+                      "%s: friction.law: the 1D model's closed forms are of friction that depends "
+                      "on slip rate alone; `%s` remembers (`amontons run` takes it)",
+                      path, friction_law_name(&scene->friction));
     if (!(friction_drop(&scene->friction) > 0))
-        return REFUSE(
-            err,
-            "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it needs a "
-            "weakening friction.law (this one is `%s`) with friction.mu_static above "
-            "friction.mu_kinetic",
-            path, friction_law_name(&scene->friction));
+        return REFUSE(err,
+                      "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it "
+                      "needs a weakening friction.law (this one is `%s`) with friction.mu_static "
+                      "above friction.mu_kinetic",
+                      path, friction_law_name(&scene->friction));
     if (scene->contact_laws.count > 0 || *scene->own_friction.along)
         return REFUSE(
             err, "%s: friction.contacts, friction.along: the 1D model has one law along its line",
@@ -67,18 +64,16 @@ static bool check_scene(const Scene *scene, Error *err)
             err, "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
             path);
     if (scene->materials.count > 0)
-        return REFUSE(
-            err,
-            "%s: materials: the 1D model's line is of one material (`amontons stability` and "
-            "`run` take regions)",
-            path);
+        return REFUSE(err,
+                      "%s: materials: the 1D model's line is of one material (`amontons stability` "
+                      "and `run` take regions)",
+                      path);
     if (friction_strengthens(&scene->friction))
-        return REFUSE(
-            err,
-            "%s: friction.law: the 1D model's closed forms take a line that has slid to be left "
-            "at mu_kinetic; this `%s` strengthens again at faster slip (`amontons stability` and "
-            "`run` take it)",
-            path, friction_law_name(&scene->friction));
+        return REFUSE(err,
+                      "%s: friction.law: the 1D model's closed forms take a line that has slid to "
+                      "be left at mu_kinetic; this `%s` strengthens again at faster slip "
+                      "(`amontons stability` and `run` take it)",
+                      path, friction_law_name(&scene->friction));
     if (!(scene->load.pressure > 0))
         return REFUSE(err, "%s: the 1D model needs load.pressure above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)
@@ -99,11 +94,10 @@ static bool check_options(const Scene *scene, const Model1dOptions *options, Err
         return REFUSE(err, "the line has %d nodes; %d to %d are allowed", options->nodes, NODES_MIN,
                       NODES_MAX);
     if (scene->time.scheme == SCHEME_EXPLICIT)
-        return REFUSE(
-            err,
-            "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask for its "
-            "theory only",
-            scene->path);
+        return REFUSE(err,
+                      "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask "
+                      "for its theory only",
+                      scene->path);
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
         return REFUSE(err, "%s: says not when to stop (time.until)", scene->path);
     return error_is_clean(err);

@@ -124,11 +124,10 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
     simulation->energy_error = fmax(simulation->energy_error, seen.energy_error);
     simulation->contact_error = fmax(simulation->contact_error, seen.contact_error);
     if (seen.energy_error > simulation->scene->time.energy_tolerance)
-        return FAULT(
-            err, ERROR_COMPUTE,
-            "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
-            "missing, time.energy_tolerance allows %g; lower time.tolerance",
-            seen.t, seen.energy_error, simulation->scene->time.energy_tolerance);
+        return FAULT(err, ERROR_COMPUTE,
+                     "at t = %g the energy ledger does not close: %.3g of the energy turned over "
+                     "is missing, time.energy_tolerance allows %g; lower time.tolerance",
+                     seen.t, seen.energy_error, simulation->scene->time.energy_tolerance);
     return true;
 }
 

@@ -74,11 +74,10 @@ static bool read_column(Table *table, int32_t k, Error *err)
     column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
     if (is_series(name)) return true;
     if (!study_record_path(name))
-        return REFUSE(
-            err,
-            "%s: column %s: neither a key of the scene nor a result, as `record` of a study names "
-            "it, nor a series of history.h5, as in series/mu",
-            table->path, name);
+        return REFUSE(err,
+                      "%s: column %s: neither a key of the scene nor a result, as `record` of a "
+                      "study names it, nor a series of history.h5, as in series/mu",
+                      table->path, name);
     if (column->error < 0)
         return REFUSE(
             err, "%s: column %s: how far is it known? a column %s_error has one standard deviation",

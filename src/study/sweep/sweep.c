@@ -92,11 +92,10 @@ static bool take_folder(Sweep *sweep, Error *err)
 static bool check_table(const Sweep *sweep, const Scene *scene, Error *err)
 {
     if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
-        return REFUSE(
-            err,
-            "%s: keep: with `table` points have no folder for a history, fields or figures: say "
-            "`keep: points`",
-            sweep->study.path);
+        return REFUSE(err,
+                      "%s: keep: with `table` points have no folder for a history, fields or "
+                      "figures: say `keep: points`",
+                      sweep->study.path);
     if (sweep->study.rank.refine > 0)
         return REFUSE(err, "%s: keep: `table` does not go with `refine`", sweep->study.path);
     return true;
@@ -162,11 +161,10 @@ static bool plan_point(Sweep *sweep, int32_t k, Scene *scene, Error *err)
     if (!block_counts_note(scene, &sweep->mesh, &sweep->blocks, err)) return false;
     if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
-        return REFUSE(
-            err,
-            "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
-            "`set: {accuracy.mu: 3%%}`",
-            sweep->study.path);
+        return REFUSE(err,
+                      "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, "
+                      "as in `set: {accuracy.mu: 3%%}`",
+                      sweep->study.path);
     return true;
 }
 

@@ -98,8 +98,8 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
                    name, names[nearest]);
     else
         yaml_error(study->file, node, err,
-                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` "
-                   "lists, or a path in run.json, as in results.mu_max",
+                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` lists, "
+                   "or a path in run.json, as in results.mu_max",
                    what, name);
     return false;
 }

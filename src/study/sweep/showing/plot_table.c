@@ -65,11 +65,10 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
     take_title(table, folder);
     if (!read_values(table, "result/warned", &table->warned, err)) return false;
     if (!table->warned || !array_file_get_text(table->file, "units", units, sizeof units, &missing))
-        return REFUSE(
-            err,
-            "%s was written by an earlier version: `amontons sweep` on its study writes it anew, "
-            "and computes nothing again",
-            table->path);
+        return REFUSE(err,
+                      "%s was written by an earlier version: `amontons sweep` on its study writes "
+                      "it anew, and computes nothing again",
+                      table->path);
     table->is_si = strcmp(units, "si") == 0;
     return read_words(table, "warned words", &table->kinds, err);
 }
