@@ -88,13 +88,16 @@ int command_render(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density, contact-plane (of a block in "
-         "space), precursors (length of slip over F_T/F_N), front-speed, field or field-strip (up "
-         "to six frames of one sliding). May be given several times; without it those that the "
+         "Draw only this picture: force, slip-map, contact-density, state-map (of friction that "
+         "remembers), contact-plane (of a block in space), precursors (length of slip over "
+         "F_T/F_N), "
+         "front-speed, field or field-strip (up to six frames of one sliding). May be given "
+         "several times; without it those that the "
          "result has fields and events for, and those that --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
-         "Draw these of force, slip-map and contact-density below each other, as panels.png",
+         "Draw these of force, slip-map, contact-density and state-map below each other, as "
+         "panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
 #define X(name, kind, low, high, allowed, argument, meaning)                                       \
@@ -108,7 +111,7 @@ int command_render(int argc, char **argv)
          "What `field` shows: von_mises (default), stress_xx, stress_zz, "
          "stress_xz, pressure, velocity, displacement, strain_energy or "
          "dissipation; `contact-plane`: slip_rate (default), contact_density, pressure, shear, "
-         "shear_over_pressure, slip or arrival",
+         "shear_over_pressure, slip, arrival or a state by its name, as in theta",
          .word = &request.field.of},
         {"at", 0, "U=U",
          "When: the stored time nearest to it; or t=TIME. Of contact-plane several, as in "

@@ -4,10 +4,10 @@
 // A row is linear in r, so that rows of an earlier r (a warm start) meet the r of this g.
 #include "contact/contact_discs.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/contact_sweeps.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 
 #include <string.h>
 

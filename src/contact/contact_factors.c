@@ -2,7 +2,7 @@
 // Vectors of all interface unknowns: what is held in J0 and in J, and what is open, has zeros.
 #include "contact/contact_factors.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <string.h>

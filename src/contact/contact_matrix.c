@@ -7,7 +7,7 @@
 // costs less than the sweeps so far.
 #include "contact/contact_matrix.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/contact_status.h"
 #include "contact/interface.h"

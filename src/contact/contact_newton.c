@@ -3,9 +3,9 @@
 // -> the step of what is free -> what follows from it (`contact_newton_take`).
 #include "contact/contact_newton.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>

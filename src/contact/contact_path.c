@@ -12,7 +12,7 @@
 // again, to its own tolerance, from where it ends.
 #include "contact/contact_path.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/path_bounds.h"
 

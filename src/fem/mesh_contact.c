@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "fem/mesh_faces.h"
+#include "fem/mesh_pieces.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
@@ -72,7 +73,8 @@ bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, E
 
 void mesh_contact_destroy(MeshContact *contact)
 {
-    memory_free_all(contact->pads, contact->nodes, contact->pad_of);
+    for (int32_t g = 0; g < contact->group_count; g++) mesh_pieces_destroy(&contact->groups[g]);
+    memory_free_all(contact->groups, contact->pads, contact->nodes, contact->pad_of);
     *contact = (MeshContact){0};
 }
 
@@ -89,24 +91,38 @@ static int compare_starts(const void *a, const void *b, void *context)
     return compare_places(&first->nodes[0], &second->nodes[0], context);
 }
 
+// Appends the connected pieces of the boundary called `name`.
+static bool add_group(const Mesh *mesh, const char *name, MeshContact *contact, Error *err)
+{
+    MeshBoundary whole;
+    return mesh_boundary(mesh, name, &whole, err) &&
+           mesh_pieces_find(mesh, &whole, &contact->groups[contact->group_count++], err);
+}
+
 // Fills contact->pads from the names, or from every boundary that is called a contact.
 static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t count,
                       MeshContact *contact, Error *err)
 {
-    int32_t most = count > mesh->group_count ? count : mesh->group_count;
-    if (!(contact->pads = NEW_ARRAY(MeshBoundary, most, err))) return false;
+    int32_t most = count > 0 ? count : mesh->group_count + 1;
+    if (!(contact->groups = memory_array(most, sizeof *contact->groups, err)))
+        return false;
     for (int32_t k = 0; k < count; k++)
-        if (!mesh_boundary(mesh, names[k], &contact->pads[contact->pad_count++], err)) return false;
-    if (count > 0) return true;
-    for (int32_t g = 0; g < mesh->group_count; g++)
+        if (!add_group(mesh, names[k], contact, err)) return false;
+    for (int32_t g = 0; g < mesh->group_count && count == 0; g++)
         if (mesh->groups[g].dimension == mesh->dim - 1 && is_contact_name(mesh->groups[g].name) &&
-            !mesh_boundary(mesh, mesh->groups[g].name, &contact->pads[contact->pad_count++], err))
+            !add_group(mesh, mesh->groups[g].name, contact, err))
             return false;
-    MeshBoundary none;
+    if (contact->group_count == 0 && !add_group(mesh, "contact", contact, err)) return false;
+    for (int32_t g = 0; g < contact->group_count; g++)
+        contact->pad_count += contact->groups[g].count;
+    if (!(contact->pads = NEW_ARRAY(MeshBoundary, contact->pad_count, err))) return false;
+    MeshBoundary *pad = contact->pads;
+    for (int32_t g = 0; g < contact->group_count; g++)
+        for (int32_t p = 0; p < contact->groups[g].count; p++) *pad++ = contact->groups[g].piece[p];
     Mesh order = *mesh;   // qsort_r takes no const
-    if (contact->pad_count == 0 && !mesh_boundary(mesh, "contact", &none, err)) return false;
-    qsort_r(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads, compare_starts,
-            &order);
+    if (count == 0)
+        qsort_r(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads, compare_starts,
+                &order);
     return error_is_clean(err);
 }
 

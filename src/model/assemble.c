@@ -4,7 +4,7 @@
 #include "model/assemble.h"
 
 #include "base/clock.h"
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "model/regions.h"
 #include "model/shape_cache.h"
 

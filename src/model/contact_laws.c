@@ -2,7 +2,8 @@
 #include "model/contact_laws.h"
 
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "fem/mesh_pieces.h"
+#include "friction/friction_state.h"
 #include "model/place_formula.h"
 #include "scene/contact_laws.h"
 
@@ -76,13 +77,15 @@ static bool take_mean(Part part, bool plane, const char *text, double *factor, E
     return true;
 }
 
-// The item of the curve on which node i lies; NULL: none.
+// The item of the piece of contact on which node i lies, else of its group; NULL: none.
 static const SceneContactLaw *item_of(const Model *model, int32_t i)
 {
     const SceneContactLaws *laws = &model->scene->contact_laws;
     const char *name = model->interface.pad_name[model->interface.pad[i]];
     for (int32_t k = 0; k < laws->count; k++)
         if (strcmp(laws->item[k].group, name) == 0) return &laws->item[k];
+    for (int32_t k = 0; k < laws->count; k++)
+        if (mesh_piece_is_of(name, laws->item[k].group)) return &laws->item[k];
     return NULL;
 }
 
@@ -93,7 +96,7 @@ static bool check_groups(const Model *model, Error *err)
     for (int32_t k = 0; k < laws->count; k++) {
         bool found = false;
         for (int32_t p = 0; p < interface->pad_count; p++)
-            found = found || strcmp(interface->pad_name[p], laws->item[k].group) == 0;
+            found = found || mesh_piece_is_of(interface->pad_name[p], laws->item[k].group);
         if (!found)
             return REFUSE(err, "`%s` is no contact group; the first is `%s`, of %d",
                           laws->item[k].group, interface->pad_name[0], interface->pad_count);

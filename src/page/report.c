@@ -6,7 +6,7 @@
 #include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
-#include "run/pictures.h"
+#include "run/result/pictures.h"
 
 #include <unistd.h>
 

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"
-#include "run/result_folder.h"
+#include "run/result/result_folder.h"
 
 #include <limits.h>
 #include <math.h>

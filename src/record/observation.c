@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "record/observation.h"
 
-#include "base/dense.h"
-#include "contact/friction_state.h"
+#include "algebra/dense.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <assert.h>

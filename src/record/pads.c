@@ -19,8 +19,7 @@ static const PadCycle NOTHING_YET = {.normal_force = NAN,
                                      .t_rapid = NAN,
                                      .slow_length = NAN};
 
-// interface is read only here and is not kept; events is borrowed. One contact curve is one pad: a
-// plain block has one.
+// interface is read only here and is not kept; events is borrowed. A plain block has one pad.
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err)
 {
     *pads = (Pads){.events = events, .contact_count = interface->contact_count, .mu = -INFINITY};

@@ -5,7 +5,7 @@
 // of it, orthonormal in K, and is multiplied by the mesh.
 #include "reduction/basis.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <math.h>

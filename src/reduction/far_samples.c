@@ -3,7 +3,7 @@
 // inertia leaves something of them far from the interface downwards, at last with all viscosities.
 #include "reduction/far_samples.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "reduction/factored_points.h"

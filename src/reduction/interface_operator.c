@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The full operator leaves all to base/sparse, which reads S out of CHOLMOD's factor, the reduced
-// one to reduction/reduced_operator. Callers do not know which of the two they have (a test
+// The full operator leaves all to algebra/sparse, which reads S out of CHOLMOD's factor, the
+// reduced one to reduction/reduced_operator. Callers do not know which of the two they have (a test
 // compares them). Unknowns of the full system are those of the mesh; of the reduced one the
 // interface's come first, then the interior's coordinates q.
 #include "reduction/interface_operator.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -172,8 +172,8 @@ static double combine_sparse(BulkOperator *system, OperatorTerms terms)
     return largest;
 }
 
-// S is the square of the factor's last block (base/sparse); lifting the border's diagonal adds the
-// same to S, and is taken off again.
+// S is the square of the factor's last block (algebra/sparse); lifting the border's diagonal adds
+// the same to S, and is taken off again.
 static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
 {
     BulkOperator *system = condensed->system;

@@ -12,7 +12,7 @@
 // with the smallest number of new vectors.
 #include "reduction/reduction.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "reduction/basis.h"
 #include "reduction/factored_points.h"

@@ -9,7 +9,7 @@
 // Linear Algebra Appl. 425, 2007.)
 #include "reduction/responses.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 // in.
 #include "reduction/transform.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <math.h>

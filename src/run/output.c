@@ -5,9 +5,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "io/files/open_file.h"
-#include "run/pictures.h"
+#include "run/result/pictures.h"
 #include "run/warnings.h"
 #include "scene/window.h"
 
@@ -43,16 +43,20 @@ static bool add_faces(const ContactFaces *faces, ResultHead *head, double **poin
     return true;
 }
 
-// A line each, those of the scene's formulas.
-static const char *state_names(const Scene *scene, char *names, size_t size)
+// A line for each of `count`: those of the scene's formulas by their names; and their unit.
+static const char *state_names(const Scene *scene, int32_t count, char *names, size_t size)
 {
-    const SceneStates *states = &scene->own_friction.states;
+    const SceneStates *own = &scene->own_friction.states;
+    bool part = scene->friction.kind == FRICTION_SLIP_WEAKENING;
+    bool plugin = scene->friction.kind == FRICTION_PLUGIN;
     names[0] = 0;
-    for (int32_t k = 0; k < states->count; k++) {
+    for (int32_t k = 0; k < count; k++) {
         size_t used = strlen(names);
-        snprintf(names + used, size - used, "%s%s", k > 0 ? "\n" : "", states->state[k].name);
+        const char *name = k < own->count ? own->state[k].name : part ? "phi" : "theta";
+        used += (size_t)snprintf(names + used, size - used, "%s%s", k > 0 ? "\n" : "", name);
+        if (plugin) snprintf(names + used, size - used, "_%d", k + 1);
     }
-    return names;
+    return own->count > 0 || plugin ? "its own" : part ? "1" : "time";
 }
 
 // mu_M and l_c are NaN in the head: they are known at the end only.
@@ -69,7 +73,8 @@ static bool open_history(Simulation *simulation, Error *err)
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
         .states = simulation->contact.states,
-        .state_names = state_names(scene, names, sizeof names),
+        .state_names = names,
+        .state_unit = state_names(scene, simulation->contact.states, names, sizeof names),
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_TRAILING] = simulation->model.scales.trailing,

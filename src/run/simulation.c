@@ -4,7 +4,7 @@
 #include "run/simulation_state.h"
 
 #include "base/clock.h"
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "model/obtain.h"
 #include "run/checkpoint.h"

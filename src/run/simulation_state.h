@@ -18,7 +18,7 @@
 #include "record/steady.h"
 #include "record/turning.h"
 #include "run/kept_states.h"
-#include "run/result_folder.h"
+#include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
 
 // The largest of each kind of error over a run's accepted steps, relative (record/observation).

@@ -5,7 +5,7 @@
 #include "run/start.h"
 
 #include "base/clock.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "model/step_rule.h"
 #include "scene/programs.h"
 #include "stepping/relaxation.h"

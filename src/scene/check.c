@@ -4,7 +4,7 @@
 #include "scene/check.h"
 
 #include "amontons.h"
-#include "contact/friction_make.h"
+#include "friction/friction_make.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
 #include "scene/window.h"

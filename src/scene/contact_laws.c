@@ -4,9 +4,9 @@
 #include "scene/contact_laws.h"
 
 #include "base/memory.h"
-#include "contact/friction_look.h"
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_look.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 #include "scene/own_law.h"
 
 #include <stdio.h>

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-// Choices stand in the order of their enums in scene/scene.h and contact/friction_law.h.
+// Choices stand in the order of their enums in scene/scene.h and friction/friction_law.h.
 static const char *const law_choices[] = {
 #define X(symbol, name) name,
     FRICTION_LAWS(X)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/own_law.h"
 
-#include "contact/friction_look.h"
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_look.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 #include "scene/materials.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "stepping/certificate.h"
 
 #include "base/clock.h"
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "stepping/weakening_ratio.h"
 

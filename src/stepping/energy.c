@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stepping/energy.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "contact/slip.h"
 
 #include <math.h>

@@ -3,9 +3,9 @@
 // (stepping/explicit_sweep).
 #include "stepping/explicit_reference.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>

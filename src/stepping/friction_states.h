@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// States of friction that remembers (contact/friction_memory), stepped by the scheme's own tableau
+// States of friction that remembers (friction/friction_memory), stepped by the scheme's own tableau
 // and eliminated node by node: stage i of a step dt has
 //
 //     theta_i = theta_i* + gamma dt g(|v_i|, theta_i),   theta_i* = theta_n + dt sum_j<i a_ij g_j

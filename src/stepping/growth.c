@@ -16,9 +16,9 @@
 // keep_rate drops the second.
 #include "stepping/growth.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "stepping/weakening_ratio.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "stepping/moving_set.h"
 
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>

@@ -21,15 +21,15 @@
 // first unknown is then along the slip, with weakening and damper of the plane, its second across,
 // with the damper mu r_n/s. Pressure follows slip along d only.
 //
-// Where friction remembers (contact/friction_memory) a disturbance theta' of its state follows that
-// of the slip rate: d theta'/dt = g_v v'_t + g_theta theta', and friction changes by mu_v v'_t +
-// mu_theta theta'. On exp(s t) that is a weakening that depends on s,
+// Where friction remembers (friction/friction_memory) a disturbance theta' of its state follows
+// that of the slip rate: d theta'/dt = g_v v'_t + g_theta theta', and friction changes by mu_v v'_t
+// + mu_theta theta'. On exp(s t) that is a weakening that depends on s,
 //
 //     w(s) = -r_n (mu_v + mu_theta g_v/(s - g_theta)) = w + memory/(s + fading),
 //     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
 //
 // a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
-// `fading`. Of several states w(s) - w is that of a small system (contact/friction_state).
+// `fading`. Of several states w(s) - w is that of a small system (friction/friction_state).
 //
 // A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).

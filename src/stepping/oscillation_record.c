@@ -2,7 +2,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 // Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at

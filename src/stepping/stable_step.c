@@ -4,7 +4,7 @@
 // tridiagonal matrix by counting signs (Sturm) and halving.
 #include "stepping/stable_step.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -65,7 +65,7 @@ CONSTANTS = [
         ("NEAR", "what counts as on the path, or on a bound, of the scales", "rounding, with room"),
         ("ASIDE", "how far Newton may lead from the tangent, of a step", HERE),
         ("CORRECTIONS", "Newton steps back onto the path", HERE)),
-    *of("contact/friction_law.c",
+    *of("friction/friction_law.c",
         ("BEND", "how far a slip rate may go in a step, of v_c", HERE),
         ("SPENT", "rate at which a node that starts fast is tried, of v_c, exponential law", HERE)),
     *of("contact/rod.c",
@@ -139,29 +139,29 @@ NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
     "contact/path_bounds.c": {"CONDITIONS": "a node has no more"},
     "contact/path_bounds.h": {"PATH_AT_END": "a name", "PATH_AT_NO_BOUND": "a name"},
-    "contact/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
-    "contact/friction_memory.c": {
+    "friction/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
+    "friction/friction_memory.c": {
         "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's: all digits",
         "HALVINGS": "of a step: all digits", "NEAR": "Newton's next step is its square, which is rounding",
         "ROUNDING": ROUNDING, "BEFORE_STATES": "of v and p", "MANY": "a first guess beyond the weakening, as SPENT"},
-    "contact/friction_memory.h": {"STATES_MAX": SIZE},
-    "contact/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
-    "contact/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
-    "contact/friction_start.c": {
-        "SLIGHT": "as in contact/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
+    "friction/friction_memory.h": {"STATES_MAX": SIZE},
+    "friction/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
+    "friction/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
+    "friction/friction_start.c": {
+        "SLIGHT": "as in friction/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
         "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
-    "contact/friction_law.c": {
+    "friction/friction_law.c": {
         "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
                 "tests/property/test_contact_problems.c",
         "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
-    "contact/friction_look.c": {
+    "friction/friction_look.c": {
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
         "STEP": "of differences: half the digits", "SLOPE_ERROR": "that differences leave",
         "CHANGED": "1 - 1/e: v_c of the exponential law", "SPENT_PART": "as of the exponential law",
         "SLIGHT": "rounding of a formula's bounds", "PEAK": "that a wide peak is met to",
         "LOOKED_MAX": "pieces that take some 10 ms", "PIECES_MAX": SIZE},
-    "contact/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
+    "friction/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},

@@ -11,7 +11,7 @@
 // again a contact problem, which the program's own solver solves; v and r are put back at the end.
 #include "mistake.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/contact_solver.h"
 

@@ -5,7 +5,7 @@
 
 #include "reduction/machine.h"
 #include "fem/mesh.h"
-#include "contact/friction_pace.h"
+#include "friction/friction_pace.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"

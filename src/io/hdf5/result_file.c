@@ -118,14 +118,13 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const 
 {
     char words[200];
     bool space = head->tangents > 1, states = row == &series_rows[SERIES_STATE];
+    const char *unit = space ? unit_in_space(row) : row->unit;
+    if (states && head->state_unit) unit = head->state_unit;
     int32_t components = row_components(row, head);
     const char *more = states ? "; then the next state" : "; then the same along y";
     snprintf(words, sizeof words, "%s%s", row->description, components > 1 ? more : "");
-    ArraySeries series = {.name = row->name,
-                          .type = row->type,
-                          .width = width,
-                          .unit = space ? unit_in_space(row) : row->unit,
-                          .description = words};
+    ArraySeries series = {
+        .name = row->name, .type = row->type, .width = width, .unit = unit, .description = words};
     return array_file_add_vectors(file, &series, components, err);
 }
 
@@ -140,6 +139,9 @@ static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err
     if (head->pads && !array_file_set_text(file, "pads", head->pads, err)) return false;
     if (head->state_names && *head->state_names &&
         !array_file_set_text(file, "states", head->state_names, err))
+        return false;
+    if (head->state_unit && head->states > 0 &&
+        !array_file_set_text(file, "state_unit", head->state_unit, err))
         return false;
     if (head->tangents > 1 &&
         !array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err))
@@ -277,6 +279,11 @@ static bool read_column(ArrayFile *file, const char *name, double **values, int3
 bool result_file_has_faces(ArrayFile *file)
 {
     return array_file_has(file, faces_rows[FACES_NODES].name);
+}
+
+bool result_file_remembers(ArrayFile *file)
+{
+    return array_file_has(file, series_rows[SERIES_STATE].name);
 }
 
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,

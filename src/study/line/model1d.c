@@ -8,10 +8,10 @@
 #include "study/line/model1d.h"
 
 #include "base/clock.h"
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
-#include "run/result_folder.h"
+#include "friction/friction_state.h"
+#include "run/result/result_folder.h"
 
 #include <math.h>
 #include <stdio.h>

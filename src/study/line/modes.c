@@ -8,7 +8,7 @@
 // The paper keeps X's diagonal alone. Solved as the companion matrix [ 0 1; -K/rho -(C - W)/rho ].
 #include "study/line/model1d.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -90,14 +90,15 @@ static bool next_accuracy(const Search *search, Design *design)
     const Optimise *self = search->judge.context;
     double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
     double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
+    double has = fmin(asked, came_out);
     if (!design->has_bar || came_out > MISSED_BY_FAR * asked) design->settled = true;
-    if (design->settled || !(limit > 0) || asked <= limit) return false;
-    design->accuracy = fmax(fmin(asked, came_out) / 2, limit);
+    if (design->settled || !(limit > 0) || has <= limit) return false;
+    design->accuracy = fmax(has / 2, limit);
     return true;
 }
 
-// Of those not in `taken` the design that may be the highest, if it may be above the value of the
-// best: one below may still be as good, by the bar of the best, but computing it does not tell.
+// Of those not in `taken` the design that may be the highest, if a smaller bar about its value
+// would make it the best. One that would have to come out above its value, too, is left as it is.
 static int32_t next_leader(const Search *search, int32_t best, const bool *taken)
 {
     double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
@@ -105,7 +106,7 @@ static int32_t next_leader(const Search *search, int32_t best, const bool *taken
     for (int32_t d = 0; d < search->designs.count; d++) {
         const Design *one = &search->designs.list[d];
         double reach = sign * one->value + one->bar;
-        if (taken[d] || !(reach >= sign * search->designs.list[best].value)) continue;
+        if (taken[d] || !designs_may_lead(&search->designs, best, d)) continue;
         if (reach > top) top = reach, leader = d;
     }
     return leader;

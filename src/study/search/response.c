@@ -3,7 +3,7 @@
 // Gauss-Newton steps (Marquardt, SIAM J. Appl. Math. 11, 431 (1963)), kept within the ranges.
 #include "study/search/response.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/order.h"
 

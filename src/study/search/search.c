@@ -189,7 +189,8 @@ static bool add_start(Search *search, Error *err)
     return !within || search_add(search, x, &search->start, err);
 }
 
-// What the chooser is told of a design that is refused or comes to nothing.
+// What the chooser is told of a design that is refused or comes to nothing, and the least it is
+// told of one whose bar is nearly its value.
 static double below_the_worst(const Search *search)
 {
     double low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;
@@ -202,15 +203,17 @@ static double below_the_worst(const Search *search)
     return low <= high ? low - REFUSED * (high - low) : 0;
 }
 
-static double told_of(const Search *search, double value)
+// design: -1: none.
+static double told_of(const Search *search, int32_t design)
 {
-    double sign = search->designs.lowest ? -1 : 1;
-    return isnan(value) ? below_the_worst(search) : sign * search->judge.told(value);
+    double sure = NAN, sign = search->designs.lowest ? -1 : 1;
+    if (design >= 0) sure = design_sure(&search->designs, &search->designs.list[design]);
+    return fmax(sign * search->judge.told(sure), below_the_worst(search));
 }
 
-static bool tell(Search *search, int32_t choice, double value, Error *err)
+static bool tell(Search *search, int32_t choice, int32_t design, Error *err)
 {
-    return search->module->tell(search->chooser, choice, told_of(search, value), err);
+    return search->module->tell(search->chooser, choice, told_of(search, design), err);
 }
 
 static double on_lattice(const Search *search, double x, double least, double most)
@@ -243,7 +246,7 @@ static bool choose(Search *search, bool *added, Error *err)
         if (design >= 0)
             search->designs.list[design].choice = number;
         else
-            TRY(tell(search, number, known < 0 ? NAN : search->designs.list[known].value, err));
+            TRY(tell(search, number, known, err));
     }
     *added = design >= 0;
 cleanup:
@@ -269,7 +272,7 @@ static bool open_chooser(Search *search, Error *err)
         const Design *one = &search->designs.list[d];
         for (int32_t k = 0; k < n; k++)
             places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
-        values[d] = told_of(search, one->value);
+        values[d] = told_of(search, d);
     }
     ChooserSpace space = {n, least, most, whole, keys->seed, count, places, values};
     ChooserModuleFunction module =
@@ -297,8 +300,7 @@ bool search_designs(Search *search, int32_t count, Error *err)
         }
         if (!search_compute_from(search, first, err)) return false;
         for (int32_t d = first; d < search->designs.count; d++)
-            if (!tell(search, search->designs.list[d].choice, search->designs.list[d].value, err))
-                return false;
+            if (!tell(search, search->designs.list[d].choice, d, err)) return false;
     }
     return true;
 }

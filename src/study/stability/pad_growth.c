@@ -22,9 +22,9 @@
 // together resist more, so a pad runs away by itself only where that ratio > 1.
 #include "study/stability/stability.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 #include "record/pad_sums.h"
 

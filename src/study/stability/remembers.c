@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Friction that remembers on the quasi-static path. The path's rod goes at a velocity of its own,
-// so its laws are put on the path's clock (contact/friction_pace): what they say there of mu and of
-// the part of a way that is forgotten is what the scene's rod meets. States are looked at in the
+// so its laws are put on the path's clock (friction/friction_pace): what they say there of mu and
+// of the part of a way that is forgotten is what the scene's rod meets. States are looked at in the
 // scene's time.
 #include "study/stability/stability.h"
 
 #include "base/memory.h"
-#include "contact/friction_pace.h"
-#include "contact/friction_state.h"
+#include "friction/friction_pace.h"
+#include "friction/friction_state.h"
 
 #include <math.h>
 

@@ -13,9 +13,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
-#include "run/result_folder.h"
+#include "run/result/result_folder.h"
 
 #include <math.h>
 #include <stdio.h>

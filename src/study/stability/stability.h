@@ -4,7 +4,7 @@
 // the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
 // growth rates of the state just before are computed (stepping/growth). Or, without a path, those
 // of the state in which the scene's own run ends.
-// Friction that remembers is on the path's clock (contact/friction_pace): states and mu are those
+// Friction that remembers is on the path's clock (friction/friction_pace): states and mu are those
 // of the scene's V. amontons_stability is the entry; this is what its files share.
 #ifndef AMONTONS_STUDY_STABILITY_STABILITY_H
 #define AMONTONS_STUDY_STABILITY_STABILITY_H

@@ -4,7 +4,7 @@
 #include "study/sweep/sweep.h"
 
 #include "base/clock.h"
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "io/files/folder.h"
 #include "io/files/open_file.h"

@@ -127,7 +127,7 @@ static void write_history_table(FILE *out)
     fputs("\n| attribute of the file | unit | what it holds |\n|---|---|---|\n", out);
     fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
           "| `version` | text | of amontons |\n"
-          "| `pads` | text | names of the contact curves by their numbers in `nodes/pad`, a line "
+          "| `pads` | text | names of the pads by their numbers in `nodes/pad`, a line "
           "each |\n"
           "| `warnings` | text | what the run was warned of, a line each; absent: of nothing |\n",
           out);

@@ -5,8 +5,8 @@
 // excluded no rate is real; growth_rates finds what there is. Pressure follows slip in the last
 // two.
 #include "base/memory.h"
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 
 #include "certificate_rig.h"
 #include "dense_by_hand.h"

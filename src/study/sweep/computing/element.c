@@ -12,7 +12,7 @@
 // answer another question.
 #include "study/sweep/computing/element.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What steady slip at V asks of a spring, against (b - a) N/D_c and its like; how fast it forgets.
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 #include "path_by_hand.h"
 
 static const double V = 1e-4;

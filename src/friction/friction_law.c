@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Everything that depends on the kind of a law, each a switch over the kinds. Slopes are what
+// Newton's derivative (contact/contact_equations) and the certificate's W (stepping/certificate)
+// need; tests/unit/friction/test_friction_law.c compares them with differences of the coefficient.
+#include "friction/friction_law.h"
+
+#include <math.h>
+#include <stddef.h>
+
+FrictionLaw friction_constant(double mu)
+{
+    return (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = mu};
+}
+
+FrictionLaw friction_scaled(const FrictionLaw *law, double factor)
+{
+    FrictionLaw scaled = *law;
+    scaled.mu_static *= factor;
+    scaled.mu_kinetic *= factor;
+    scaled.steepest *= factor;
+    scaled.bend *= factor;
+    scaled.fall *= factor;
+    scaled.factor *= factor;
+    if (law->remembers) scaled.own.memory.factor *= factor;
+    return scaled;
+}
+
+FrictionLaw friction_spread(const FrictionLaw *each, int32_t count)
+{
+    FrictionLaw law = each[0];
+    double largest = 0, critical = INFINITY;
+    for (int32_t i = 0; i < count; i++) {
+        if (friction_drop(&each[i]) > friction_drop(&law)) law = each[i];
+        largest = fmax(largest, each[i].mu_static);
+        if (friction_drop(&each[i]) > 0) critical = fmin(critical, each[i].critical_velocity);
+    }
+    double drop = friction_drop(&law);
+    law.mu_static = largest;
+    law.mu_kinetic = friction_has_drop(&law) ? largest - drop : largest;
+    if (isfinite(critical)) law.critical_velocity = critical;
+    law.each = each;
+    return law;
+}
+
+bool friction_everywhere(const FrictionLaw *law, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++)
+        if (!(friction_at(law, i)->mu_static > 0)) return false;
+    return true;
+}
+
+const char *friction_kind_name(FrictionKind kind)
+{
+    switch (kind) {
+#define X(symbol, name)                                                                            \
+    case symbol:                                                                                   \
+        return name;
+        FRICTION_LAWS(X)
+#undef X
+    }
+    return "unknown";
+}
+
+const char *friction_law_name(const FrictionLaw *law)
+{
+    return friction_kind_name(law->kind);
+}
+
+bool friction_is_own(const FrictionLaw *law)
+{
+    switch (law->kind) {
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return true;
+    case FRICTION_LINEAR_WEAKENING:
+    case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_COULOMB:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        break;
+    }
+    return false;
+}
+
+bool friction_has_drop(const FrictionLaw *law)
+{
+    switch (law->kind) {
+    case FRICTION_LINEAR_WEAKENING:
+    case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        return true;
+    case FRICTION_COULOMB:
+        break;
+    }
+    return false;
+}
+
+// Of a law that has one, without memory.
+static inline double drop_of(const FrictionLaw *law)
+{
+    return law->mu_static - law->mu_kinetic;
+}
+
+// With memory that of its numbers, whatever its state.
+static double lasting_drop(const FrictionLaw *law)
+{
+    const FrictionMemory *memory = &law->own.memory;
+    return law->remembers ? memory->factor * (memory->mu_static - memory->mu_kinetic)
+                          : drop_of(law);
+}
+
+double friction_drop(const FrictionLaw *law)
+{
+    return friction_has_drop(law) ? fmax(lasting_drop(law), law->fall) : 0;
+}
+
+double friction_slip(const FrictionLaw *law, double pressure, double height, double young)
+{
+    double drop = friction_drop(law);
+    if (drop <= 0) drop = law->mu_static > 0 ? law->mu_static : 1;
+    return drop * pressure * height / young;
+}
+
+// One's own law up to its end.
+static double own_value(const FrictionLaw *law, double speed, double *slope)
+{
+    const FrictionPlugin *plugin = &law->own.plugin;
+    if (law->kind == FRICTION_FORMULA) return formula_at(&law->own.formula, speed, slope);
+    if (law->kind == FRICTION_TABLE) {
+        const FrictionTable *table = &law->own.table;
+        return friction_table_at(table, friction_table_interval(table, speed), speed, slope);
+    }
+    *slope = plugin->slope(&plugin->given, speed);
+    return plugin->coefficient(&plugin->given, speed);
+}
+
+// The same at every speed.
+static double own_law(const FrictionLaw *law, double speed, double *slope)
+{
+    double mu = own_value(law, fmin(speed, law->end), slope);
+    *slope = speed < law->end ? law->factor * *slope : 0;
+    return law->factor * mu;
+}
+
+// Two functions that are not inlined: the built-in laws, asked some million times in a run, need no
+// stack.
+static __attribute__((noinline)) double own_coefficient(const FrictionLaw *law, double speed)
+{
+    double ignored;
+    return own_law(law, speed, &ignored);
+}
+
+static __attribute__((noinline)) double own_slope(const FrictionLaw *law, double speed)
+{
+    double slope;
+    own_law(law, speed, &slope);
+    return slope;
+}
+
+static __attribute__((noinline)) double remembered_slope(const FrictionLaw *law, double speed)
+{
+    double slope;
+    memory_coefficient(&law->own.memory, speed, &slope);
+    return slope;
+}
+
+// Continuous at v_c, where the linear law has its kink.
+double friction_coefficient(const FrictionLaw *law, double speed)
+{
+    if (law->remembers) return memory_coefficient(&law->own.memory, speed, NULL);
+    switch (law->kind) {
+    case FRICTION_LINEAR_WEAKENING:
+        if (speed >= law->critical_velocity) return law->mu_kinetic;
+        return law->mu_static - drop_of(law) * speed / law->critical_velocity;
+    case FRICTION_EXPONENTIAL_WEAKENING:
+        return law->mu_kinetic + drop_of(law) * exp(-speed / law->critical_velocity);
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return own_coefficient(law, speed);
+    case FRICTION_COULOMB:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        break;
+    }
+    return law->mu_static;
+}
+
+// At v_c itself the linear law gives 0, so that a node exactly there counts as one that weakens no
+// more.
+double friction_slope(const FrictionLaw *law, double speed)
+{
+    if (law->remembers) return remembered_slope(law, speed);
+    switch (law->kind) {
+    case FRICTION_LINEAR_WEAKENING:
+        return speed < law->critical_velocity ? -drop_of(law) / law->critical_velocity : 0.0;
+    case FRICTION_EXPONENTIAL_WEAKENING:
+        return -drop_of(law) / law->critical_velocity * exp(-speed / law->critical_velocity);
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return own_slope(law, speed);
+    case FRICTION_COULOMB:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        break;
+    }
+    return 0.0;
+}
+
+double friction_steepest(const FrictionLaw *law)
+{
+    if (law->remembers && law->own.memory.creeps) return law->steepest;
+    if (friction_is_own(law) && !law->remembers) return law->steepest;
+    return fmax(-friction_slope(law, 0), law->steepest);
+}
+
+// Ageing: a product of falling convex factors, ln(1 + c/(1 + x)) one of them.
+bool friction_is_convex(const FrictionLaw *law)
+{
+    return !friction_is_own(law) && law->kind != FRICTION_RATE_STATE;
+}
+
+// One's own law has a kink at its end, beyond which it stays; a formula or plug-in may have more,
+// which nobody knows of.
+double friction_kink(const FrictionLaw *law, int32_t k)
+{
+    if (law->remembers && friction_is_own(law)) return INFINITY;
+    switch (law->kind) {
+    case FRICTION_LINEAR_WEAKENING:
+    case FRICTION_AGEING:
+        return k == 0 ? law->critical_velocity : INFINITY;
+    case FRICTION_TABLE:
+        if (law->own.table.straight)
+            return k + 1 < law->own.table.count ? law->own.table.speed[k + 1] : INFINITY;
+        return k == 0 ? law->end : INFINITY;
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return k == 0 ? law->end : INFINITY;
+    case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_COULOMB:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        break;
+    }
+    return INFINITY;
+}
+
+int32_t friction_piece(const FrictionLaw *law, double speed)
+{
+    int32_t piece = 0;
+    while (speed >= friction_kink(law, piece)) piece++;
+    return piece;
+}
+
+// Either side of a kink is continued by its tangent.
+double friction_branch(const FrictionLaw *law, int32_t piece, double speed, double *slope)
+{
+    double low = piece > 0 ? friction_kink(law, piece - 1) : 0, high = friction_kink(law, piece);
+    if (!isfinite(low) || (speed >= low && speed < high)) {
+        *slope = friction_slope(law, speed);
+        return friction_coefficient(law, speed);
+    }
+    double from = low, mu;
+    if (speed >= high) from = nextafter(high, 0);
+    if (law->kind == FRICTION_LINEAR_WEAKENING) from = low;   // both sides are straight
+    mu = friction_coefficient(law, from);
+    *slope = friction_slope(law, from);
+    return mu + *slope * (speed - from);
+}
+
+static const double BEND = 0.5;   // of v_c, or of its speed: a node may go so far
+static const double TURN = 0.1;   // of the largest: the slope of one's own law may change so much
+
+// The last piece of a law with kinks is level, as is a law without a drop.
+bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to)
+{
+    bool last = piece > 0 && !isfinite(friction_kink(law, piece)) && !law->remembers;
+    double before, after, bends = law->critical_velocity;
+    if (law->remembers && law->own.memory.reach * law->own.memory.slip_distance > 0)
+        bends = fmin(bends, law->own.memory.slip_distance / law->own.memory.reach);
+    if (last || !(friction_drop(law) > 0 || law->bend > 0)) return true;
+    if (fabs(to - from) > BEND * fmax(bends, from)) return false;
+    if (friction_is_convex(law)) return true;
+    friction_branch(law, piece, from, &before);
+    friction_branch(law, piece, to, &after);
+    double bend = law->remembers ? fmax(fabs(after), fabs(before)) : law->bend;
+    return fabs(after - before) <= TURN * bend;
+}
+
+// Exponential weakening never ends but by underflow: there is no speed from which on a node is
+// safe.
+bool friction_weakens(const FrictionLaw *law, double speed)
+{
+    if (law->remembers) {
+        double state[STATES_MAX], falls = 0;
+        FrictionRates rates;
+        memory_state(&law->own.memory, speed, state);
+        memory_rates(&law->own.memory, speed, state, &rates);
+        for (int32_t k = 0; k < rates.states; k++) falls += rates.mu_state[k] * rates.rate[k];
+        return rates.mu_speed < 0 || falls < 0;
+    }
+    return friction_slope(law, speed) < 0.0;
+}
+
+bool friction_strengthens(const FrictionLaw *law)
+{
+    return law->strengthens;
+}
+
+// Of v_c: where exp(-5) is left of the exponential law's drop, under 1 %.
+static const double SPENT = 5;
+
+double friction_spent_speed(const FrictionLaw *law)
+{
+    if (law->remembers) return memory_spent_speed(&law->own.memory);
+    switch (law->kind) {
+    case FRICTION_LINEAR_WEAKENING:
+        return law->critical_velocity;
+    case FRICTION_EXPONENTIAL_WEAKENING:
+        return SPENT * law->critical_velocity;
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return law->spent;
+    case FRICTION_COULOMB:
+    case FRICTION_AGEING:
+    case FRICTION_SLIP_WEAKENING:
+    case FRICTION_RATE_STATE:
+        break;
+    }
+    return 0;
+}
+
+// Solves mu = mu_K + (mu_S - mu_K) phi for phi <= 1: 1 at rest, 0 from v_c on, and for the linear
+// law just the paper's 1 - |v|/v_c.
+double friction_contact_density(const FrictionLaw *law, double speed)
+{
+    double drop = friction_has_drop(law) ? lasting_drop(law) : 0;
+    double left = drop > 0 ? (friction_coefficient(law, speed) - law->mu_kinetic) / drop : 1.0;
+    return fmin(fmax(left, 0), 1);
+}
+
+// Points of a table and fifteen between each two; else a hundred to a decade, over the twelve below
+// the law's end, as a formula may change anywhere.
+double friction_look_speed(const FrictionLaw *law, int32_t k)
+{
+    enum { BETWEEN = 16, DECADE = 100, DECADES = 12 };
+    int32_t last = law->kind == FRICTION_TABLE ? BETWEEN * (law->own.table.count - 1)
+                                               : DECADES * DECADE + 1;
+    if (k > last) return INFINITY;
+    if (k == last) return law->end;
+    if (law->kind != FRICTION_TABLE)
+        return k == 0 ? 0 : law->end * pow(10, (double)(k - last) / DECADE);
+    const double *speed = law->own.table.speed + k / BETWEEN;
+    return speed[0] + (speed[1] - speed[0]) * (k % BETWEEN) / BETWEEN;
+}
