@@ -46,11 +46,10 @@ static bool add_state(const SceneValue *value, SceneStates *states, Error *err)
     FrictionStateText *state = &states->state[states->count];
     *state = (FrictionStateText){0};
     if (!is_name(name) || is_taken(name))
-        return yaml_key_error(
-            document, value->node, err,
-            "friction.state: `%.40s` cannot be the name of a state; allowed: letters, "
-            "digits and _, at most 31, and not v, p or a function",
-            name);
+        return yaml_key_error(document, value->node, err,
+                              "friction.state: `%.40s` cannot be the name of a state; allowed: "
+                              "letters, digits and _, at most 31, and not v, p or a function",
+                              name);
     memcpy(state->name, name, strlen(name) + 1);
     if (yaml_kind(document, value->node) != YAML_MAP)
         return yaml_refuse(document, value->node, "friction.state",
