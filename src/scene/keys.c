@@ -13,7 +13,7 @@
 static const char *const units_choices[] = {"normalised", "si", NULL};
 static const char *const plane_choices[] = {"stress", "strain", NULL};
 static const char *const law_choices[] = {
-#define X(symbol, name) name,
+#define X(symbol, name, own, drops) name,
     FRICTION_LAWS(X)
 #undef X
         NULL};
