@@ -103,8 +103,10 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
     for (int32_t k = 0; k < source->state_count; k++) more[k + 1] = source->state[k].name;
     for (int32_t k = 0; k <= source->state_count; k++) {
         if (k == 0) *key = "formula";
-        TRY(formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
-                           &memory.formula, err));
+        bool read = formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
+                                   &memory.formula, err);
+        if (!read && k > 0) error_context(err, "%s, its rate", source->state[k - 1].name);
+        TRY(read);
         *key = "state";
         memory.ends[k + 1] = memory.formula.count;
     }
