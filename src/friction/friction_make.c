@@ -103,8 +103,10 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
     for (int32_t k = 0; k <= source->state_count; k++) {
         if (k == 0) *key = "formula";
         if (!formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
-                            &memory.formula, err))
+                            &memory.formula, err)) {
+            if (k > 0) error_context(err, "%s, its rate", source->state[k - 1].name);
             return false;
+        }
         *key = "state";
         memory.ends[k + 1] = memory.formula.count;
     }

@@ -233,6 +233,7 @@ NOT_A_CHOICE = {
                              "FACE_CELLS_MAX": "of a face", "whole": "of a face", "six": "of a face", "nine": "of a face"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
+    "record/turning.c": {"ROUNDING": ROUNDING},
     "record/regime.c": {"LAG": "of run-in: above", "TREND_DROPS": "of run-in: above"},
     "record/regime.h": {"DROPS_ENOUGH": "of run-in: above"},
     "record/answers.c": {"MEAN_ERROR": "what `time.until.periodic` promises without a period; half and twice changed nothing"},
