@@ -249,6 +249,12 @@ static bool choose(Search *search, bool *added, Error *err)
             TRY(tell(search, number, known, err));
     }
     *added = design >= 0;
+    if (search->designs.count == 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: none of %d designs within the ranges of `search` is within all limits of `where`: "
+            "widen one or the other",
+            search->study->path, TRIES_MAX);
 cleanup:
     return error_is_clean(err);
 }

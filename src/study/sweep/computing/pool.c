@@ -94,13 +94,14 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
 // --- in the parent ------------------------------------------------------------------------------
 
 // The child's pid is compared with ours after the fork (be_child): a parent that died in between
-// would leave it without one.
+// would leave it without one. What streams hold is written before: the child has a copy of them.
 static bool start_worker(Pool *pool, Worker *worker, Error *err)
 {
     int ends[2] = {-1, -1};
     pid_t parent = getpid();
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
         return FAULT(err, ERROR_FILE, "cannot open a socket: %s", strerror(errno));
+    fflush(NULL);
     *worker = (Worker){.process = fork(), .socket = ends[0], .point = -1};
     if (worker->process == 0) {
         close(ends[0]);

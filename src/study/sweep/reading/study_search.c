@@ -60,6 +60,9 @@ static bool read_limit(Study *study, YamlNode item, Error *err)
         if (keys[k].node != YAML_NO_NODE &&
             !study_plain_number(study, keys[k].node, k == 1 ? &limit->least : &limit->most))
             return yaml_refuse(study->file, keys[k].node, keys[k].name, "a number", err);
+    if (!(limit->least <= limit->most) || (isinf(limit->least) && isinf(limit->most)))
+        return yaml_refuse(study->file, item, "where", "`least`, `most`, or both, `most` not below",
+                           err);
     return error_is_clean(err);
 }
 
