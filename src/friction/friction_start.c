@@ -40,8 +40,8 @@ static bool look_at(const FrictionSource *source, const FrictionMemory *memory, 
     write_place(source, memory, speed, place, sizeof place);
     for (int32_t k = 0; k < memory->states; k++) {
         if (!isfinite(rates->rate[k]))
-            FAIL(err, ERROR_INPUT, "at %s the rate of a state is %g: not a finite number", place,
-                 rates->rate[k]);
+            FAIL(err, ERROR_INPUT, "at %s the rate of %s is %g: not a finite number", place,
+                 formula ? source->state[k].name : "a state", rates->rate[k]);
         finite += rates->mu_state[k] + rates->rate_speed[k];
         for (int32_t j = 0; j < memory->states; j++) finite += rates->rate_state[k][j];
     }
@@ -59,8 +59,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// memory->from becomes that of steady slip. false: none is found from there; it is as it was.
-static bool find_steady(FrictionMemory *memory, double speed)
+bool friction_find_steady(FrictionMemory *memory, double speed)
 {
     static const double STAYS = 1e-6;   // of a state: what the last, longest stage may change
     double state[STATES_MAX], began[STATES_MAX];
@@ -113,7 +112,10 @@ static bool find_start(const FrictionSource *source, FrictionMemory *memory, con
         memory->from[k] = 1;
         all = all && *state->start;
         if (!*state->start) continue;
-        TRY(formula_value(state->start, source->look_up, source->context, &memory->from[k], err));
+        bool read =
+            formula_value(state->start, source->look_up, source->context, &memory->from[k], err);
+        if (!read) error_context(err, "%s, its start", state->name);
+        TRY(read);
     }
     if (!all && !(source->rod_velocity > 0))
         FAIL(err, ERROR_INPUT,
@@ -121,7 +123,7 @@ static bool find_start(const FrictionSource *source, FrictionMemory *memory, con
              "remember");
     if (!all) TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
     *key = "state";
-    if (!all && !find_steady(memory, source->rod_velocity))
+    if (!all && !friction_find_steady(memory, source->rod_velocity))
         FAIL(err, ERROR_INPUT,
              "no state of steady slip is found at velocity %g: a `start` is needed",
              source->rod_velocity);
@@ -148,7 +150,7 @@ static bool look_along(const FrictionSource *source, FrictionMemory *memory, dou
         lost = fmax(lost, now);
         steady[k] = k == 0 ? NAN : rates.mu;
         if (memory->states == 0 || k == 0) continue;
-        found = find_steady(memory, speed);
+        found = friction_find_steady(memory, speed);
         steady[k] = NAN;
         if (!found) continue;
         TRY(look_at(source, memory, speed, &rates, key, err));

@@ -8,6 +8,7 @@
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"
+#include "record/program_results.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -187,7 +188,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     write_slip(json, report->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);
     if (simulation->model.interface.dim > 2) turning_write_json(&simulation->turning, json);
-    if (simulation->readings.course) program_readings_json(&simulation->readings, json);
+    if (simulation->readings.course) program_results_json(&simulation->readings, json);
     write_events(json, &simulation->events, &simulation->pads);
     json_end(json);
 }
