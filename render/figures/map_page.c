@@ -212,10 +212,10 @@ bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage
     for (int32_t first = 0, last = 0; first < view->nodes; first = ++last) {
         while (last + 1 < view->nodes && view->pad[last + 1] == view->pad[first]) ++last;
         for (int64_t row = 0; row < view->rows; ++row)
-            line[row] = row_is_shown(view, row, &map->axes.x)
-                            ? axes_place(&map->axes, view->U[row],
-                                         pad_front(view, row, first, last))
-                            : (Point){NAN, NAN};
+            line[row] =
+                row_is_shown(view, row, &map->axes.x)
+                    ? axes_place(&map->axes, view->U[row], pad_front(view, row, first, last))
+                    : (Point){NAN, NAN};
         draw_line(page->canvas, &stroke, line, view->rows);
     }
     canvas_clip(page->canvas, NULL);

@@ -136,8 +136,10 @@ static void blame(const ApartWork *work, int ending, const struct rusage *used, 
                   work->reader, (double)used->ru_maxrss / (1 << 20), work->advice);
     else
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s: %s crashes while reading it (%s): the file is damaged", work->path,
-                  work->reader, number ? strsignal(number) : "without a word");
+                  "%s: %s crashes while reading it (%s): the file is damaged, or asks for what %s "
+                  "cannot make",
+                  work->path, work->reader, number ? strsignal(number) : "without a word",
+                  work->reader);
 }
 
 // What the streams of this process hold is written before: the child has a copy of them.

@@ -89,11 +89,9 @@ int command_render(int argc, char **argv)
     const Option options[] = {
         {"figure", 'f', "NAME",
          "Draw only this picture: force, slip-map, contact-density, state-map (of friction that "
-         "remembers), contact-plane (of a block in space), precursors (length of slip over "
-         "F_T/F_N), "
-         "front-speed, field or field-strip (up to six frames of one sliding). May be given "
-         "several times; without it those that the "
-         "result has fields and events for, and those that --compare has data for",
+         "remembers), contact-plane (of a block in space), precursors (slip over F_T/F_N), "
+         "front-speed, field or field-strip (up to six frames of one sliding). May be given often; "
+         "without it those that the result has fields, events, states or --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
          "Draw these of force, slip-map, contact-density and state-map below each other, as "
@@ -108,9 +106,9 @@ int command_render(int argc, char **argv)
         {"plot", 0, "PLOT", "Of a sweep: draw this, as in '{x: load.pressure, y: mu_M}'",
          .word = &plot},
         {"of", 0, "FIELD",
-         "What `field` shows: von_mises (default), stress_xx, stress_zz, "
-         "stress_xz, pressure, velocity, displacement, strain_energy or "
-         "dissipation; `contact-plane`: slip_rate (default), contact_density, pressure, shear, "
+         "What `field` shows: von_mises (default), stress_xx, stress_zz, stress_xz, pressure, "
+         "velocity, displacement, strain_energy or dissipation; "
+         "`contact-plane`: slip_rate (default), contact_density, pressure, shear, "
          "shear_over_pressure, slip, arrival or a state by its name, as in theta",
          .word = &request.field.of},
         {"at", 0, "U=U",

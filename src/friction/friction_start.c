@@ -40,8 +40,8 @@ static bool look_at(const FrictionSource *source, const FrictionMemory *memory, 
     write_place(source, memory, speed, place, sizeof place);
     for (int32_t k = 0; k < memory->states; k++) {
         if (!isfinite(rates->rate[k]))
-            FAIL(err, ERROR_INPUT, "at %s the rate of a state is %g: not a finite number", place,
-                 rates->rate[k]);
+            FAIL(err, ERROR_INPUT, "at %s the rate of %s is %g: not a finite number", place,
+                 formula ? source->state[k].name : "a state", rates->rate[k]);
         finite += rates->mu_state[k] + rates->rate_speed[k];
         for (int32_t j = 0; j < memory->states; j++) finite += rates->rate_state[k][j];
     }
@@ -112,7 +112,10 @@ static bool find_start(const FrictionSource *source, FrictionMemory *memory, con
         memory->from[k] = 1;
         all = all && *state->start;
         if (!*state->start) continue;
-        TRY(formula_value(state->start, source->look_up, source->context, &memory->from[k], err));
+        bool read =
+            formula_value(state->start, source->look_up, source->context, &memory->from[k], err);
+        if (!read) error_context(err, "%s, its start", state->name);
+        TRY(read);
     }
     if (!all && !(source->rod_velocity > 0))
         FAIL(err, ERROR_INPUT,

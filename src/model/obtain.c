@@ -245,12 +245,11 @@ static bool reduction_pays(const Model *model)
 static bool check_rod(const Scene *scene, double reach, Error *err)
 {
     if (reach > 0.5 && scene->rod.kind == ROD_PUSH)
-        return REFUSE(
-            err,
-            "%s: rod.kind: push, but group `%s` is on the leading half of the block, which a rod "
-            "that moves along +x cannot push; let it pull there (rod.kind: bonded) or name the "
-            "trailing face (groups.rod)",
-            scene->path, scene->groups.rod);
+        return REFUSE(err,
+                      "%s: rod.kind: push, but group `%s` is on the leading half of the block, "
+                      "which a rod that moves along +x cannot push; let it pull there (rod.kind: "
+                      "bonded) or name the trailing face (groups.rod)",
+                      scene->path, scene->groups.rod);
     return true;
 }
 
@@ -261,11 +260,10 @@ static bool check_memory(const Model *model, Error *err)
     double bytes = model->is_reduced ? model->expected.bytes_reduced : model->expected.bytes_full;
     double have = model_memory_there();
     if (bytes > have && model->scene->time.scheme != SCHEME_EXPLICIT)
-        return REFUSE(
-            err,
-            "%s: %d contact nodes are too many for this computer: a run takes some %.0f GB of "
-            "memory, and there are %.1f; coarser cells at the contact are needed",
-            model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
+        return REFUSE(err,
+                      "%s: %d contact nodes are too many for this computer: a run takes some %.0f "
+                      "GB of memory, and there are %.1f; coarser cells at the contact are needed",
+                      model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
     return true;
 }
 

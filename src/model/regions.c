@@ -16,11 +16,10 @@ static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error 
     const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
     if (!group) return false;
     if (group->blurred)
-        return REFUSE(
-            err,
-            "%s: which elements belong to group '%s' cannot be told: another group has its "
-            "elementary number (save the mesh in format 4.1)",
-            mesh->path, name);
+        return REFUSE(err,
+                      "%s: which elements belong to group '%s' cannot be told: another group has "
+                      "its elementary number (save the mesh in format 4.1)",
+                      mesh->path, name);
     for (int32_t k = 0; k < group->element_count; k++) {
         int32_t e = group->elements[k];
         if (owner[e])
@@ -74,11 +73,10 @@ static bool check_locking(const Model *model, const uint8_t *is_mean, Error *err
     const Mesh *mesh = &model->mesh;
     for (int32_t e = 0; e < mesh->element_count; e++)
         if (mesh->kind[e] == ELEMENT_TET4 && is_mean[mesh_region(mesh, e)])
-            return REFUSE(
-                err,
-                "%s: TET4 lock in a material whose volume resists so much more than its shape; "
-                "take hexahedra, wedges or order 2",
-                mesh->path);
+            return REFUSE(err,
+                          "%s: TET4 lock in a material whose volume resists so much more than its "
+                          "shape; take hexahedra, wedges or order 2",
+                          mesh->path);
     return true;
 }
 

@@ -256,7 +256,7 @@ static bool is_time_up(const Accuracy *accuracy, Simulation *simulation, Error *
     *err = (Error){0};
     warnings_add(
         &simulation->warnings,
-        "the run in full was cut short at U = %g: time was up (--within, accuracy.within); "
+        "the run in full was cut short: time was up at U = %g (--within, accuracy.within); "
         "history and pictures end there, the error bar is of the runs before",
         simulation->seen.U);
     return true;

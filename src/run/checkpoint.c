@@ -73,11 +73,10 @@ bool checkpoint_read(const char *folder, SavedState *state, Error *err)
     char path[PATH_SIZE];
     find_path(folder, path);
     if (access(path, F_OK) != 0)
-        return REFUSE(
-            err,
-            "%s has no %s to go on from: the run ended before its first one, or wrote none; say "
-            "--overwrite to begin anew",
-            folder, CHECKPOINT_FILE);
+        return REFUSE(err,
+                      "%s has no %s to go on from: the run ended before its first one, or wrote "
+                      "none; say --overwrite to begin anew",
+                      folder, CHECKPOINT_FILE);
     return amontons_state_read(path, state, err);
 }
 

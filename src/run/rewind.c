@@ -24,10 +24,8 @@ static bool keep(Simulation *simulation, Error *err)
 // Always false.
 static bool refuse_other_end(Error *err)
 {
-    return REFUSE(
-        err,
-        "output.window.last is counted back from the end of the run, and so far it had another "
-        "one (--overwrite begins anew)");
+    return REFUSE(err, "output.window.last is counted back from the end of the run, and so far it "
+                       "had another one (--overwrite begins anew)");
 }
 
 // The last steps of a run are cut to its end. With a later one, states from before it would lead to

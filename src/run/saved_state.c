@@ -79,11 +79,10 @@ static bool archive_head(Simulation *simulation, Archive *archive, SavedHead *he
     if (archive->failed || (strcmp(format, FORMATS[0]) != 0 && strcmp(format, FORMATS[1]) != 0))
         return REFUSE(err, "it is not a saved state as this version writes it");
     if (strcmp(sources, ours) != 0)
-        return REFUSE(
-            err,
-            "it was saved by a build of other sources, which may compute otherwise (%.8s, this is "
-            "%.8s): begin anew with --overwrite, or go on with that build",
-            sources, ours);
+        return REFUSE(err,
+                      "it was saved by a build of other sources, which may compute otherwise "
+                      "(%.8s, this is %.8s): begin anew with --overwrite, or go on with that build",
+                      sources, ours);
     if (strcmp(identity, simulation->identity) != 0)
         return REFUSE(
             err,

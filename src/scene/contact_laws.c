@@ -61,11 +61,10 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law
         return REFUSE(err, "`%s` can be scaled here (along), or replaced by another law",
                       friction_law_name(law));
     if (own && !formula)
-        return REFUSE(
-            err,
-            "a %s is for the whole contact; here it can be scaled (along), or replaced by another "
-            "law",
-            friction_law_name(law));
+        return REFUSE(err,
+                      "a %s is for the whole contact; here it can be scaled (along), or replaced "
+                      "by another law",
+                      friction_law_name(law));
     if (formula != (*item->formula != 0))
         return REFUSE(err, "the law `%s` %s a formula", friction_law_name(law),
                       formula ? "needs" : "does not read");

@@ -70,20 +70,19 @@ static bool read_head(const Table *table, const char *at, size_t length, double 
     while (length > 0 && strchr(AROUND, at[length - 1])) length--;
     snprintf(head, sizeof head, "%.*s", (int)length, at);
     if (length == 0 || length >= sizeof head || !find_unit(head, &unit))
-        return REFUSE(
-            err,
-            "%s:%d:%d: found `%.*s`; wanted: two numbers, x and gap, or names of the two columns: "
-            "`x, gap`, or with units `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um`; "
-            "of a height map three: x, y and gap",
-            table->path, table->number, column_of(table, at), length < 60 ? (int)length : 60, at);
+        return REFUSE(err,
+                      "%s:%d:%d: found `%.*s`; wanted: two numbers, x and gap, or names of the two "
+                      "columns: `x, gap`, or with units `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, "
+                      "gap_um`, `mm, um`; of a height map three: x, y and gap",
+                      table->path, table->number, column_of(table, at),
+                      length < 60 ? (int)length : 60, at);
     if (!unit) return true;
     at += unit - head;
     if (table->units == UNITS_NORMALISED)
-        return REFUSE(
-            err,
-            "%s:%d:%d: found a unit, `%s`; a normalised scene has plain numbers (units need "
-            "`units: si`)",
-            table->path, table->number, column_of(table, at), unit);
+        return REFUSE(err,
+                      "%s:%d:%d: found a unit, `%s`; a normalised scene has plain numbers (units "
+                      "need `units: si`)",
+                      table->path, table->number, column_of(table, at), unit);
     *scale = 1;
     if (!unit_to_si(unit, "length", scale))
         return REFUSE(err, "%s:%d:%d: `%s` is no unit of length; allowed: %s", table->path,
@@ -207,11 +206,10 @@ static bool lay_out(const Table *table, SceneProfile *profile, Error *err)
     if (last == COLUMNS_MAX - 1 && !list_places(table, 1, &profile->y, &profile->rows, err))
         return false;
     if ((int64_t)profile->count * profile->rows != table->count)
-        return REFUSE(
-            err,
-            "%s has %d points at %d different x and %d different y: a height map is a grid, with "
-            "one point for each x and y",
-            table->path, table->count, profile->count, profile->rows);
+        return REFUSE(err,
+                      "%s has %d points at %d different x and %d different y: a height map is a "
+                      "grid, with one point for each x and y",
+                      table->path, table->count, profile->count, profile->rows);
     if (!(profile->gap = NEW_ARRAY(double, table->count, err))) return false;
     for (int32_t i = 0; i < table->count; i++) profile->gap[i] = NAN;
     for (int32_t i = 0; i < table->count; i++) {

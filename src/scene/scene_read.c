@@ -242,9 +242,9 @@ static bool gather_file(Reader *reader, Error *err)
 {
     SceneValue root = {.document = reader->file, .node = YAML_ROOT};
     if (yaml_kind(reader->file, YAML_ROOT) == YAML_NOTHING)
-        return yaml_error(reader->file, YAML_ROOT, err,
-                          "the scene is empty; a scene is a map of keys "
-                          "(`amontons info keys` lists them)");
+        return yaml_error(
+            reader->file, YAML_ROOT, err,
+            "the scene is empty; a scene is a map of keys (`amontons info keys` lists them)");
     if (yaml_kind(reader->file, YAML_ROOT) != YAML_MAP)
         return yaml_error(reader->file, YAML_ROOT, err,
                           "not a scene: a scene is a map of keys, as in `units: normalised` "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/states.h"
 
+#include "scene/own_law.h"
+
 #include <ctype.h>
 #include <string.h>
 
@@ -45,12 +47,12 @@ static bool add_state(const SceneValue *value, SceneStates *states, Error *err)
     const char *name = yaml_key(document, value->node);
     FrictionStateText *state = &states->state[states->count];
     *state = (FrictionStateText){0};
-    if (!is_name(name) || is_taken(name))
-        return yaml_key_error(
-            document, value->node, err,
-            "friction.state: `%.40s` cannot be the name of a state; allowed: letters, "
-            "digits and _, at most 31, and not v, p or a function",
-            name);
+    if (!is_name(name) || is_taken(name) || scene_friction_number(name) >= 0)
+        return yaml_key_error(document, value->node, err,
+                              "friction.state: `%.40s` cannot be the name of a state; allowed: "
+                              "letters, digits and _, at most 31, and not v, p, a function or a "
+                              "number of friction (mu_S, D_c, a, b, ...)",
+                              name);
     memcpy(state->name, name, strlen(name) + 1);
     if (yaml_kind(document, value->node) != YAML_MAP)
         return yaml_refuse(document, value->node, "friction.state",

@@ -130,6 +130,21 @@ double friction_states_error(const FrictionStates *states, const Tableau *tablea
     return largest;
 }
 
+bool friction_states_hold(const FrictionStates *states, const double *at, double *speed, double *mu)
+{
+    double state[STATES_MAX], sum = 0;
+    for (int32_t i = 0; states->laws && i < states->interface->contact_count; i++) {
+        FrictionRates rates;
+        *speed = slip_size(states->interface, i, at);
+        friction_state(&states->laws[i], *speed, state);
+        friction_rates(&states->laws[i], *speed, state, &rates);
+        *mu = rates.mu;
+        for (int32_t k = 0; k < rates.states; k++) sum += state[k] + rates.rate[k];
+        if (!isfinite(sum + *mu) || *mu < 0) return false;
+    }
+    return true;
+}
+
 void friction_states_archive(FrictionStates *states, Archive *archive)
 {
     archive_section(archive, "friction states");

@@ -45,6 +45,11 @@ void friction_states_end_stage(FrictionStates *states, int32_t stage, State *to)
 double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step);
 
 // The stages under way: the judge asks for the last one.
+// Whether mu, not negative, and states are numbers at each node in the stage under way, `at` these
+// slip rates; else *speed and *mu say what they are at one where they are not.
+bool friction_states_hold(const FrictionStates *states, const double *at, double *speed,
+                          double *mu);
+
 void friction_states_archive(FrictionStates *states, Archive *archive);
 
 #endif

@@ -338,7 +338,6 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
     static const char *const reasons[] = {
-        [STEP_ACCEPTED] = "",
         [STEP_UNSOLVED] = "its contact problem has no solution that could be found",
         [STEP_INACCURATE] = "its local error is above the tolerance",
         [STEP_UNBALANCED] = "its energies do not balance",
@@ -348,6 +347,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     bool shortened = k != control->rung, retried = false, certified = true, odd_decays;
     for (;;) {
         StepOutcome outcome;
+        double speed, mu;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
         control->scheme.solver.follows_path = k == control->ladder.rung_count - 1;
@@ -373,9 +373,14 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
         k = smaller_rung(control, k, verdict, &outcome);
-        if (k >= control->ladder.rung_count)
-            FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
-                 control->now.time, control->def.step_min, reasons[verdict]);
+        if (k < control->ladder.rung_count) continue;
+        if (!friction_states_hold(&control->scheme.memory, control->now.slip_rate, &speed, &mu))
+            FAIL(err, ERROR_COMPUTE,
+                 "at t = %.9g friction comes to states, or to a mu (%g at velocity %g), that no "
+                 "law may have: its formulas must hold wherever its states go",
+                 control->now.time, mu, speed);
+        FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
+             control->now.time, control->def.step_min, reasons[verdict]);
     }
 cleanup:
     return error_is_clean(err);

@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A law of one's own that remembers goes wherever built-in laws go. The same law, rate and state, is given by its name and by
 formulas, and each command must say the same of both: sweeps over its numbers with what is read off velocity steps, error
-bars, searches and fits, shares of a table, windows, films, pages, Python and C."""
+bars, searches and fits, shares of a table, windows, films, pages,
+Python and C."""
 import csv
 import json
 import os
 import re
 import subprocess
+import sys
 import unittest
 
 import h5py
 import numpy
 
 from drive_fixture import PROGRAM, SOURCE, Driven
+from sanitizer_fixture import preload
 
 PARTS = "direct_effect: 0.01, evolution_effect: 0.02, mu_reference: 0.3, reference_velocity: 1e-5, slip_distance: 2e-4"
 # Scales that rate and state has by itself: what it meets at V and at the speed of sound.
@@ -84,6 +87,58 @@ class OwnEverywhere(Driven):
         for one, other in zip(rows, built):
             self.assertAlmostEqual(float(one[name]) / float(other[name]), 1, delta=1e-3)
 
+    def test_table_of_velocity_steps(self):
+        """The law of docs/examples/measured_law.yaml: velocity steps read its table, a and D_c back, as the cookbook says."""
+        program = "{t: [0, 1, 1000, 1000, 1500], factor: [0, 1, 1, 10, 10]}"
+        self.amontons("run", SOURCE / "docs/examples/measured_law.yaml", "-q", "-o", "table-steps", "--set", "material={young: 1000, poisson: 0.34, "
+                      "eta1: 1000, eta2: 1000}", "mesh.set.nx=6", "mesh.set.nz=3", "friction.slip_distance=0.015", "time={until: {t: 1500}, step_max: 0.2}",
+                      "output={figures: []}", f"rod={{velocity: 1e-4, kind: bonded, height: 0.1, program: {program}}}")
+        found = json.loads((self.folder / "table-steps/run.json").read_text())["results"]["program"]
+        step, = found["steps"]
+        for name, v in (("mu_before", 1e-4), ("mu_after", 1e-3)):
+            wanted = numpy.interp(numpy.log(v), (-16, -13, -10, -7, -4), (0.46, 0.42, 0.34, 0.22, 0.16))
+            self.assertAlmostEqual(step[name], wanted, delta=3e-4, msg=name)
+        self.assertAlmostEqual(step["direct_per_ln"], 0.015, delta=3e-4)
+        self.assertAlmostEqual(step["slip_distance"] / 0.015, 1.9, delta=0.1)
+
+    def test_examples_of_the_page(self):
+        """Each law of docs/scenes.md that remembers runs."""
+        page = (SOURCE / "docs/scenes.md").read_text()
+        part = page[page.index("### Friction that remembers"):page.index("### Friction by contact, and along it")]
+        blocks = [re.sub("^    ", "", block, flags=re.M) for block in re.findall(r"\n\n((?:    .*\n)+)", part)]
+        laws = [law for block in blocks for law in (block.splitlines() if block.count("friction:") > 1 else [block])]
+        self.assertEqual(len(laws), 4)
+        for law in laws:
+            text = re.sub(r"friction: FRICTION\n", lambda _: law + "\n", SCENE).replace("U: 0.02", "U: 0.002")
+            (self.folder / "page.yaml").write_text(text)
+            self.amontons("run", "page.yaml", "-q", "--overwrite", "-o", "page")
+
+    def test_rate_of_pressure(self):
+        """The scene of docs/scenes.md: chi in the place of theta, whose rate has dp/dt (Linker and Dieterich). That rate, integrated
+        along the slip rate and pressure of a node, gives its friction, while the load is raised by a third within D_c/75."""
+        law = re.search(r"`alpha` = 0.2[^`]*?\n\n((?:    .*\n)+)", (SOURCE / "docs/scenes.md").read_text())[1]
+        text = "\n".join(line[4:] for line in law.splitlines())
+        load = "load: {pressure: 0.003, program: {t: [0, 100, 102], factor: [1, 1, 1.3]}}"
+        scene = re.sub(r"friction: FRICTION\n", lambda _: text + "\n", STEPS).replace("load: {pressure: 0.003}", load)
+        scene = re.sub(r"factor: \[0, 1, 1, 10, 10\]", "factor: [0, 1, 1, 1, 1]", scene)
+        (self.folder / "pressed.yaml").write_text(scene.replace("t: 1500}", "t: 200}").replace("history: false", "figures: []"))
+        self.amontons("run", "pressed.yaml", "-q", "-o", "pressed")
+        with h5py.File(self.folder / "pressed/history.h5") as file:
+            t, chi = file["series/time"][()], file["interface/state"][()]
+            p, tau, v = (file[f"interface/{name}"][()].astype(float) for name in ("pressure", "shear", "slip_rate"))
+        a, b, D_c, V_0, alpha, first = 0.01, 0.015, 0.015, 1e-4, 0.2, numpy.searchsorted(t, 2)
+        for i in (0, 3, 6):
+            psi = chi[first, i] - alpha / b * numpy.log(p[first, i] / 0.003)
+            for k in range(first, len(t) - 1):
+                h, slip_rate = (t[k + 1] - t[k]) / 10, (v[k, i] + v[k + 1, i]) / 2
+                for _ in range(10):   # of the midpoint rule
+                    pressed = alpha / b * numpy.log(p[k + 1, i] / p[k, i]) / (10 * h)
+                    middle = psi + h / 2 * ((V_0 * numpy.exp(-psi) - slip_rate) / D_c - pressed)
+                    psi += h * ((V_0 * numpy.exp(-middle) - slip_rate) / D_c - pressed)
+                mu = a * numpy.arcsinh(v[k + 1, i] / (2 * V_0) * numpy.exp((0.3 + b * psi) / a))
+                self.assertAlmostEqual(mu, tau[k + 1, i] / p[k + 1, i], delta=1e-4, msg=(i, t[k + 1]))
+        self.assertGreater(p.max() / p.min(), 2)
+
     def test_bars(self):
         """A bar is met, and holds what the built-in law's says."""
         found = []
@@ -111,6 +166,34 @@ class OwnEverywhere(Driven):
         self.assertGreater((self.folder / "film.gif").stat().st_size, 20000)
         self.amontons("report", "filmed", "-o", "page.html")
         self.assertIn("What friction remembers at each place", (self.folder / "page.html").read_text())
+
+    def test_python_and_c(self):
+        """The module steps it by the C interface: its state is the history's, and a step gone back to comes to the same bits."""
+        script = """
+import sys
+import numpy, amontons
+simulation = amontons.Simulation("own.yaml", {"time.until": {"U": 0.004}}, "stepped")
+states = [simulation.state.copy()]
+for step in simulation:
+    states.append(simulation.state.copy())
+    if len(states) == 20:
+        saved = simulation.save()
+end = simulation.state.copy()
+simulation.finish()
+history = amontons.open_result("stepped").history
+assert numpy.array(states, "f4").tobytes() == history.state.tobytes()
+assert history.numbers["states"] == "psi"
+again = amontons.Simulation("own.yaml", {"time.until": {"U": 0.004}})
+again.restore(saved)
+for step in again:
+    pass
+assert again.state.tobytes() == end.tobytes()
+print(len(states))
+"""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=self.folder,
+                              env={**os.environ, "PYTHONPATH": str(PROGRAM.resolve().parent.parent / "python")} | preload(PROGRAM.parent / "libamontons.so"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(int(done.stdout), 20)
 
     def test_search_and_fit(self):
         """Over D_c and b: a design that is better than the first, and b found again from mu_max at two loads."""

@@ -197,12 +197,22 @@ class OwnMemory(Driven):
                 ("the law `linear-weakening` does not read it", "friction.state={theta: {rate: 1 - v}}"),
                 ("`theta` needs its `rate`", "friction={law: formula, formula: 0.3, state: {theta: {start: 1}}}"),
                 ("`min` cannot be the name of a state", "friction={law: formula, formula: 0.3, state: {min: {rate: v}}}"),
+                ("or a number of friction", "friction={law: formula, formula: 0.3 + D_c, slip_distance: 1, state: {D_c: {rate: -D_c}}}"),
+                ("x, its rate: `/ 2`", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: -x +/ 2}}}"),
+                ("x, its start: `v` is no", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: -x, start: v}}}"),
+                ("the rate of x is inf", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: 1/x, start: 0}}}"),
                 ("unknown key `begin`; allowed: rate, start", "friction={law: formula, formula: 0.3, state: {x: {begin: 1}}}"),
                 ("a map {rate: FORMULA, start: FORMULA}", "friction={law: formula, formula: 0.3, state: {x: 1}}"),
                 ("the coefficient is -9.7: it must not be negative",
                  "friction={law: formula, formula: 0.3 - x, state: {x: {rate: 1 - v * x, start: 10}}}"),
                 ("no state of steady slip is found", "friction={law: formula, formula: 0.3, state: {x: {rate: 1}}}")):
             self.assertIn(words, self.call("run", setting, status=2, flags=("-q", "-o", self.folder / "refused")))
+
+    def test_formulas_that_end(self):
+        """The root of a state that falls through 0, a thousandth of time later: said as that, not as a contact without solution."""
+        said = self.call("run", "friction={law: formula, formula: 0.3 + 0 * x, state: {x: {rate: -1 - 0 * sqrt(x), start: 1e-3}}}",
+                         status=1, flags=("-q", "-o", self.folder / "ends"))
+        self.assertRegex(said, r"at t = 0.00(1|0999)\d* friction comes to states, or to a mu \(-?nan")
 
 
 if __name__ == "__main__":

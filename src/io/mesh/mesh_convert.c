@@ -168,11 +168,10 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         }
     }
     if (fabs(deepest) > PLANE_TOLERANCE * extent)
-        return REFUSE(
-            err,
-            "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block with x "
-            "along the drive and y upwards)",
-            path, (long long)worst, deepest);
+        return REFUSE(err,
+                      "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block "
+                      "with x along the drive and y upwards)",
+                      path, (long long)worst, deepest);
     return true;
 }
 
@@ -333,12 +332,11 @@ static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable
             return false;
         for (const MeshGroup *other = mesh->groups; other < group; other++)
             if (strcmp(other->name, group->name) == 0)
-                return REFUSE(
-                    err,
-                    "%s: the physical name '%s' is used twice: by group %d of dimension %d and by "
-                    "group %d of dimension %d",
-                    path, group->name, other->number, other->dimension, group->number,
-                    group->dimension);
+                return REFUSE(err,
+                              "%s: the physical name '%s' is used twice: by group %d of dimension "
+                              "%d and by group %d of dimension %d",
+                              path, group->name, other->number, other->dimension, group->number,
+                              group->dimension);
     }
     qsort(mesh->groups, (size_t)mesh->group_count, sizeof *mesh->groups, compare_groups);
     return true;

@@ -158,11 +158,10 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
     if (request->opened) request->opened();
     gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
     if (status == 0 && algorithm == MESH_ADAPT_QUADS)
-        return REFUSE(
-            err,
-            "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for quadrilaterals "
-            "Mesh.RecombinationAlgorithm = 3 with it",
-            request->path);
+        return REFUSE(err,
+                      "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for "
+                      "quadrilaterals Mesh.RecombinationAlgorithm = 3 with it",
+                      request->path);
     // Meshing threads that throw would end the program: let them log, and look at the log.
     gmshOptionSetNumber("General.AbortOnError", 0, &status);
     gmshModelMeshGenerate(model_dimension(), &status);

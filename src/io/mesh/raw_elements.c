@@ -159,12 +159,12 @@ bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElement
         if (!append_block(picked, block, groups, err)) return false;
     }
     if (picked->count == 0)
-        return REFUSE(
-            err,
-            "%s: has no %s elements%s%s%s (%lld nodes, %lld other elements); was it meshed in "
-            "%dD, and is the %s in a physical group?",
-            path, what, by_group ? " in its physical " : "", by_group ? what : "",
-            by_group ? "s" : "", (long long)raw->node_count, (long long)others, dim, what);
+        return REFUSE(err,
+                      "%s: has no %s elements%s%s%s (%lld nodes, %lld other elements); was it "
+                      "meshed in %dD, and is the %s in a physical group?",
+                      path, what, by_group ? " in its physical " : "", by_group ? what : "",
+                      by_group ? "s" : "", (long long)raw->node_count, (long long)others, dim,
+                      what);
     sort_elements(picked, may_repeat);
     return true;
 }
@@ -174,12 +174,11 @@ bool raw_check_copies(const char *path, const char *name, const RawElements *ele
 {
     for (int32_t k = 0; k < elements->count; k++)
         if (elements->items[k].copies < elements->items[k].groups)
-            return REFUSE(
-                err,
-                "%s: group '%s' shares an elementary number with another group, so gmsh cannot "
-                "tell whose element %lld is; give each group its own (the second tag of an "
-                "element in format 2.2), or save as format 4.1",
-                path, name, (long long)elements->items[k].number);
+            return REFUSE(err,
+                          "%s: group '%s' shares an elementary number with another group, so gmsh "
+                          "cannot tell whose element %lld is; give each group its own (the second "
+                          "tag of an element in format 2.2), or save as format 4.1",
+                          path, name, (long long)elements->items[k].number);
     return true;
 }
 

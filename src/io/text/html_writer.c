@@ -134,11 +134,6 @@ void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t si
     }
 }
 
-int64_t html_size(const HtmlWriter *html)
-{
-    return html->out.size;
-}
-
 bool html_finish(HtmlWriter *html, Error *err)
 {
     bool good = text_writer_finish(&html->out, err);

@@ -25,7 +25,6 @@ void html_around(HtmlWriter *html, const char *before, const char *text, const c
 void html_number(HtmlWriter *html, double value, int32_t digits);
 // "data:TYPE;base64,...": a file inside of the page.
 void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t size);
-int64_t html_size(const HtmlWriter *html);   // bytes so far
 bool html_finish(HtmlWriter *html, Error *err);   // fsync, rename; frees `html` either way
 void html_abandon(HtmlWriter *html);   // frees it and leaves no file; NULL is fine
 

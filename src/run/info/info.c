@@ -86,22 +86,20 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
     bool told;
     if (S_ISDIR(status.st_mode)) {
         if (options->picture || options->override_count > 0)
-            return REFUSE(
-                err,
-                "%s is a result folder: values are set and meshes drawn of meshes and scenes "
-                "(`amontons render` draws a result)",
-                path);
+            return REFUSE(err,
+                          "%s is a result folder: values are set and meshes drawn of meshes and "
+                          "scenes (`amontons render` draws a result)",
+                          path);
         told = info_result(path, out, err);
     } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
         told = info_mesh(path, options, out, err);
     else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
         told = info_scene(path, options, out, err);
     else
-        return REFUSE(
-            err,
-            "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, .yml), a "
-            "result folder, or its run.json or history.h5",
-            path);
+        return REFUSE(err,
+                      "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, "
+                      ".yml), a result folder, or its run.json or history.h5",
+                      path);
     if (told && (fflush(out) != 0 || ferror(out)))
         return FAULT(err, ERROR_FILE, "cannot write: %s", strerror(errno));
     return told;

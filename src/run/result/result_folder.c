@@ -131,11 +131,10 @@ static bool find_earlier(ResultFolder *folder, char found[PATH_SIZE], Error *err
     for (int32_t k = 0; own_path(folder->path, k, path); k++) {
         if (!open_is_there(path)) continue;
         if (k % 3 == 0 && !own_mark_is_in(path))
-            return REFUSE(
-                err,
-                "%s is there, and is none that a run wrote: choose another folder (-o), or move "
-                "it away",
-                path);
+            return REFUSE(err,
+                          "%s is there, and is none that a run wrote: choose another folder (-o), "
+                          "or move it away",
+                          path);
         if (!folder->has_earlier) memcpy(found, path, PATH_SIZE);
         folder->has_earlier = true;
     }
@@ -162,11 +161,10 @@ static bool take_lock(ResultFolder *folder, Error *err)
         fclose(file);
     }
     holder[strcspn(holder, "\n")] = 0;
-    return REFUSE(
-        err,
-        "%s: another computation is writing its result there (%s): choose another folder (-o), or "
-        "wait until it has ended",
-        folder->path, *holder ? holder : "its process is not known");
+    return REFUSE(err,
+                  "%s: another computation is writing its result there (%s): choose another folder "
+                  "(-o), or wait until it has ended",
+                  folder->path, *holder ? holder : "its process is not known");
 }
 
 // There is a checkpoint, and no report of a run that came to its end.

@@ -20,10 +20,8 @@ bool designs_create(const Study *study, int32_t conditions, char *const *texts, 
                          .aim = -1};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     designs->aims = designs->conditions * (1 + study->rank.also_count);
-    TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
-    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->aims, err));
-cleanup:
-    return error_is_clean(err);
+    return (designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err)) &&
+           (designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->aims, err));
 }
 
 void designs_destroy(Designs *designs)

@@ -241,12 +241,10 @@ cleanup:
 bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err)
 {
     int32_t best = designs_best(&search->designs);
-    TRY(search_answer(search, print_answer, &(Answer){search, summary, best}, err));
-    TRY(draw_course(search, err));
-    if (search->study->search.over == OVER_FRONT) TRY(front_draw(search, err));
+    if (!search_answer(search, print_answer, &(Answer){search, summary, best}, err)) return false;
+    if (!draw_course(search, err)) return false;
+    if (search->study->search.over == OVER_FRONT && !front_draw(search, err)) return false;
     for (int32_t k = 0; k < search->study->search.key_count; k++)
-        TRY(draw_section(search, best, k, err));
-    TRY(search_leave_best(search, best, search->designs.list[best].deciding, err));
-cleanup:
-    return error_is_clean(err);
+        if (!draw_section(search, best, k, err)) return false;
+    return search_leave_best(search, best, search->designs.list[best].deciding, err);
 }

@@ -53,14 +53,13 @@ static bool take_design(Search *search, int32_t d, Error *err)
     const Design *design = &search->designs.list[d];
     for (int32_t c = 0; c < search->designs.conditions; c++) {
         char *report = point_report(search->sweep, design->point + c, err);
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
         bool done = point_status(report) == POINT_DONE;
         search->judge.take(search, d, c, done ? report : NULL, err);
         memory_free(report);
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
     }
     search->judge.judge(search, d);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -168,10 +167,9 @@ bool search_add(Search *search, double *x, int32_t *added, Error *err)
     *added = -1;
     designs_round(search->study, x);
     if (search->designs.count == DESIGNS_MAX || designs_find(&search->designs, x) >= 0) return true;
-    TRY(search_allows(search, x, &allowed, err));
+    if (!search_allows(search, x, &allowed, err)) return false;
     if (allowed) *added = designs_add(&search->designs, x, -1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The scene with `set`, at the first point of `vary`, if all that is searched has a value there
@@ -251,6 +249,12 @@ static bool choose(Search *search, bool *added, Error *err)
             TRY(tell(search, number, known, err));
     }
     *added = design >= 0;
+    if (search->designs.count == 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: none of %d designs within the ranges of `search` is within all limits of `where`: "
+            "widen one or the other",
+            search->study->path, TRIES_MAX);
 cleanup:
     return error_is_clean(err);
 }
@@ -291,21 +295,20 @@ cleanup:
 bool search_designs(Search *search, int32_t count, Error *err)
 {
     bool added = true;
-    TRY(open_chooser(search, err));
-    if (search->designs.count == 0) TRY(add_start(search, err));
-    if (search->designs.count == 1) TRY(search_compute_from(search, 0, err));
+    if (!open_chooser(search, err)) return false;
+    if (search->designs.count == 0 && !add_start(search, err)) return false;
+    if (search->designs.count == 1 && !search_compute_from(search, 0, err)) return false;
     for (int32_t chosen = 0; chosen < count && added;) {
         int32_t first = search->designs.count;
         for (int32_t k = 0; k < search->side_by_side && chosen < count && added; k++) {
-            TRY(choose(search, &added, err));
+            if (!choose(search, &added, err)) return false;
             chosen += added;
         }
-        TRY(search_compute_from(search, first, err));
+        if (!search_compute_from(search, first, err)) return false;
         for (int32_t d = first; d < search->designs.count; d++)
-            TRY(tell(search, search->designs.list[d].choice, d, err));
+            if (!tell(search, search->designs.list[d].choice, d, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- begin and end ------------------------------------------------------------------------------
@@ -320,31 +323,29 @@ bool search_open(Search *search, const char *path, const SweepOptions *options, 
     search->own.out = NULL;
     search->start = -1;
     search->started = clock_seconds();
-    TRY(sweep_open(path, &search->own, &search->sweep, err));
+    if (!sweep_open(path, &search->own, &search->sweep, err)) return false;
     search->study = &search->sweep->study;
     if (search->study->search.node == YAML_NO_NODE)
-        FAIL(err, ERROR_INPUT,
-             "%s: nothing to search: a study for `%s` has `search`, as in `search: {%s}}`", path,
-             fits ? "fit" : "optimise",
-             fits ? "material.eta1: {log: [0.1, 10]" : "mesh.set.n: {whole: [1, 12]");
+        return REFUSE(err,
+                      "%s: nothing to search: a study for `%s` has `search`, as in `search: {%s}}`",
+                      path, fits ? "fit" : "optimise",
+                      fits ? "material.eta1: {log: [0.1, 10]" : "mesh.set.n: {whole: [1, 12]");
     if (search->study->search.fits != fits)
-        FAIL(err, ERROR_INPUT, "%s: %s", path,
-             fits ? "what was measured? say `fit: {measured: measured.csv}`"
-                  : "a study with `fit` is for `amontons fit`");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: %s", path,
+                      fits ? "what was measured? say `fit: {measured: measured.csv}`"
+                           : "a study with `fit` is for `amontons fit`");
+    return true;
 }
 
 bool search_begin(Search *search, int32_t conditions, char *const *texts, Error *err)
 {
     const SweepOptions *options = search->options;
-    TRY(search->scene = NEW_ARRAY(Scene, 1, err));
-    TRY(designs_create(search->study, conditions, texts, &search->designs, err));
+    if (!(search->scene = NEW_ARRAY(Scene, 1, err))) return false;
+    if (!designs_create(search->study, conditions, texts, &search->designs, err)) return false;
     int64_t cores = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
     search->side_by_side = (int32_t)fmax(1, floor((double)cores / search->designs.conditions));
     search->planned = search->designs.conditions * search->study->search.designs;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void search_close(Search *search, Error *err)

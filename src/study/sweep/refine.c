@@ -26,24 +26,24 @@ static double next_accuracy(double asked, const RankRow *row, double limit)
 }
 
 // Looks for what an earlier sweep left. *chosen: there is a next accuracy.
-static bool choose(Sweep *sweep, const RankRow *row, PointMesh *mesh, bool *chosen, Error *err)
+static bool choose(Sweep *sweep, const RankRow *row, bool *chosen, Error *err)
 {
     int32_t k = row->point;
     SweepPoint *point = &sweep->points[k];
     char *report = NULL;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, k, err);
     TRY(scene);
-    TRY(point_scene(sweep, k, scene, err));
     double accuracy = next_accuracy(scene->accuracy.mu, row, sweep->study.rank.refine);
     TRY((*chosen = accuracy > 0));
-    point->accuracy = scene->accuracy.mu = accuracy;
-    TRY(point_hash(scene, mesh, point->hash, err));
+    point->accuracy = accuracy;
+    TRY(point_scene(sweep, k, err));   // with it
+    TRY(point_hash(sweep, scene, point->hash, err));
     report = point_report(sweep, k, err);
     TRY(error_is_clean(err));
     point->status = sweep->options->fresh ? POINT_PENDING : point_status(report);
     point->reused = point->status != POINT_PENDING;
 cleanup:
-    memory_free_all(scene, report);
+    memory_free(report);
     return error_is_clean(err);
 }
 
@@ -56,16 +56,15 @@ static bool is_open(const Sweep *sweep, const RankRow *row)
 
 static bool choose_all(Sweep *sweep, const Ranking *ranking, int32_t *count, Error *err)
 {
-    PointMesh mesh = {0};
+    sweep->mesh = (PointMesh){0};
     *count = 0;
     for (int32_t k = 0; k < ranking->ranked; k++) {
         bool chosen = false;
         if (!is_open(sweep, &ranking->rows[k])) continue;
-        TRY(choose(sweep, &ranking->rows[k], &mesh, &chosen, err));
+        if (!choose(sweep, &ranking->rows[k], &chosen, err)) return false;
         *count += chosen;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool refine_begin(Sweep *sweep, SweepPoint **before, int32_t *count, Error *err)
@@ -107,9 +106,10 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
         SweepPoint refined = *point;
         double value = NAN, error = NAN, value_before = NAN, error_before = NAN;
         if (strcmp(refined.hash, before[k].hash) == 0) continue;
-        if (refined.status == POINT_DONE) TRY(read_ranked(sweep, k, &value, &error, err));
+        if (refined.status == POINT_DONE && !read_ranked(sweep, k, &value, &error, err))
+            return false;
         *point = before[k];
-        TRY(read_ranked(sweep, k, &value_before, &error_before, err));
+        if (!read_ranked(sweep, k, &value_before, &error_before, err)) return false;
         if (isnan(error_before)) error_before = INFINITY;
         if (error < error_before) {
             double moved = fabs(value - value_before) / error_before;
@@ -119,7 +119,5 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
         }
         point->settled = !(error < SMALLER * error_before);
     }
-    TRY(points_find_same(sweep, err));
-cleanup:
-    return error_is_clean(err);
+    return points_find_same(sweep, err);
 }

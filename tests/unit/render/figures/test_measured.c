@@ -121,10 +121,17 @@ TEST(a_curve_is_linear_between_its_points)
 
 TEST(what_is_wrong_is_said)
 {
-    static const char *const cases[][2] = {{"U,mu\n1,2\n", "U needs a unit"},
-                                           {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
-                                           {"U (mm),y\n1,2\n", "it needs the columns"},
-                                           {"U (mm),mu\n1\n", "cells"}};
+    static const char *const cases[][2] = {
+        {"U,mu\n1,2\n", "U needs a unit"},
+        {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
+        {"U (mm),y\n1,2\n", "it needs the columns"},
+        {"U (mm),mu\n1\n", "cells"},
+        {"U (mm),mu\n", "there is no row"},
+        {"U (mm),mu\n1,\n1,0.3 kN\n", "line 3, mu: `0.3 kN` is no number;"},
+        {"U (mm),x (cm),mu\n1,?,1\n", "line 2, x (cm): `?`"},
+        {"U (mm),mu\n1e999,1\n", "`1e999` is no number;"},
+        {"U (mm),mu,error\n1,1,0\n", "error: `0` is no number above 0"},
+        {"U (mm),F_T,F_N\n1,1,0\n", "F_N: `0` is no number above 0"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;
