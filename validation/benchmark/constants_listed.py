@@ -143,7 +143,7 @@ NOT_A_CHOICE = {
     "friction/friction_memory.c": {
         "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's: all digits",
         "HALVINGS": "of a step: all digits", "NEAR": "Newton's next step is its square, which is rounding",
-        "ROUNDING": ROUNDING, "BEFORE_STATES": "of v and p", "MANY": "a first guess beyond the weakening, as SPENT"},
+        "ROUNDING": ROUNDING, "MANY": "a first guess beyond the weakening, as SPENT"},
     "friction/friction_memory.h": {"STATES_MAX": SIZE},
     "friction/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
     "friction/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
