@@ -25,8 +25,7 @@ int main(int argc, char **argv)
         bool done = amontons_scene_read(argv[1], settings, count, &scene, &err) &&
                     amontons_run(scene, &options, &summary, &err);
         amontons_scene_destroy(scene);
-        if (!done)
-            return fprintf(stderr, "%s\n", err.message), amontons_error_exit_status(err.code);
+        if (!done) return fprintf(stderr, "%s\n", err.message), amontons_error_exit_status(err.code);
         printf("%s: largest F_T/F_N %.6f, %lld steps\n", pressures[k], summary.mu_max,
                (long long)summary.counters.accepted);
     }

@@ -187,9 +187,11 @@ static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const 
     Error ignored = {0};
     values_label(series, which, self->plot->text[PLOT_SERIES], value);
     if (series->key) words_index(&self->curves, value, &color, &ignored);   // is there
+    // Of two curves with one mark the colours differ in lightness.
+    int32_t mark = self->source_count > 1 ? source : (int32_t)color;
     return (Curve){.label = label,
                    .line = "thin",
-                   .marker = marker[(self->source_count > 1 ? source : (int32_t)color) % MARKERS],
+                   .marker = marker[(mark + mark / MARKERS) % MARKERS],
                    .color = 1 + (int32_t)color % COLORS,
                    .filled = true};
 }
