@@ -4,7 +4,7 @@
 #ifndef AMONTONS_TESTS_BLOCK_RIG_H
 #define AMONTONS_TESTS_BLOCK_RIG_H
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "block_mesh.h"
 #include "dense_by_hand.h"
 #include "stepping/step_control.h"

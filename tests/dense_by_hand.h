@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Dense linear algebra written out for tests, without BLAS: the judge of what base/dense,
-// base/sparse and all above them compute. Column-major; arrays come from malloc and are freed here.
+// Dense linear algebra written out for tests, without BLAS: the judge of what algebra/dense,
+// algebra/sparse and all above them compute. Column-major; arrays come from malloc and are freed
+// here.
 #ifndef AMONTONS_TESTS_DENSE_BY_HAND_H
 #define AMONTONS_TESTS_DENSE_BY_HAND_H
 

@@ -3,8 +3,8 @@
 #ifndef AMONTONS_TESTS_OWN_LAWS_H
 #define AMONTONS_TESTS_OWN_LAWS_H
 
-#include "contact/friction_look.h"
-#include "contact/friction_make.h"
+#include "friction/friction_look.h"
+#include "friction/friction_make.h"
 #include "near.h"
 
 #include <string.h>

@@ -31,7 +31,7 @@ Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7};
 Plane Surface(1) = {1};
 
 Physical Surface("body") = {1};
-Physical Curve("contact_1") = {1};            // a curve for each foot: never one over both
+Physical Curve("contact_1") = {1};            // or one group, "contact" = {1, 3}: two pads all the same
 Physical Curve("contact_2") = {3};
 Physical Curve("top") = {5};
 Physical Curve("rod") = {6, 7};

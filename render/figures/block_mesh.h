@@ -6,7 +6,7 @@
 #define AMONTONS_RENDER_FIGURES_BLOCK_MESH_H
 
 #include "render/canvas/axes.h"
-#include "render/figures/block.h"
+#include "render/view/block.h"
 
 // The block in colours, from the quantity `low` to `high`, or beyond, in the frame of the axes,
 // which is whole pixels.

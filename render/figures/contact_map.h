@@ -5,7 +5,7 @@
 #define AMONTONS_RENDER_FIGURES_CONTACT_MAP_H
 
 #include "render/canvas/axes.h"
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 
 // x and y of its extent, the frame not yet placed.
 Axes contact_map_axes(const ResultView *view);

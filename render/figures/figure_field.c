@@ -3,7 +3,7 @@
 #include "render/figures/figures.h"
 
 #include "render/figures/field_page.h"
-#include "render/figures/zoom.h"
+#include "render/view/zoom.h"
 
 // The state that the request asks for; without a word the last one before the zoomed sliding.
 static bool read_block(const FigureInput *input, Block *block, Error *err)

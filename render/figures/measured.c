@@ -175,7 +175,7 @@ static double read_cell(const CsvTable *table, int32_t row, const Column *column
     return column->under < 0 ? value : value / csv_value(table, row, column->under);
 }
 
-double curve_value(const ComputedCurve *curve, double at)
+double curve_value(const ViewCurve *curve, double at)
 {
     int64_t low = 0, high = curve->count - 1;
     if (curve->count < 2 || !(at >= curve->at[0] && at <= curve->at[high])) return NAN;
@@ -200,7 +200,7 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
                       Measured *measured, Error *err)
 {
     Column at, value, error = found->error;
-    const ComputedCurve way = {view->rows, view->t, view->U};
+    const ViewCurve way = {view->rows, view->t, view->U};
     if (!choose(found, measured->kind, &at, &value)) return true;
     double **lists[] = {&measured->at, &measured->x, &measured->value, &measured->error,
                         &measured->computed};
@@ -234,12 +234,19 @@ static bool has_any(const Columns *found)
 static bool read_table(const char *path, const ResultView *view, CsvTable *table, Columns *found,
                        Error *err)
 {
-    TRY(csv_read(path, table, err));
+    if (!csv_read(path, table, err)) return false;
     TRY(find_columns(table, view, found, err));
     if (!has_any(found))
         FAIL(err, ERROR_INPUT,
              "it needs the columns U and F_T/F_N, U and x, U, x and A/A_0, F_T/F_N and l, or x "
              "and v");
+    if (table->rows == 0) FAIL(err, ERROR_INPUT, "below the names of its columns there is no row");
+    const Column *const columns[] = {&found->U,    &found->t,      &found->ratio, &found->x,
+                                     &found->area, &found->length, &found->speed};
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; ++k)
+        TRY(csv_check(table, columns[k]->index, false, err));
+    TRY(csv_check(table, found->ratio.under, true, err));
+    TRY(csv_check(table, found->error.index, true, err));
 cleanup:
     error_context(err, "measurements %s", path);
     return error_is_clean(err);

@@ -5,7 +5,7 @@
 #define AMONTONS_RENDER_FIGURES_PAD_MARKS_H
 
 #include "render/canvas/axes.h"
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 
 // Points right of the frame that the marks take; 0: there are none.
 double pad_marks_width(const Page *page, const ResultView *view);

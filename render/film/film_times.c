@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/film/film_times.h"
 
-#include "render/figures/block.h"
+#include "render/view/block.h"
 
 #include <math.h>
 
@@ -30,11 +30,6 @@ double film_value(const FilmMoment *moment, const double *values, int32_t width,
 {
     const double *before = values + moment->row * width + k;
     return before[0] + moment->part * (before[width] - before[0]);
-}
-
-double film_slip_rate(const ResultView *view, const FilmMoment *moment, int32_t node)
-{
-    return film_value(moment, view->slip_rate, view->nodes, node);
 }
 
 int64_t film_nearest_row(const FilmMoment *moment)

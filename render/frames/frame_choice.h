@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_FRAMES_FRAME_CHOICE_H
 #define AMONTONS_RENDER_FRAMES_FRAME_CHOICE_H
 
-#include "render/figures/result_view.h"
+#include "render/view/result_view.h"
 
 // rows: [count] rows of the history that there are frames of, rising. chosen: [most] indices into
 // rows, rising; returns how many, `most` at most and all where there are no more.

@@ -9,6 +9,7 @@
 #include "render/canvas/svg_chart.h"
 #include "render/frames/frame_choice.h"
 #include "render/frames/frame_images.h"
+#include "render/view/space_time.h"
 
 #include <limits.h>
 #include <math.h>
@@ -238,15 +239,15 @@ static void write_band(const Frames *frames, int32_t k, HtmlWriter *html)
     const ResultView *view = &frames->view;
     const uint8_t *status = frames->status + (int64_t)k * view->nodes;
     const Axes *axes = &frames->strip[0];
+    SpaceTime contact = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
+    double from, to, behind;
     for (int32_t i = 0; i < view->nodes;) {
         int32_t end = i;
         while (end + 1 < view->nodes && view->pad[end + 1] == view->pad[i] &&
                status[end + 1] == status[i])
             ++end;
-        bool before = i > 0 && view->pad[i - 1] == view->pad[i];
-        bool after = end + 1 < view->nodes && view->pad[end + 1] == view->pad[i];
-        double from = before ? (view->x[i - 1] + view->x[i]) / 2 : view->x[i];
-        double to = after ? (view->x[end] + view->x[end + 1]) / 2 : view->x[end];
+        node_extent(&contact, i, &from, &to);
+        node_extent(&contact, end, &behind, &to);
         double left = axes_place(axes, from, 0).x, right = axes_place(axes, to, 0).x;
         html_markup(html, "<rect class='status%d' x='%.1f' y='%d' width='%.1f' height='%d'/>",
                     status[i], left, BAND_TOP, right - left, BAND_HEIGHT);

@@ -31,6 +31,9 @@ static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *ser
         FAIL(err, ERROR_INPUT, "it needs the columns %s and %s",
              plot->column[0][0] ? plot->column[0] : "x",
              plot->column[1][0] ? plot->column[1] : "y");
+    if (table->rows == 0) FAIL(err, ERROR_INPUT, "below the names of its columns there is no row");
+    TRY(csv_check(table, x, false, err) && csv_check(table, y, false, err) &&
+        csv_check(table, error, true, err));
     TRY(series->x = NEW_ARRAY(double, table->rows, err));
     TRY(series->y = NEW_ARRAY(double, table->rows, err));
     TRY(series->low = NEW_ARRAY(double, table->rows, err));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A file of unknown content is read in a process of its own, with limits of time and memory: gmsh
 // and HDF5 crash or hang on some damaged files, and who called them must still say which file it
-// was. Called by io/mesh/mesh_read, run/info_result, and whatever draws: run/pictures, page/report,
-// study/sweep/showing/render_sweep.
+// was. Called by io/mesh/mesh_read, run/info/info_result, and whatever draws: run/result/pictures,
+// page/report, study/sweep/showing/render_sweep.
 //
 // Only where the variable AMONTONS_APART is set, as the program does: a library does not fork in a
 // process that it does not know.
@@ -31,7 +31,7 @@ typedef struct ApartWork {
 
 typedef struct ApartReply {
     char *bytes;   // [size]; owned
-    int64_t size, taken;
+    int64_t size;
 } ApartReply;
 
 bool apart_is_wanted(void);
@@ -47,9 +47,6 @@ bool apart_read(const ApartWork *work, ApartReply *reply, Error *err);
 // called here, its `reply` NULL.
 bool apart_do(const ApartWork *work, Error *err);
 
-// The next `count` items of the reply, `size` bytes each, in a new array (memory_free).
-// NULL: the reply is too short (ERROR_FILE), or memory is.
-void *apart_take(ApartReply *reply, int64_t count, size_t size, Error *err);
 void apart_destroy(ApartReply *reply);
 
 #endif

@@ -2,7 +2,7 @@
 // Which of OpenBLAS's kernels compute: those that the processor can run, also where OpenBLAS does
 // not know it. OpenBLAS chooses by family and model when it is loaded; 0.3.21 takes Prescott's
 // (SSE3, a fifth of the speed) for an Intel processor of later years. A choice by the variable
-// OPENBLAS_CORETYPE stays. Read by run/report and run/version.
+// OPENBLAS_CORETYPE stays. Read by run/report and run/info/version.
 #ifndef AMONTONS_BASE_KERNELS_H
 #define AMONTONS_BASE_KERNELS_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where the library lies, and what belongs to it: found from the file that holds this code, so that
-// an installed tree may be moved. Called by base/module and run/version.
+// an installed tree may be moved. Called by base/module and run/info/version.
 #ifndef AMONTONS_BASE_PLACE_H
 #define AMONTONS_BASE_PLACE_H
 

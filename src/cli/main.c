@@ -18,7 +18,7 @@ static const rlim_t ROOM_LEAST = (rlim_t)190 << 20, STACK_LEAST = (rlim_t)256 <<
 
 // The program's own functions come first where a library looks for one; a library of ours leaves
 // those of a host alone. In place of OpenBLAS's, which asks when it is loaded how many threads to
-// start: none beside this one (base/dense).
+// start: none beside this one (algebra/dense).
 int openblas_num_threads_env(void)
 {
     return 1;
@@ -26,8 +26,8 @@ int openblas_num_threads_env(void)
 
 // In place of libgomp's: regions of OpenMP run in the thread that meets them, where loops that are
 // shared out are done whole. CHOLMOD opens three or so in each step of a factor, of one thread each
-// (base/sparse_factor), and for each libgomp calls the kernel twice: at 160 x 160 cells a third of
-// a factor's time.
+// (algebra/sparse_factor), and for each libgomp calls the kernel twice: at 160 x 160 cells a third
+// of a factor's time.
 void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned flags)
 {
     (void)threads, (void)flags;

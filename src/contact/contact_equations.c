@@ -3,7 +3,7 @@
 // contact_find_rows, from the status of its node.
 #include "contact/contact_equations.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 
 #include <math.h>
 #include <string.h>

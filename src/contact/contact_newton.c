@@ -3,9 +3,9 @@
 // -> the step of what is free -> what follows from it (`contact_newton_take`).
 #include "contact/contact_newton.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -262,6 +262,5 @@ void contact_newton_archive(ContactNewton *newton, Archive *archive)
 {
     contact_factors_archive(&newton->factors, archive);
     archive_flag(archive, &newton->factors_gain);
-    archive_count(archive, &newton->factorisations);
-    archive_count(archive, &newton->updates);
+    archive_counts_of(archive, &newton->factorisations, &newton->updates);
 }

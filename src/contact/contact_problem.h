@@ -17,7 +17,7 @@
 
 #include "contact/contact_matrix.h"
 #include "contact/contact_status.h"
-#include "contact/friction_law.h"
+#include "friction/friction_law.h"
 #include "contact/rod.h"
 
 // Nothing is owned.

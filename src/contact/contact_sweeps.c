@@ -9,7 +9,7 @@
 // rises from 0. Of several roots the slowest is taken.
 #include "contact/contact_sweeps.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "contact/contact_equations.h"
 #include "contact/slip.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/disc_factors.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 bool disc_factors_create(const Interface *interface, DiscFactors *factors, Error *err)

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_FEM_ASSEMBLY_H
 #define AMONTONS_FEM_ASSEMBLY_H
 
-#include "base/sparse.h"
+#include "algebra/sparse.h"
 #include "fem/material.h"
 #include "fem/mesh.h"
 

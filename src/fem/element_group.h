@@ -11,7 +11,7 @@
 // same as of the Q4 in its place: there are as many conditions as nodes, on twice as many unknowns.
 // In space likewise the change of volume, k = (D_xx + 2 D_xy)/3, over one HEX8 or WEDGE6; a TET4
 // has one change of volume as it is, and locks. Called by model/regions (finds them), fem/assembly,
-// fem/recovery and run/static_solve.
+// fem/recovery and run/static/static_solve.
 #ifndef AMONTONS_FEM_ELEMENT_GROUP_H
 #define AMONTONS_FEM_ELEMENT_GROUP_H
 

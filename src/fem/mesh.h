@@ -99,8 +99,10 @@ typedef struct MeshBoundary {
 // Several pieces of contact as one list of nodes. A node of two of them is listed once and belongs
 // to that named first.
 typedef struct MeshContact {
+    int32_t group_count;
+    struct MeshPieces *groups;   // [group_count] their connected pieces (fem/mesh_pieces); owned
     int32_t pad_count;
-    MeshBoundary *pads;   // [pad_count] in the order of the names; owned
+    MeshBoundary *pads;   // [pad_count] these, in the order of the names; owned
     int32_t node_count;
     int32_t *nodes;   // [node_count] by ascending x, then y in space; owned
     int32_t *pad_of;   // [node_count] index into pads; owned
@@ -120,7 +122,8 @@ void mesh_destroy(Mesh *mesh);
 bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, Error *err);
 
 // The contact from boundaries called `names` [name_count]; no names: every one called "contact"
-// or "contact_...", in the order of their first nodes. Each must lie over z = 0 and one
+// or "contact_...", in the order of their first nodes. One of several connected pieces is as many
+// pads, "contact/1", "contact/2", ... Each must lie over z = 0 and one
 // node on it, no node straight over another, on the block's boundary and in space looking down, no
 // two on the same face, and the block not below z = 0: ERROR_INPUT names group and node.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,

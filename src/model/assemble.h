@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From a scene to the assembled block: mesh, bulk, loads, interface, supports. Called by
-// model/obtain where the cache does not hold the shape, and by run/static_solve.
+// model/obtain where the cache does not hold the shape, and by run/static/static_solve.
 #ifndef AMONTONS_MODEL_ASSEMBLE_H
 #define AMONTONS_MODEL_ASSEMBLE_H
 

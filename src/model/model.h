@@ -7,7 +7,7 @@
 #define AMONTONS_MODEL_MODEL_H
 
 #include "reduction/reduced_bulk.h"
-#include "contact/friction_law.h"
+#include "friction/friction_law.h"
 #include "contact/rod.h"
 #include "io/cache/store.h"
 #include "model/choice.h"

@@ -5,7 +5,7 @@
 #ifndef AMONTONS_RECORD_CONTACT_ARRAYS_H
 #define AMONTONS_RECORD_CONTACT_ARRAYS_H
 
-#include "contact/friction_law.h"
+#include "friction/friction_law.h"
 #include "record/observation.h"
 
 typedef struct ContactArrays {

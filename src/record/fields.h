@@ -7,7 +7,7 @@
 #define AMONTONS_RECORD_FIELDS_H
 
 #include "base/worker.h"
-#include "contact/friction_law.h"
+#include "friction/friction_law.h"
 #include "record/events.h"
 #include "record/field_files.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What each contact curve (pad) does between two slidings: what it carries when mu is largest, when
+// What each pad does between two slidings: what it carries when mu is largest, when
 // it first slips, when all of it has, in what order pads detach, and how much of a pad slips slowly
 // before its slip turns fast (events in which whole pads slid: record/drops). Fed after
 // record/events; written by run/report, a pad an object of results.pads. The course of loads and
@@ -34,7 +34,7 @@ typedef struct Pad {
 typedef struct Pads {
     const Events *events;   // not owned
     int32_t count;
-    Pad *list;   // [count] by number of the contact curve; owned
+    Pad *list;   // [count] by number of the pad; owned
     int32_t contact_count;
     uint8_t *stuck;   // [contact_count] seen sticking since the last sliding; owned
     uint8_t *slipped;   // [contact_count] slipped since it stuck; owned

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+static const double ROUNDING = 1e-12;   // of the contact's breadth: what went no farther is held
+
 Turning turning_of(const ContactArrays *contact)
 {
     return (Turning){.contact = contact};
@@ -64,7 +66,7 @@ double turning_share(const Turning *turning)
 {
     double sides = 0.5 * turning->breadth * fabs(turning->angle);
     double way = fabs(turning->way);
-    return way > 0 ? fmax(sides, fabs(turning->drift)) / way : 0;
+    return way > ROUNDING * turning->breadth ? fmax(sides, fabs(turning->drift)) / way : 0;
 }
 
 void turning_write_json(const Turning *turning, JsonWriter *json)
@@ -80,9 +82,6 @@ void turning_write_json(const Turning *turning, JsonWriter *json)
 void turning_archive(Turning *turning, Archive *archive)
 {
     archive_section(archive, "turning");
-    archive_number(archive, &turning->angle);
-    archive_number(archive, &turning->drift);
-    archive_number(archive, &turning->across);
-    archive_number(archive, &turning->way);
-    archive_number(archive, &turning->breadth);
+    archive_numbers_of(archive, &turning->angle, &turning->drift, &turning->across, &turning->way,
+                       &turning->breadth);
 }

@@ -2,7 +2,7 @@
 // With A_qq = L L' and Z = L^-1 [A_qb  load_q]: S = A_bb - Z_b' Z_b, the energy is Z_f' Z_f.
 #include "reduction/basis.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 

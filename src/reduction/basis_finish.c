@@ -3,7 +3,7 @@
 // Phi W, W = L^-T Q, has the unit matrix as K and the tridiagonal T as M.
 #include "reduction/basis.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <string.h>

@@ -5,7 +5,7 @@
 #ifndef AMONTONS_REDUCTION_PATCH_MODES_H
 #define AMONTONS_REDUCTION_PATCH_MODES_H
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "reduction/interface_operator.h"
 
 typedef struct PatchModes {

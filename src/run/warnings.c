@@ -13,7 +13,7 @@
 // with more (median 0.3 %, largest 3.2 %).
 #include "run/warnings.h"
 
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 #include "record/drops.h"
 #include "scene/materials.h"
 #include "scene/programs.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/own_law.h"
 
-#include "contact/friction_look.h"
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_look.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 #include "scene/materials.h"
 
 #include <math.h>
@@ -63,44 +63,46 @@ bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Erro
     if (memory.kind == MEMORY_FORMULAS) return true;
     *key = "rest";
     if (!(own->rest > 0) && !(scene->rod.velocity > 0))
-        FAIL(err, ERROR_INPUT,
-             "missing: without a rod that moves nothing says what the contacts remember; allowed: "
-             "a number > 0");
+        return REFUSE(err, "missing: without a rod that moves nothing says what the contacts "
+                           "remember; allowed: a number > 0");
     memory.start[0] = own->rest > 0 ? memory_rested(&memory, own->rest)
                                     : memory_steady(&memory, scene->rod.velocity);
     if (creeps) set_scales(scene, &memory);
     if (law->kind == FRICTION_SLIP_WEAKENING)
         memory.critical_velocity = memory.slip_distance / memory.healing_time;
     friction_make_memory(&memory, law);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Numbers of the map `friction` that a formula may name, and their symbols.
+enum { NUMBERS = 10 };
+static const char *const NUMBER_NAMES[NUMBERS][2] = {
+    {"mu_static", "mu_S"},        {"mu_kinetic", "mu_K"},      {"critical_velocity", "v_c"},
+    {"slip_distance", "D_c"},     {"healing_time", "theta_0"}, {"healing", "beta"},
+    {"direct_effect", "a"},       {"evolution_effect", "b"},   {"mu_reference", "f_0"},
+    {"reference_velocity", "V_0"}};
+
+int32_t scene_friction_number(const char *name)
+{
+    int32_t k = 0;
+    while (k < NUMBERS && strcmp(name, NUMBER_NAMES[k][0]) != 0 &&
+           strcmp(name, NUMBER_NAMES[k][1]) != 0)
+        k++;
+    return k < NUMBERS ? k : -1;
+}
+
 static bool find_number(const void *context, const char *name, double *value)
 {
     const SceneNumbersOf *of = context;
     const FrictionLaw *law = of->law;
     const SceneOwnFriction *own = &of->scene->own_friction;
-    const struct {
-        const char *name, *symbol;
-        double value;
-    } numbers[] = {{"mu_static", "mu_S", law->mu_static},
-                   {"mu_kinetic", "mu_K", law->mu_kinetic},
-                   {"critical_velocity", "v_c", law->critical_velocity},
-                   {"slip_distance", "D_c", own->slip_distance},
-                   {"healing_time", "theta_0", own->healing_time},
-                   {"healing", "beta", own->healing},
-                   {"direct_effect", "a", own->direct_effect},
-                   {"evolution_effect", "b", own->evolution_effect},
-                   {"mu_reference", "f_0", own->mu_reference},
-                   {"reference_velocity", "V_0", own->reference_velocity}};
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
-        if (strcmp(name, numbers[k].name) != 0 && strcmp(name, numbers[k].symbol) != 0) continue;
-        *value = numbers[k].value;
-        return *value > 0;
-    }
-    return false;
+    const double values[NUMBERS] = {
+        law->mu_static,    law->mu_kinetic,        law->critical_velocity, own->slip_distance,
+        own->healing_time, own->healing,           own->direct_effect,     own->evolution_effect,
+        own->mu_reference, own->reference_velocity};
+    int32_t k = scene_friction_number(name);
+    *value = k < 0 ? 0 : values[k];
+    return *value > 0;
 }
 
 FrictionSource scene_friction_source(const SceneNumbersOf *of)

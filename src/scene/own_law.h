@@ -21,6 +21,9 @@ typedef struct SceneNumbersOf {
     const FrictionLaw *law;   // its numbers: of the scene, or of an item of contacts
 } SceneNumbersOf;
 
+// Which of the numbers of the map `friction` a formula calls by this name or symbol; -1: none.
+int32_t scene_friction_number(const char *name);
+
 // What the scene gives for a law of one's own; `of` must outlive it.
 FrictionSource scene_friction_source(const SceneNumbersOf *of);
 

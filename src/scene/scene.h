@@ -6,7 +6,7 @@
 #define AMONTONS_SCENE_SCENE_H
 
 #include "base/error.h"
-#include "contact/friction_law.h"
+#include "friction/friction_law.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/yaml_document.h"
 #include "scene/scene_values.h"

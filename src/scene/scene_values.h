@@ -3,8 +3,8 @@
 #ifndef AMONTONS_SCENE_SCENE_VALUES_H
 #define AMONTONS_SCENE_SCENE_VALUES_H
 
-#include "contact/friction_law.h"
-#include "contact/friction_source.h"
+#include "friction/friction_law.h"
+#include "friction/friction_source.h"
 #include "io/mesh/mesh_file.h"
 
 enum {
@@ -90,7 +90,7 @@ typedef struct SceneOwnFriction {
     SceneStates states;   // of a formula
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
-    // Of laws with memory (contact/friction_memory).
+    // Of laws with memory (friction/friction_memory).
     double slip_distance, healing_time, healing;
     double direct_effect, evolution_effect, mu_reference, reference_velocity;
     SceneEvolution evolution;

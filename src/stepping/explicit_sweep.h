@@ -4,7 +4,7 @@
 #ifndef AMONTONS_STEPPING_EXPLICIT_SWEEP_H
 #define AMONTONS_STEPPING_EXPLICIT_SWEEP_H
 
-#include "base/lanes.h"
+#include "algebra/lanes.h"
 #include "fem/assembly.h"
 
 typedef struct ExplicitSweep {

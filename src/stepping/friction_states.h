@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// States of friction that remembers (contact/friction_memory), stepped by the scheme's own tableau
+// States of friction that remembers (friction/friction_memory), stepped by the scheme's own tableau
 // and eliminated node by node: stage i of a step dt has
 //
 //     theta_i = theta_i* + gamma dt g(|v_i|, theta_i),   theta_i* = theta_n + dt sum_j<i a_ij g_j
@@ -21,6 +21,8 @@ typedef struct FrictionStates {
     double slip_per_mu;   // that drives it: an error of mu counts as one of u so large, length
     double *rate;   // [TABLEAU_STAGES_MAX + 1, contact_count, STATES_MAX] g at the start of the
         // step and in its stages; owned
+    double
+        *mu_state;   // [contact_count, STATES_MAX] mu_theta at the end of the last of them; owned
 } FrictionStates;
 
 bool friction_states_create(const Block *block, FrictionStates *states, Error *err);
@@ -36,15 +38,18 @@ void friction_states_start_stage(FrictionStates *states, const Tableau *tableau,
 // Laws that ask for pressure are handed that of the reactions at hand. true: mu has changed by more
 // than rounding, and the contact problem has to be solved once more.
 bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction);
-// velocity: v of the stage on the interface. Its states go into `to`.
-void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
-                               State *to);
+// `to` has the velocities and reactions of the stage; its states go there, too.
+void friction_states_end_stage(FrictionStates *states, int32_t stage, State *to);
 
-// The largest error of mu that the local error of a state makes, as a length; `to` ends the step.
-double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step,
-                             const State *to);
+// The largest error of mu that the local error of a state makes, as a length; all stages are over.
+double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step);
 
 // The stages under way: the judge asks for the last one.
+// Whether mu, not negative, and states are numbers at each node in the stage under way, `at` these
+// slip rates; else *speed and *mu say what they are at one where they are not.
+bool friction_states_hold(const FrictionStates *states, const double *at, double *speed,
+                          double *mu);
+
 void friction_states_archive(FrictionStates *states, Archive *archive);
 
 #endif

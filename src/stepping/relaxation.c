@@ -3,7 +3,7 @@
 // later; nothing is asked of energy on the way.
 #include "stepping/relaxation.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 
 #include <math.h>
 

@@ -7,7 +7,7 @@
 // order 3 instead of 4 for SDIRK3.
 #include "stepping/tableau.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 
 enum { VALUES_MAX = TABLEAU_STAGES_MAX + 1 };   // of v: v_n and the stages
 

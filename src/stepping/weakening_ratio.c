@@ -4,7 +4,7 @@
 // Problem, 4.2).
 #include "stepping/weakening_ratio.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 
 #include <math.h>
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 # Where there are nodes. base/, cli/, page/, scene/ and the rest of io/ know none.
-FOLDERS = ["src/fem", "src/contact", "src/reduction", "src/stepping", "src/record", "src/model", "src/run", "src/study",
+FOLDERS = ["src/fem", "src/friction", "src/contact", "src/reduction", "src/stepping", "src/record", "src/model", "src/run", "src/study",
            "src/io/mesh", "src/io/fields", "render"]
 COUNTED = r"(?:\(int64_t\))?\(?[\w>.-]*\b(?:nodes?|node_count|contact_count|contacts|neighbour\w*)\b"
 IDIOMS = [
@@ -31,18 +31,18 @@ REASONS = {
     "render/figures/block_mesh.c": ("a picture is flat", r".*"),
     "render/figures/mesh_picture.c": ("a picture is flat", r".*"),
     "render/figures/mesh_space.c": ("a picture is flat", r"d < 2; "),
-    "render/figures/contact_plane.c": ("a floor is flat", r".*"),
-    "render/figures/surface.c": ("a face is flat", r".*"),
+    "render/view/contact_plane.c": ("a floor is flat", r".*"),
+    "render/view/surface.c": ("a face is flat", r".*"),
     "render/figures/space_page.c": ("a picture is flat", r".*"),
-    "render/figures/result_view.h": ("begin and end of a stretch of time", r"\(\*rapid\)"),
-    "render/figures/space_time.h": ("begin and end of a stretch of time", r"\(\*events\)"),
+    "render/view/result_view.h": ("begin and end of a stretch of time", r"\(\*rapid\)"),
+    "render/view/space_time.h": ("begin and end of a stretch of time", r"\(\*events\)"),
     "render/frames/frames.c": ("two arrays", r"frames->x"),
     "src/contact/interface.c": ("a floor is flat", r"d < 2; d"),
     "src/record/field_files.c": ("a line has two ends, a floor is flat", r"line_connectivity|corner|contact_face_points"),
     "src/record/fields.c": ("displacement and velocity", r"unknowns\[k % 2\]|whole\[k % 2\]|slot \+ k / 2|entries"),
     "src/reduction/training_points.c": ("levels", r"2 \* steps"),
     "render/figures/map_page.c": ("begin and end of a stretch of time", r"events"),
-    "src/run/static_report.c": ("two arrays", r"contact = NEW_ARRAY"),
+    "src/run/static/static_report.c": ("two arrays", r"contact = NEW_ARRAY"),
     "src/study/line/modes.c": ("even modes", r"j % 2 == 0"),
     "src/study/stability/file.c": ("real and imaginary part", r"modes/slip"),
     "src/study/sweep/showing/figure_plot.c": ("x and y of a figure", r"places\["),

@@ -59,6 +59,14 @@ class Text(unittest.TestCase):
                 self.assertTrue(list(SOURCE.glob(f"src/{path}.[ch]")) or (SOURCE / "src" / path).is_dir())
             named += 1
         self.assertGreater(named, 40)
+        functions = re.findall(rf"`(\w+)` in\s+`((?:{folders})/[\w/]+)`", text)
+        for name, path in functions:
+            self.assertIn(f"{name}(", (SOURCE / f"src/{path}.c").read_text())
+        self.assertGreater(len(functions), 2)
+
+    def test_walk_through_is_read_in_five_minutes(self):
+        """At 250 words a minute, a path counted as one."""
+        self.assertLess(len((SOURCE / "src/README.md").read_text().split()), 5 * 250)
 
     def test_walk_through_names_all_folders(self):
         listed = re.findall(r"^    (\w+)/ ", (SOURCE / "src/README.md").read_text(), re.M)

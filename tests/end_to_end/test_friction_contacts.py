@@ -99,6 +99,29 @@ class Contacts(unittest.TestCase):
             found.append(numpy.interp(times, arrays["series/time"], arrays["series/mu"]))
         numpy.testing.assert_allclose(*found, atol=0.01 * found[1].max())
 
+    def test_feet_of_one_curve(self):
+        """Two feet are two pads, drawn as one curve group or as two; friction is given by foot, or for both at once."""
+        drawn = (SOURCE / "docs/examples/arch.geo").read_text()
+        joined = drawn.replace('Physical Curve("contact_1") = {1};', 'Physical Curve("contact") = {1, 3};').replace(
+            'Physical Curve("contact_2") = {3};', "")
+        self.assertNotEqual(joined, drawn)
+        found = {}
+        for name, text, rough in (("two", drawn, "contact_2"), ("one", joined, "contact/2"), ("both", joined, "contact")):
+            (self.folder / f"{name}.geo").write_text(text)
+            arrays = self.run_scene(name, f"mesh={{file: {self.folder}/{name}.geo, set: {{refine: 0.5}}}}", "time.until.U=0.008",
+                                    f"friction.contacts=[{{group: {rough}, mu_static: 0.5}}]")
+            results = json.loads((self.folder / name / "run.json").read_text())["results"]
+            found[name] = arrays, results["slip_length"], [pad["name"] for pad in results["pads"]]
+        self.assertEqual(found["two"][0].keys(), found["one"][0].keys())
+        for key, array in found["two"][0].items():
+            numpy.testing.assert_array_equal(array, found["one"][0][key], key)
+        self.assertEqual(found["two"][1], found["one"][1])
+        self.assertEqual((found["two"][2], found["one"][2]), (["contact_1", "contact_2"], ["contact/1", "contact/2"]))
+        for name, rough in (("one", [False, True]), ("both", [True, True])):
+            arrays = found[name][0]
+            most = [(arrays["interface/shear"] - 0.381 * arrays["interface/pressure"])[:, arrays["nodes/pad"] == k].max() for k in (0, 1)]
+            self.assertEqual([one > 0 for one in most], rough, name)   # mu_static is 0.38 elsewhere
+
     def test_jumps_between_nodes(self):
         """Coarse meshes come near to what 80 to 300 cells give, 0.2195 to 0.2207, wherever their nodes lie beside the jumps."""
         for cells in (20, 28):

@@ -14,7 +14,7 @@ COMPILE = ["cc", "-std=c17", "-D_GNU_SOURCE", "-Wall", "-Wextra", "-Wshadow", "-
            "-Wstrict-prototypes", "-Werror", "-fsyntax-only", "-x", "c", "-"]
 HDF5_FLAGS = subprocess.run(["pkg-config", "--cflags", "hdf5-serial"], capture_output=True,
                             text=True).stdout.split()   # for io/hdf5/array_disk.h
-CHOLMOD_FLAGS = ["-I/usr/include/suitesparse"]   # for base/sparse_analysis.h: it has no .pc file
+CHOLMOD_FLAGS = ["-I/usr/include/suitesparse"]   # for algebra/sparse_analysis.h: it has no .pc file
 
 
 def headers(root):

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The folders of src are layers: a file includes its own folder and those above it in the list; contact/ and
-reduction/ are neighbours that do not know each other. The rooms of a large folder are layers, too. No two files
-include or call each other, neither directly nor through others.
+reduction/ are neighbours that do not know each other. The rooms of a large folder are layers, too, and none is so full
+that it is more than one idea. No two files include or call each other, neither directly nor through others.
 
 Also: nothing below scene/ knows a scene or the public header, no study knows another, but that a search is sweeps, render/ sees base/ and the result
 format only, cli/ sees the public headers only, and modules export amontons_ symbols only.
 """
+import collections
 import os
 import re
 import subprocess
@@ -16,17 +17,19 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "fem", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
+LAYERS = ["base", "io", "algebra", "fem", "friction", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_optimise.h", "amontons_simulation.h", "amontons_stability.h")
 CAIRO = r"render/canvas/(canvas|drawing|text)\.[ch]"
-NEIGHBOURS = {"contact", "reduction"}
+NEIGHBOURS = [{"contact", "reduction"}, {"friction", "reduction"}]
+ROOM = 25   # .c files of a folder at most
 STUDIES = ["study/stability", "study/line", "study/sweep", "study/search"]
 # A room includes itself and the rows above it; rooms of a row do not know each other. What is in none includes all.
 ROOMS = {
     "io": ["files", "text hdf5 video cache", "mesh", "fields"],
+    "run": ["result", "info static"],
     "study/sweep": ["reading", "computing", "showing"],
-    "render": ["canvas", "plot figures", "film frames"],
+    "render": ["canvas view", "plot figures", "film frames"],
 }
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
@@ -54,7 +57,7 @@ def allowed(folder, include):
     if include == "amontons_pictures.h":
         return layer in ("render", "") or folder == "io/text"   # what render/render.h is asked; its options, read
     if include == "amontons_friction.h":
-        return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
+        return folder in ("friction", "")   # what a plug-in and friction/friction_plugin share
     generated = {"build_record.h": "run", "computing_sources.h": "base", "page_resources.h": "page", "cli_help.h": "cli"}
     if include in generated:
         return layer == generated[include]
@@ -79,7 +82,7 @@ def allowed(folder, include):
     target, *inner = include.split("/")[:-1]
     if target == layer == "study" and inner[:1] != folder.split("/")[1:2]:
         return folder == "study/search" and inner[0] == "sweep"   # a search is sweeps; else one kind of study knows no other
-    if {target, layer} == NEIGHBOURS:
+    if {target, layer} in NEIGHBOURS:
         return False
     return target in LAYERS and LAYERS.index(target) <= LAYERS.index(layer)
 
@@ -100,6 +103,12 @@ def violations(root):
             if not allowed(folder, include):
                 found.append(f"{'/'.join(place)} includes {include}")
     return found
+
+
+def heaps(root):
+    """Folders of src/ and render/ with more than ROOM .c files, as "folder: how many"."""
+    counts = collections.Counter(str(path.parent.relative_to(root)) for top in ("src", "render") for path in (root / top).rglob("*.c"))
+    return [f"{folder}: {count}" for folder, count in sorted(counts.items()) if count > ROOM]
 
 
 def sources(root):
@@ -171,6 +180,15 @@ class Layers(unittest.TestCase):
     def test_sources(self):
         self.assertEqual(violations(SOURCE), [])
 
+    def test_no_folder_is_a_heap(self):
+        self.assertEqual(heaps(SOURCE), [])
+        with tempfile.TemporaryDirectory() as place:
+            for k in range(2 * ROOM + 1):
+                folder = Path(place) / ("render/a" if k % 2 else "src/b/c")
+                folder.mkdir(parents=True, exist_ok=True)
+                (folder / f"file{k}.c").touch()
+            self.assertEqual(heaps(Path(place)), ["src/b/c: 26"])
+
     def test_sees_faults(self):
         """Each rule catches the file that breaks it, and nothing else."""
         faults = {
@@ -179,9 +197,14 @@ class Layers(unittest.TestCase):
             "src/fem/b.c": "amontons_error.h",
             "src/fem/c.c": "reduction/reduction.h",
             "src/contact/b.c": "reduction/machine.h",
+            "src/reduction/b.c": "friction/friction_law.h",
+            "src/run/info/a.c": "run/simulation_state.h",
+            "src/run/static/a.c": "run/info/info.h",
+            "render/view/a.c": "render/canvas/page.h",
             "src/reduction/a.h": "contact/rod.h",
             "src/stepping/a.h": "scene/scene.h",
             "src/contact/a.c": "amontons.h",
+            "src/friction/a.c": "contact/interface.h",
             "src/run/a.c": "cli/options.h",
             "src/cli/a.c": "scene/scene.h",
             "src/study/line/a.c": "study/sweep/sweep.h",
@@ -196,7 +219,7 @@ class Layers(unittest.TestCase):
             "src/amontons.h": "scene/scene.h",
             "render/a.c": "record/history.h",
             "render/film/b.c": "io/fields/field_file.h",
-            "render/plot/a.c": "render/figures/zoom.h",
+            "render/plot/a.c": "render/figures/map_page.h",
         }
         good = {
             "src/io/mesh/good.c": ["io/mesh/mesh_file.h", "io/cache/cache_folder.h", "io/files/folder.h", "base/error.h"],
@@ -209,7 +232,7 @@ class Layers(unittest.TestCase):
             "src/study/line/good.c": ["study/line/model1d.h", "run/simulation_state.h"],
             "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],
-            "render/film/good.c": ["render/render.h", "render/canvas/page.h", "render/figures/zoom.h"],
+            "render/film/good.c": ["render/render.h", "render/canvas/page.h", "render/view/zoom.h"],
             "render/good.c": ["render/render.h", "io/hdf5/result_file.h", "base/memory.h"],
         }
         with tempfile.TemporaryDirectory() as folder:
@@ -228,7 +251,7 @@ class Layers(unittest.TestCase):
         """Each library is behind one of our files: nothing else includes its header."""
         owners = {
             "gmshc.h": r"src/io/mesh/mesh_\w+_module\.c",
-            "cholmod.h": r"src/base/sparse\w*\.[ch]",
+            "cholmod.h": r"src/algebra/sparse\w*\.[ch]",
             "hdf5.h": r"src/io/hdf5/array_(file_module|attribute|disk|series)\.[ch]",
             "libfyaml.h": r"src/io/text/yaml_\w+\.[ch]",
             "cairo[\\w-]*.h": CAIRO,

@@ -90,6 +90,19 @@ class OwnMemory(Driven):
             if "rate" not in name and "law" not in name:   # these show theta, formulas psi
                 self.assertLess(numpy.abs(found[0][3] - found[1][3]).max(), 1e-4 * numpy.abs(found[0][3]).max(), name)
 
+    def test_frozen(self):
+        """A state that stays is a number in mu(v): to rounding."""
+        law = "(mu_K + (mu_S - mu_K) * max(0, 1 - v / v_c)) * (0.5 + 0.5 * sqrt(THETA / 50))"
+        series = ("series/time", "series/mu", "interface/slip", "interface/status")
+        self.run_scene("number", f"friction={{law: formula, {GIVEN} formula: '{law.replace('THETA', '50')}'}}", "time.until.U=0.004")
+        self.run_scene("frozen", f"friction={{law: formula, {GIVEN} formula: '{law.replace('THETA', 'theta')}', "
+                       "state: {theta: {rate: '0 * v', start: 50}}}", "time.until.U=0.004")
+        wanted, found = self.history("number", *series), self.history("frozen", *series)
+        self.assertEqual(len(wanted[0]), len(found[0]))
+        for a, b in zip(wanted, found):
+            self.assertLess(numpy.abs(a.astype(float) - b).max(), 1e-7 * numpy.abs(a).max())
+        self.assertTrue((self.history("frozen", "interface/state")[0] == 50).all())
+
     def test_two_states(self):
         """A limit cycle at 0.65 of the critical stiffness, by formulas and by the plug-in."""
         (self.folder / "two.yaml").write_text(STIFF.format(source=SOURCE, friction=TWO))
@@ -184,12 +197,22 @@ class OwnMemory(Driven):
                 ("the law `linear-weakening` does not read it", "friction.state={theta: {rate: 1 - v}}"),
                 ("`theta` needs its `rate`", "friction={law: formula, formula: 0.3, state: {theta: {start: 1}}}"),
                 ("`min` cannot be the name of a state", "friction={law: formula, formula: 0.3, state: {min: {rate: v}}}"),
+                ("or a number of friction", "friction={law: formula, formula: 0.3 + D_c, slip_distance: 1, state: {D_c: {rate: -D_c}}}"),
+                ("x, its rate: `/ 2`", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: -x +/ 2}}}"),
+                ("x, its start: `v` is no", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: -x, start: v}}}"),
+                ("the rate of x is inf", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: 1/x, start: 0}}}"),
                 ("unknown key `begin`; allowed: rate, start", "friction={law: formula, formula: 0.3, state: {x: {begin: 1}}}"),
                 ("a map {rate: FORMULA, start: FORMULA}", "friction={law: formula, formula: 0.3, state: {x: 1}}"),
                 ("the coefficient is -9.7: it must not be negative",
                  "friction={law: formula, formula: 0.3 - x, state: {x: {rate: 1 - v * x, start: 10}}}"),
                 ("no state of steady slip is found", "friction={law: formula, formula: 0.3, state: {x: {rate: 1}}}")):
             self.assertIn(words, self.call("run", setting, status=2, flags=("-q", "-o", self.folder / "refused")))
+
+    def test_formulas_that_end(self):
+        """The root of a state that falls through 0, a thousandth of time later: said as that, not as a contact without solution."""
+        said = self.call("run", "friction={law: formula, formula: 0.3 + 0 * x, state: {x: {rate: -1 - 0 * sqrt(x), start: 1e-3}}}",
+                         status=1, flags=("-q", "-o", self.folder / "ends"))
+        self.assertRegex(said, r"at t = 0.00(1|0999)\d* friction comes to states, or to a mu \(-?nan")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 // lengths, or missing, from letters as in fuzz_mesh. (What damaged bytes do inside HDF5 is another
 // question, to which a process of its own is the answer: base/apart.)
 #include "io/hdf5/result_file.h"
-#include "render/figures/result_view.h"
-#include "run/info.h"
+#include "render/view/result_view.h"
+#include "run/info/info.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <hdf5.h>

@@ -2,8 +2,8 @@
 // Random contact problems of nodes that remember, each with a law and a state of its own: rate and
 // state over many decades of slip rate, where no node sticks; ageing and slip-weakening. They are
 // solved, and rightly, from any guess, where S outweighs the weakening.
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 #include "contact_by_hand.h"
 #include "plane.h"
 

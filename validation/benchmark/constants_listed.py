@@ -61,7 +61,7 @@ CONSTANTS = [
         ("CLEARLY", "a status is changed alone when it is off by so many times the residual", STEPPING),
         ("CHORD_GAIN", "a kept factor is given up when a step leaves more of the residual", HERE),
         ("STALLED_MAX", "Newton steps in a row that do not halve the residual: no solution", HERE)),
-    *of("contact/friction_law.c",
+    *of("friction/friction_law.c",
         ("SPENT", "rate at which a node that starts fast is tried, of v_c, exponential law", HERE)),
     *of("contact/rod.c",
         ("END_SOFTNESS", "softness of the strip's end nodes", "validation/benchmark/precision.py")),
@@ -132,32 +132,35 @@ SIZE = "room of an array; more than is used"
 ROUNDING = "rounding of coordinates"
 NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
-    "contact/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
-    "contact/friction_memory.c": {
+    "friction/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
+    "friction/friction_memory.c": {
         "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's: all digits",
         "HALVINGS": "of a step: all digits", "NEAR": "Newton's next step is its square, which is rounding",
         "ROUNDING": ROUNDING, "BEFORE_STATES": "of v and p", "MANY": "a first guess beyond the weakening, as SPENT"},
-    "contact/friction_memory.h": {"STATES_MAX": SIZE},
-    "contact/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
-    "contact/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
-    "contact/friction_start.c": {
-        "SLIGHT": "as in contact/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
+    "friction/friction_memory.h": {"STATES_MAX": SIZE},
+    "friction/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
+    "friction/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
+    "friction/friction_response.c": {"DECADES": "looks", "DECADE": "looks", "HALVINGS": "all digits"},
+    "friction/friction_start.c": {
+        "SLIGHT": "as in friction/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
         "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
-    "contact/friction_law.c": {
+    "friction/friction_law.c": {
         "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
-    "contact/friction_look.c": {
+    "friction/friction_look.c": {
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
         "STEP": "of differences: half the digits", "SLOPE_ERROR": "that differences leave",
         "CHANGED": "1 - 1/e: v_c of the exponential law", "SPENT_PART": "as of the exponential law",
         "SLIGHT": "rounding of a formula's bounds", "PEAK": "that a wide peak is met to",
         "LOOKED_MAX": "pieces that take some 10 ms", "PIECES_MAX": SIZE},
-    "contact/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
+    "friction/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
+    "record/contact_arrays.c": {"SLIGHT": "as in friction/friction_look.c"},
     "stepping/friction_states.c": {"PRESSED": "of mu: the contact problem's own rounding"},
     "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double",
+                               "BETWEEN_MEMORIES": "proven: 1.1242, rungs double",
                                "SETTLED": "digits that tell a ratio from 1, with room"},
     "contact/contact_discs.c": {
         "CHORD_GAIN": "as in contact/contact_solver.c", "STEPS": "of 15, 20 and 30 the second: 435 collected problems",
@@ -221,6 +224,7 @@ NOT_A_CHOICE = {
                              "FACE_CELLS_MAX": "of a face", "whole": "of a face", "six": "of a face", "nine": "of a face"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
+    "record/turning.c": {"ROUNDING": ROUNDING},
     "record/regime.c": {"LAG": "of run-in: above", "TREND_DROPS": "of run-in: above"},
     "record/regime.h": {"DROPS_ENOUGH": "of run-in: above"},
     "record/answers.c": {"MEAN_ERROR": "what `time.until.periodic` promises without a period; half and twice changed nothing"},
@@ -287,7 +291,6 @@ NOT_A_CHOICE = {
         "SPACE_ENTRIES": "the same",
         "SPACE_COLUMNS": "counted"},
     "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
-    "study/stability/remembers.c": {"LONG": "of D_c; a stage so long ends in the steady state"},
     "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},
     "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
@@ -297,9 +300,8 @@ NOT_A_CHOICE = {
 def places(constant, text):
     """Where the value of `constant` stands in the text of its file: spans; one is right."""
     if constant.is_key:
-        entry = re.search(rf'\{{"{re.escape(constant.name)}",[^}}]*\}}', text)
-        values = list(re.finditer(rf'"({NUMBER})"', entry[0])) if entry else []   # the last: default
-        return [tuple(entry.start() + k for k in values[-1].span(1))] if values else []
+        entry = rf'NUMBER\({re.escape(constant.name)},\s*"[^"]*",\s*\w+,\s*"({NUMBER})"'
+        return [found.span(1) for found in re.finditer(entry, text)]
     before = r"(?<![\w\])])" if constant.name[0] != "[" else ""
     pattern = rf"{before}{re.escape(constant.name)} =\s*({NUMBER})(?=\s*[,;}}\n])"
     return [found.span(1) for found in re.finditer(pattern, text)]

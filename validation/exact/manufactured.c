@@ -9,7 +9,7 @@
 // relative.
 //
 //   amontons_manufactured MESH.geo name=value ...
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "fem/assembly.h"
 #include "fem/element.h"

@@ -7,12 +7,14 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/transfer.h"
 #include "io/cache/cache_folder.h"
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
 
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -68,11 +70,7 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
         const struct timespec times[2] = {{.tv_nsec = UTIME_NOW}, {.tv_nsec = UTIME_OMIT}};
         futimens(descriptor, times);
         *bytes = memory_bytes(what.st_size, err);
-        while (*bytes && *size < what.st_size) {
-            ssize_t got = read(descriptor, (char *)*bytes + *size, (size_t)(what.st_size - *size));
-            if (got <= 0) break;
-            *size += got;
-        }
+        if (*bytes) *size = transfer_read(descriptor, *bytes, what.st_size, -1);
     }
     close(descriptor);
     return error_is_clean(err);
@@ -164,14 +162,22 @@ static bool append(void *self, const void *bytes, int64_t size)
     return true;
 }
 
-// A cache that cannot be looked through stays as it is: what was written is there.
-static void stay_below_limit(const char *path)
+static _Atomic int64_t unlooked;   // bytes that this process may write before it looks
+
+// Looking through a folder of thousands of files takes longer than most writing, so that a process
+// looks again when it has written an eighth of what was free, and then makes some room.
+static void stay_below_limit(const char *path, int64_t written)
 {
+    enum { LOOK_AT = 8, MADE_FREE = 16 };   // of what was free; of the limit
     Error unseen = {0};
     CacheFolder folder = {0};
     int64_t bytes = 0, limit = 0;
-    if (cache_folder_limit(&limit, &unseen) && cache_folder_read(&folder, &unseen))
-        cache_folder_trim(&folder, limit, path, &bytes);
+    if (atomic_fetch_sub(&unlooked, written) > written) return;
+    // One that cannot be looked through stays as it is: what was written is there.
+    if (cache_folder_limit(&limit, &unseen) && cache_folder_read(&folder, &unseen) &&
+        folder.bytes > limit)
+        cache_folder_trim(&folder, limit - limit / MADE_FREE, path, &bytes);
+    atomic_store(&unlooked, (limit - folder.bytes + bytes) / LOOK_AT);
     cache_folder_destroy(&folder);
 }
 
@@ -193,7 +199,7 @@ static bool write_item(const CacheItem *item, const char *path, Error *err)
     hash_write(&file.hash, digest);
     TRY(part_file_write(&file.part, digest, KEY_SIZE, err));
     TRY(part_file_commit(&file.part, err));
-    stay_below_limit(path);
+    stay_below_limit(path, head.size);
 cleanup:
     part_file_discard(&file.part);
     memory_free(file.block);

@@ -7,7 +7,7 @@
 typedef enum ResultColumns {
     COLUMNS_ONE,
     COLUMNS_NODES,   // one a contact node, by x
-    COLUMNS_PADS   // one a contact curve: nodes/pad numbers them
+    COLUMNS_PADS   // one a pad: nodes/pad numbers them
 } ResultColumns;
 
 // Rows are accepted steps: the state at the END of the step, row 0 the start. In space slip_rate,
@@ -42,8 +42,8 @@ typedef enum ResultColumns {
     X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
       "0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not")                  \
     X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
-      "theta of friction that remembers (`slip-weakening`: part of strength that is there, 1; "    \
-      "one's own: several along a last axis); absent where nothing is remembered")                 \
+      "theta of friction that remembers (`slip-weakening`: phi, part of strength, 1; one's own: "  \
+      "several along a last axis, in their own units); absent where nothing is remembered")        \
     X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
@@ -63,7 +63,7 @@ typedef enum ResultColumns {
     X(NODES_LINE, "nodes/line", ARRAY_INT32, "1",                                                  \
       "1: on the line along the middle of the contact that fronts are read off; in space only")    \
     X(NODES_WEIGHT, "nodes/weight", ARRAY_FLOAT64, "length", "integral of the shape function")     \
-    X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which contact curve the node is on, from 0")
+    X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which pad the node is on, from 0")
 
 // What the contact is drawn by, in space only. X(symbol, name, stored type, unit, description)
 #define RESULT_FACES(X)                                                                            \
@@ -90,8 +90,8 @@ typedef enum ResultColumns {
     X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity",                                        \
       "mean speed of the front along the contact; nan: none")
 
-// Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (the
-// contact curves' names, a line each), states (names of one's own), warnings (absent: none).
+// Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (their
+// names, a line each), states (likewise), state_unit, warnings (absent: none).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_FORMAT, "format", "1",                                                                \

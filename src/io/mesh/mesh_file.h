@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh as it stands in a file: plain arrays, no physics. Read through the gmsh C API, which is a
-// module opened on first use. Called by model/assemble and run/info; checked by fem/mesh_build.
+// module opened on first use. Called by model/assemble and run/info/info; checked by
+// fem/mesh_build.
 #ifndef AMONTONS_IO_MESH_MESH_FILE_H
 #define AMONTONS_IO_MESH_MESH_FILE_H
 

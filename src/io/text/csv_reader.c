@@ -11,6 +11,8 @@
 
 enum { SIZE_MAX_CSV = 1 << 30 };
 
+static const char BLANKS[] = " \t";
+
 // The cell that begins at *at, with a zero byte behind it; *at becomes the beginning of the next
 // one. *ends: the row does. A quote that is never closed takes the rest of the text.
 static char *take_cell(char **at, bool *ends)
@@ -37,10 +39,9 @@ static char *take_cell(char **at, bool *ends)
 static bool add_cell(CsvTable *table, int32_t *count, int32_t *room, const char *cell, Error *err)
 {
     const char **longer = memory_grow(table->cells, *count, room, sizeof *table->cells, err);
-    TRY(longer);
+    if (!longer) return false;
     table->cells = longer;
     table->cells[(*count)++] = cell;
-cleanup:
     return error_is_clean(err);
 }
 
@@ -83,8 +84,23 @@ double csv_value(const CsvTable *table, int32_t row, int32_t column)
 {
     const char *cell = csv_cell(table, row, column);
     double value = NAN;
+    cell += strspn(cell, BLANKS);
     int32_t used = text_number(cell, &value);
-    return used > 0 && !cell[used] ? value : (double)NAN;
+    return used > 0 && !cell[(size_t)used + strspn(cell + used, BLANKS)] ? value : (double)NAN;
+}
+
+bool csv_check(const CsvTable *table, int32_t column, bool positive, Error *err)
+{
+    for (int32_t row = 0; column >= 0 && row < table->rows; ++row) {
+        const char *cell = csv_cell(table, row, column);
+        double value = csv_value(table, row, column);
+        if (!cell[strspn(cell, BLANKS)] || (isfinite(value) && (!positive || value > 0))) continue;
+        FAIL(err, ERROR_INPUT,
+             "line %d, %s: `%.40s` is no number%s; what is not known is left empty", row + 2,
+             csv_name(table, column), cell, positive ? " above 0" : "");
+    }
+cleanup:
+    return error_is_clean(err);
 }
 
 int32_t csv_column(const CsvTable *table, const char *name)

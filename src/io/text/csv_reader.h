@@ -19,6 +19,9 @@ bool csv_read(const char *path, CsvTable *table, Error *err);
 const char *csv_name(const CsvTable *table, int32_t column);
 const char *csv_cell(const CsvTable *table, int32_t row, int32_t column);
 double csv_value(const CsvTable *table, int32_t row, int32_t column);   // NaN: no number, no cell
+// The column's cells are finite numbers, where asked above 0, or empty; ERROR_INPUT names line and
+// cell of one that is not. A column below 0 has none.
+bool csv_check(const CsvTable *table, int32_t column, bool positive, Error *err);
 int32_t csv_column(const CsvTable *table, const char *name);   // -1: there is none
 void csv_destroy(CsvTable *table);   // zeroed is fine
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The options of a picture by their names, read and checked by the one table, PICTURE_OPTIONS.
-// Called by run/pictures, for callers, and by render/plot, for the `page` of a plot file.
+// Called by run/result/pictures, for callers, and by render/plot, for the `page` of a plot file.
 #ifndef AMONTONS_IO_TEXT_PICTURE_OPTIONS_H
 #define AMONTONS_IO_TEXT_PICTURE_OPTIONS_H
 

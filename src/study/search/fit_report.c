@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/search/fit_report.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "io/text/csv_writer.h"
 #include "study/search/fit_figures.h"
 #include "study/search/search_answer.h"

@@ -3,7 +3,7 @@
 // Gauss-Newton steps (Marquardt, SIAM J. Appl. Math. 11, 431 (1963)), kept within the ranges.
 #include "study/search/response.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/order.h"
 
@@ -145,8 +145,11 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
     if (def->designs < MORE * r->terms) r->terms = 1 + 2 * n;
     if (def->designs < MORE * r->terms) r->terms = 1 + n;
     if (def->designs <= r->terms)
-        FAIL(err, ERROR_COMPUTE, "only %d designs have all that was measured: too few for %d keys",
-             def->designs, n);
+        FAIL(
+            err, ERROR_COMPUTE,
+            "only %d designs have all that was measured: too few for %d keys; sweep.csv says which "
+            "runs lack what (a longer time.until, or more `designs`, would help)",
+            def->designs, n);
     TRY(weights = NEW_ARRAY(double, def->designs, err));
     TRY(r->coefficients = NEW_ARRAY(double, (int64_t)r->data * r->terms, err));
     TRY(r->measured = NEW_ARRAY(double, 3 * (int64_t)r->data, err));

@@ -2,7 +2,7 @@
 // Where on the path stability is lost first: l, U and mu of each way to lose it, into the summary.
 #include "study/stability/stability.h"
 
-#include "contact/friction_state.h"
+#include "friction/friction_state.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 // processor can do is read from the system, not asked of it again.
 #include "base/kernels.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "near.h"
 
 #include <stdlib.h>

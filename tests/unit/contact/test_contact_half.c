@@ -3,7 +3,7 @@
 // whole, and the quadratic form of S on motions that are even or odd.
 #define HAND_DIM 3
 #define HAND_NODES 24
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "contact/contact_half.h"
 #include "contact_by_hand.h"
 

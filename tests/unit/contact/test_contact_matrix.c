@@ -2,7 +2,7 @@
 // S with open nodes condensed out, however it was reached, against an elimination from S itself.
 #include "contact/contact_matrix.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact_by_hand.h"
 

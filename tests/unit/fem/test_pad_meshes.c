@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // meshes/pads.geo and meshes/grooves.geo: areas, lengths and groups against what geometry says, and
 // what they refuse.
-#include "fem/mesh.h"
+#include "base/memory.h"
+#include "fem/mesh_pieces.h"
 
 #include "near.h"
+
+#include <string.h>
 
 enum { PARAMETERS_MAX = 12, PADS_MAX = 12 };
 
@@ -110,6 +113,79 @@ TEST(test_one_pad_whole)
     assert_near("area", drawn.summary.area, 0.55, 1e-12);
     assert_near("rod", rise_of(&drawn, "rod"), 0.5, 1e-15);
     drawn_destroy(&drawn);
+}
+
+// All contacts become one group.
+static void join_contacts(Mesh *mesh)
+{
+    MeshGroup *first = NULL;
+    for (int32_t g = 0; g < mesh->group_count; g++) {
+        MeshGroup *group = &mesh->groups[g];
+        if (strncmp(group->name, "contact_", 8) != 0) continue;
+        snprintf(group->name, sizeof group->name, first ? "joined" : "contact");
+        if (!first) {
+            first = group;
+            continue;
+        }
+        int32_t width = first->nodes_per_face, faces = first->face_count, nodes = first->node_count;
+        Error err = {0};
+        int32_t *face_nodes = NEW_ARRAY(int32_t, (faces + group->face_count) * width, &err);
+        int32_t *all = NEW_ARRAY(int32_t, nodes + group->node_count, &err);
+        memcpy(face_nodes, group->face_nodes,
+               (size_t)(group->face_count * width) * sizeof(int32_t));
+        memcpy(face_nodes + group->face_count * width, first->face_nodes,
+               (size_t)(faces * width) * sizeof(int32_t));   // in whatever order
+        memcpy(all, first->nodes, (size_t)nodes * sizeof(int32_t));
+        memcpy(all + nodes, group->nodes, (size_t)group->node_count * sizeof(int32_t));
+        memory_free_all(first->face_nodes, first->nodes);
+        first->face_nodes = face_nodes;
+        first->nodes = all;
+        first->face_count += group->face_count;
+        first->node_count += group->node_count;
+        mesh_sort_nodes(mesh, all, first->node_count);
+    }
+}
+
+// Pieces of one group are the pads that they are under names of their own, in plane and space.
+TEST(test_one_group_for_all)
+{
+    MeshParameter plane[PARAMETERS_MAX] = {{"n", 12, ""}, {"fill", 0.7, ""}, {"order", 2, ""}};
+    MeshParameter space[PARAMETERS_MAX] = {{"n", 2, ""}, {"refine", 1, ""}};
+    for (int which = 0; which < 2; which++) {
+        Drawn drawn;
+        Error err = {0};
+        MeshContact joined;
+        draw(which ? "pads3d.geo" : "pads.geo", which ? space : plane, &drawn);
+        const MeshContact *named = &drawn.contact;
+        join_contacts(&drawn.mesh);
+        assert_true(mesh_contact(&drawn.mesh, NULL, 0, &joined, &err));
+        assert_true(named->pad_count > 1);
+        assert_int_equal(joined.pad_count, named->pad_count);
+        assert_int_equal(joined.node_count, named->node_count);
+        for (int32_t i = 0; i < named->node_count; i++) {
+            assert_int_equal(joined.nodes[i], named->nodes[i]);
+            assert_int_equal(joined.pad_of[i], named->pad_of[i]);
+        }
+        for (int32_t p = 0; p < joined.pad_count; p++) {
+            char name[GROUP_NAME_SIZE];
+            snprintf(name, sizeof name, "contact/%d", p + 1);
+            assert_string_equal(joined.pads[p].name, name);
+            assert_int_equal(joined.pads[p].face_count, named->pads[p].face_count);
+            assert_int_equal(joined.pads[p].node_count, named->pads[p].node_count);
+        }
+        mesh_contact_destroy(&joined);
+        drawn_destroy(&drawn);
+    }
+}
+
+TEST(test_names_of_pieces)
+{
+    assert_true(mesh_piece_is_of("feet", "feet"));
+    assert_true(mesh_piece_is_of("feet/12", "feet"));
+    assert_false(mesh_piece_is_of("feet", "feet/1"));
+    assert_false(mesh_piece_is_of("feet/", "feet"));
+    assert_false(mesh_piece_is_of("feet/1a", "feet"));
+    assert_false(mesh_piece_is_of("feet_1", "feet"));
 }
 
 // Half a gap at either end; a given gap puts the row in the middle; lengths in geometric steps.

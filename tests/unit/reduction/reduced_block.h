@@ -3,7 +3,7 @@
 #ifndef AMONTONS_TESTS_REDUCED_BLOCK_H
 #define AMONTONS_TESTS_REDUCED_BLOCK_H
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "block_mesh.h"
 #include "reduction/interface_operator.h"
 #include "reduction/symmetry_reduction.h"

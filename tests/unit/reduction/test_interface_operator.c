@@ -2,7 +2,7 @@
 // The condensed operator against dense elimination, what was lifted lowered again, a whole solve.
 #include "reduction/interface_operator.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "block_mesh.h"
 #include "dense_by_hand.h"
 

@@ -5,7 +5,7 @@
 #ifndef AMONTONS_TESTS_STEPPED_BLOCK_H
 #define AMONTONS_TESTS_STEPPED_BLOCK_H
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "block_mesh.h"
 #include "reduction/interface_operator.h"
 #include "contact/rod.h"

@@ -3,9 +3,9 @@
 // memory Ruina's, and the exact dispersion relation of a shear column.
 #include "stepping/growth.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "block_mesh.h"
-#include "contact/friction_make.h"
+#include "friction/friction_make.h"
 #include "reduction/symmetry_reduction.h"
 #include "dense_by_hand.h"
 

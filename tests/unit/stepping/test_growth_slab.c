@@ -4,7 +4,7 @@
 // slab is periodic: unknowns of its right side are those of its left side, in the assembled
 // matrices. Its top is free, so that long waves find it as soft as one likes.
 #include "block_rig.h"
-#include "contact/friction_make.h"
+#include "friction/friction_make.h"
 #include "stepping/growth.h"
 
 #include <complex.h>

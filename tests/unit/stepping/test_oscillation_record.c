@@ -3,7 +3,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "block_rig.h"
-#include "contact/friction_make.h"
+#include "friction/friction_make.h"
 #include "plane.h"
 
 static const double LONG = 20, PRESSURE = 1e-3;

@@ -3,7 +3,7 @@
 // a parabola against the parabola itself.
 #include "stepping/weakening_ratio.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "dense_by_hand.h"
 #include "near.h"
 #include "random_numbers.h"

@@ -8,7 +8,7 @@
 // Element e computes the share first + e.
 #include "study/sweep/computing/element.h"
 
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"
@@ -72,17 +72,16 @@ static bool read_settings(const char *text, ElementSettings *settings, Error *er
     double count = 0;
     bool found = json_find_number(text, "set_count", &count);
     if (!found || !(count >= 0 && count <= STUDY_SETTINGS_MAX))
-        FAIL(err, ERROR_INPUT, "no list of elements as a sweep writes it");
+        return REFUSE(err, "no list of elements as a sweep writes it");
     settings->count = (int32_t)count;
     for (int32_t k = 0; k < settings->count; k++) {
         char path[40];
         snprintf(path, sizeof path, "set.%d", k);
         if (!json_find_text(text, path, settings->text[k], SETTING_SIZE))
-            FAIL(err, ERROR_INPUT, "the list of elements lacks setting %d", k);
+            return REFUSE(err, "the list of elements lacks setting %d", k);
         settings->list[k] = settings->text[k];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Cases that a search has added to the study, one text for each round.
@@ -100,10 +99,9 @@ static bool read_designs(const char *text, Study *study, Error *err)
                 study_add_designs(study, design, err);
         memory_free(design);
         if (!found && error_is_clean(err))
-            FAIL(err, ERROR_INPUT, "the list of elements lacks design %d", k);
-        TRY(error_is_clean(err));
+            return REFUSE(err, "the list of elements lacks design %d", k);
+        if (!error_is_clean(err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 

@@ -51,12 +51,11 @@ static bool key_counts(const char *key)
 bool point_hash(Sweep *sweep, const Scene *scene, char text[HASH_TEXT_SIZE], Error *err)
 {
     Hash hash = computation_hash();
-    TRY(hash_mesh(scene, &sweep->mesh, err));
+    if (!hash_mesh(scene, &sweep->mesh, err)) return false;
     hash_bytes(&hash, &sweep->mesh.hash, sizeof sweep->mesh.hash);
-    TRY(scene_hash(scene, key_counts, &hash, err));
+    if (!scene_hash(scene, key_counts, &hash, err)) return false;
     hash_write(&hash, text);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static int compare_hashes(const void *a, const void *b)

@@ -48,7 +48,7 @@ static bool add_point(Sweep *sweep, char **line, Error *err)
     char *hash = NULL, *rest = NULL;
     long point = strtol(*line, &hash, 10);
     if (*hash != ' ' || point < 0 || point >= sweep->study.point_count)
-        FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", sweep->study.path);
+        return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     SweepPoint *at = &sweep->points[point];
     char *end = strchr(hash, '\n');
     if (strlen(hash) > HASH_TEXT_SIZE) {
@@ -56,14 +56,12 @@ static bool add_point(Sweep *sweep, char **line, Error *err)
         at->accuracy = strtod(rest, NULL);
     }
     const Scene *scene = point_scene(sweep, (int32_t)point, err);
-    TRY(scene);
-    TRY(point_hash(sweep, scene, at->hash, err));
+    if (!scene || !point_hash(sweep, scene, at->hash, err)) return false;
     if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
-        FAIL(err, ERROR_INPUT, "the study, its scene or a mesh was changed after the sweep began");
+        return REFUSE(err, "the study, its scene or a mesh was changed after the sweep began");
     at->same_as = (int32_t)point;
     *line = end ? end + 1 : hash + strlen(hash);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool read_points(Sweep *sweep, const char *path, Error *err)

@@ -112,6 +112,24 @@ TEST_BETWEEN(test_writing_keeps_the_limit, cache_begin, cache_end)
     cache_folder_destroy(&folder);
 }
 
+// A process does not look through the folder for each file that it writes: what another one puts
+// there is met when an eighth of what was free is used: at most 80 kB, and a file has 800 bytes.
+TEST_BETWEEN(test_looks_rarely, cache_begin, cache_end)
+{
+    enum { LIMIT = 640000, OTHERS = 1000000, EIGHTH = LIMIT / 8 / 800 + 1 };
+    double values[100] = {0};
+    setenv("AMONTONS_CACHE_LIMIT", "0", 1);
+    write_cache('0', values);   // nothing is free: the next one looks
+    setenv("AMONTONS_CACHE_LIMIT", "640K", 1);
+    write_cache('1', values);
+    make_file(name_of('e', "basis"), OTHERS, 10);
+    write_cache('2', values);
+    assert_true(place_has(cache, name_of('e', "basis")));
+    for (int32_t k = 0; k < EIGHTH; k++) write_cache('3', values);
+    assert_false(place_has(cache, name_of('e', "basis")));
+    assert_true(place_has(cache, name_of('2', "shape")));   // there was room, then
+}
+
 TEST_BETWEEN(test_limit, cache_begin, cache_end)
 {
     const struct {

@@ -65,6 +65,13 @@ TEST(other_line_ends_are_read)
     assert_true(csv_value(&table, 0, 0) == 1);
     assert_true(isnan(csv_value(&table, 0, 1)));   // no number, though it begins with one
     csv_destroy(&table);
+    assert_true(read_text("x,y\n 1 , -2\n1, \n", &table, &err));
+    assert_true(csv_value(&table, 0, 0) == 1 && csv_value(&table, 0, 1) == -2);
+    assert_true(csv_check(&table, 1, false, &err) && csv_check(&table, -1, true, &err));
+    assert_false(csv_check(&table, 1, true, &err));
+    assert_string_equal(err.message,
+                        "line 2, y: ` -2` is no number above 0; what is not known is left empty");
+    csv_destroy(&table);
 }
 
 TEST(wrong_tables_are_told)

@@ -34,7 +34,7 @@ static bool take(const char *text, MeasuredKind kind, Measured *measured, Error 
     assert_non_null(file);
     fputs(text, file);
     fclose(file);
-    const ComputedCurve curve = {3, U, kind == MEASURED_MU ? mu : front};
+    const ViewCurve curve = {3, U, kind == MEASURED_MU ? mu : front};
     if (!measured_read(path, kind, &view, measured, err)) return false;
     measured_compare(measured, &view, computed_on_curve, &curve);
     return true;
@@ -109,8 +109,8 @@ TEST(columns_say_what_was_measured)
 // By hand: between rows half-way, at both ends, beyond them; where a curve stands still its end.
 TEST(a_curve_is_linear_between_its_points)
 {
-    const double at[5] = {0, 1, 1, 1, 3}, value[5] = {0, 2, 5, 6, 10};
-    const ComputedCurve curve = {5, at, value};
+    double at[5] = {0, 1, 1, 1, 3}, value[5] = {0, 2, 5, 6, 10};
+    const ViewCurve curve = {5, at, value};
     assert_float_equal(curve_value(&curve, 0), 0, 1e-15);
     assert_float_equal(curve_value(&curve, 0.5), 1, 1e-15);
     assert_float_equal(curve_value(&curve, 1), 6, 1e-15);
@@ -121,10 +121,17 @@ TEST(a_curve_is_linear_between_its_points)
 
 TEST(what_is_wrong_is_said)
 {
-    static const char *const cases[][2] = {{"U,mu\n1,2\n", "U needs a unit"},
-                                           {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
-                                           {"U (mm),y\n1,2\n", "it needs the columns"},
-                                           {"U (mm),mu\n1\n", "cells"}};
+    static const char *const cases[][2] = {
+        {"U,mu\n1,2\n", "U needs a unit"},
+        {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
+        {"U (mm),y\n1,2\n", "it needs the columns"},
+        {"U (mm),mu\n1\n", "cells"},
+        {"U (mm),mu\n", "there is no row"},
+        {"U (mm),mu\n1,\n1,0.3 kN\n", "line 3, mu: `0.3 kN` is no number;"},
+        {"U (mm),x (cm),mu\n1,?,1\n", "line 2, x (cm): `?`"},
+        {"U (mm),mu\n1e999,1\n", "`1e999` is no number;"},
+        {"U (mm),mu,error\n1,1,0\n", "error: `0` is no number above 0"},
+        {"U (mm),F_T,F_N\n1,1,0\n", "F_N: `0` is no number above 0"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The stepped line: its sums against the integrals they stand for, its rest state against the
 // equation, its quasi-static slip against the closed forms as nodes are added.
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "model1d_sets.h"
 #include "plane.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Coupled modes against differences of the same equation, against the paper's single modes, and
 // against stepping/growth on the line that is stepped.
-#include "base/dense.h"
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "model1d_sets.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What steady slip at V asks of a spring, against (b - a) N/D_c and its like; how fast it forgets.
-#include "contact/friction_make.h"
-#include "contact/friction_state.h"
+#include "friction/friction_make.h"
+#include "friction/friction_state.h"
 #include "path_by_hand.h"
 
 static const double V = 1e-4;
@@ -57,6 +57,6 @@ TEST(test_critical_spring)
                           .slip_distance = 2e-3},
          laws);
     assert_true(isnan(stability_critical_spring(&rig.path, 0, 4)));
-    rig.path.laws = NULL;
+    rig.model.law.remembers = false;
     assert_true(isnan(stability_critical_spring(&rig.path, 0, 4)));
 }

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Slip is rapid from twice the rod's velocity on, as in the events of a run, and slip at all from a
+// hundredth of it on, as in the slip map. Moments are those at which it had come to equal parts of
+// the contact: what spreads is seen spreading, however unevenly steps lie.
+#include "render/view/contact_moments.h"
+
+#include "base/memory.h"
+#include "render/view/block.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SLOW_PARTS = 3, RAPID_PARTS = 2, MOMENT_SIZE = 64 };
+
+static const double RAPID = 2, SLIPS = 0.01;   // of the rod's velocity
+static const double ROUNDING = 1e-9;   // of sums of areas
+
+static int64_t nearest_row(const ResultView *view, const double *values, double wanted)
+{
+    int64_t best = 0;
+    for (int64_t row = 0; row < view->rows; ++row)
+        if (fabs(values[row] - wanted) < fabs(values[best] - wanted)) best = row;
+    return best;
+}
+
+static int compare_rows(const void *left, const void *right)
+{
+    int64_t a = *(const int64_t *)left, b = *(const int64_t *)right;
+    return a < b ? -1 : a > b;
+}
+
+static bool take_asked(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
+{
+    char word[MOMENT_SIZE];
+    for (; *at; at += strcspn(at, ","), at += *at == ',') {
+        bool by_U = false;
+        double value = 0;
+        if (moments->count == MOMENTS_MAX)
+            FAIL(err, ERROR_INPUT, "a figure shows %d moments at most", MOMENTS_MAX);
+        snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
+        TRY(block_moment_read(word, &by_U, &value, err));
+        moments->row[moments->count++] = nearest_row(view, by_U ? view->U : view->t, value);
+    }
+    qsort(moments->row, (size_t)moments->count, sizeof *moments->row, compare_rows);
+    moments->asked = true;
+    moments->first = moments->row[0];
+    moments->last = moments->row[moments->count - 1];
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of rapid events the one nearest to `wanted`; without a wish the last that carried the whole
+// block, or else the last.
+static const ViewEvent *find_event(const ResultView *view, const double *wanted)
+{
+    const ViewEvent *best = NULL;
+    double least = INFINITY;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind <= VIEW_QUASI_STATIC || !isfinite(event->U_start + event->U_stop)) continue;
+        double away = wanted ? fabs(event->U_start - *wanted) : event->kind == VIEW_LEADING ? 0 : 1;
+        if (!(away <= least)) continue;
+        least = away;
+        best = event;
+    }
+    return best;
+}
+
+static bool take_event(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
+{
+    bool by_U = true;
+    double wanted = 0;
+    if (at) {
+        TRY(block_moment_read(at, &by_U, &wanted, err));
+        if (!by_U) wanted = view->U[nearest_row(view, view->t, wanted)];
+    }
+    const ViewEvent *event = find_event(view, at ? &wanted : NULL);
+    if (!event)
+        FAIL(err, ERROR_INPUT,
+             "no rapid slip has been seen from start to end: say when, as --at U=%.4g",
+             view->U[view->rows / 2]);
+    moments->first = nearest_row(view, view->U, event->U_start);
+    moments->last = nearest_row(view, view->U, event->U_stop);
+    while (moments->first > 0 && view->U[moments->first] >= event->U_start) --moments->first;
+    for (int32_t k = 0; k < view->rapid_count; ++k)
+        if (view->rapid[k][1] < event->U_start)
+            moments->before = nearest_row(view, view->U, view->rapid[k][1]);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Fills moments->arrival with the time of the first rapid step of each node in the event.
+static bool find_arrival(const ResultView *view, const ContactPlane *plane, const double *rates,
+                         ContactMoments *moments, Error *err)
+{
+    double rapid = RAPID * fabs(view->number[NUMBER_ROD_VELOCITY]);
+    double *arrival = moments->arrival = NEW_ARRAY(double, plane->nodes, err);
+    if (!arrival) return false;
+    moments->start = INFINITY;
+    for (int32_t i = 0; i < plane->nodes; ++i) {
+        int64_t row = moments->first;
+        while (row <= moments->last && !(rates[row * plane->nodes + i] >= rapid)) ++row;
+        arrival[i] = row <= moments->last ? view->t[row] : NAN;
+        moments->start = fmin(moments->start, arrival[i]);
+    }
+    for (int32_t i = 0; i < plane->nodes; ++i) arrival[i] -= moments->start;
+    return true;
+}
+
+// How much of the contact rapid slip had come to at a step.
+static double area_reached(const ResultView *view, const ContactPlane *plane,
+                           const ContactMoments *moments, int64_t row)
+{
+    double area = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        if (moments->arrival[i] <= view->t[row] - moments->start) area += plane->weight[i];
+    return area;
+}
+
+// The step of the event in which the contact is fastest in the mean.
+static int64_t fastest_row(const ContactPlane *plane, const double *rates,
+                           const ContactMoments *moments)
+{
+    double most = -INFINITY;
+    int64_t best = moments->first;
+    for (int64_t row = moments->first; row <= moments->last; ++row) {
+        double sum = 0;
+        for (int32_t i = 0; i < plane->nodes; ++i)
+            sum += plane->weight[i] * rates[row * plane->nodes + i];
+        if (sum > most) best = row;
+        most = fmax(most, sum);
+    }
+    return best;
+}
+
+// Each row once; they come in order but for the last.
+static void add_row(ContactMoments *moments, int64_t row)
+{
+    if (moments->count == 0 || row > moments->row[moments->count - 1])
+        moments->row[moments->count++] = row;
+}
+
+// How much of the contact slips at a step.
+static double area_slipping(const ResultView *view, const ContactPlane *plane, const double *rates,
+                            int64_t row)
+{
+    double area = 0, least = SLIPS * fabs(view->number[NUMBER_ROD_VELOCITY]);
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        if (rates[row * plane->nodes + i] >= least) area += plane->weight[i];
+    return area;
+}
+
+// Between the events slip begins anew where less than the first part slips.
+static void choose_rows(const ResultView *view, const ContactPlane *plane, const double *rates,
+                        ContactMoments *moments)
+{
+    double all = 0, rapid = area_reached(view, plane, moments, moments->last);
+    int64_t row = moments->before;
+    for (int32_t i = 0; i < plane->nodes; ++i) all += plane->weight[i];
+    while (row < moments->first && area_slipping(view, plane, rates, row) > all / SLOW_PARTS) ++row;
+    for (int32_t part = 1; part < SLOW_PARTS; ++part) {
+        double wanted = (double)part / SLOW_PARTS * all;
+        while (row < moments->first && area_slipping(view, plane, rates, row) < wanted) ++row;
+        if (row < moments->first) add_row(moments, row);
+    }
+    add_row(moments, moments->first);
+    row = moments->first;
+    for (int32_t part = 1; part <= RAPID_PARTS; ++part) {
+        double wanted = (double)part / RAPID_PARTS * (1 - ROUNDING) * rapid;
+        while (row < moments->last && area_reached(view, plane, moments, row) < wanted) ++row;
+        add_row(moments, row);
+    }
+    add_row(moments, fastest_row(plane, rates, moments));
+}
+
+bool contact_moments_find(const ResultView *view, const double *rates, const char *at, bool whole,
+                          ContactMoments *moments, Error *err)
+{
+    const ContactPlane *plane = &view->plane;
+    *moments = (ContactMoments){0};
+    if (at && !whole) return take_asked(view, at, moments, err);
+    TRY(take_event(view, at, moments, err));
+    TRY(find_arrival(view, plane, rates, moments, err));
+    choose_rows(view, plane, rates, moments);
+cleanup:
+    return error_is_clean(err);
+}
+
+void contact_moments_destroy(ContactMoments *moments)
+{
+    memory_free(moments->arrival);
+    *moments = (ContactMoments){0};
+}

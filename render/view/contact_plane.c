@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A face is cut in its reference coordinates half way between its nodes; a face of T6, whose
+// corners touch nothing, from its middle to its corners.
+#include "render/view/contact_plane.h"
+
+#include "base/memory.h"
+#include "io/mesh/element_faces.h"
+#include "io/mesh/shape_functions.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FACE_PATCHES_MAX = FACE_NODES_MAX };
+
+// What of the history the faces are made of.
+typedef struct Faces {
+    double *corner, *point;   // as history.h5 has them
+    int32_t corners, count, width;
+} Faces;
+
+typedef struct Face {
+    ElementKind kind;
+    int32_t point[FACE_NODES_MAX];
+    MeshPlace place[FACE_NODES_MAX];
+} Face;
+
+// A face's point by the number of its node; -1: there is none such.
+static bool take_point(const ContactPlane *plane, const Faces *faces, double stored, int32_t *point,
+                       MeshPlace place)
+{
+    int32_t all = plane->nodes + faces->corners;
+    if (!(stored >= 0 && stored < all)) return false;
+    *point = (int32_t)stored;
+    int32_t k = *point - plane->nodes;
+    place[0] = k < 0 ? plane->x[*point] : faces->corner[2 * k];
+    place[1] = k < 0 ? plane->y[*point] : faces->corner[2 * k + 1];
+    return true;
+}
+
+static bool take_face(const ContactPlane *plane, const Faces *faces, int32_t f, Face *face,
+                      Error *err)
+{
+    const double *stored = faces->point + (int64_t)f * faces->width;
+    int32_t count = 0;
+    while (count < faces->width && stored[count] >= 0) ++count;
+    int32_t kind = element_kind_of(2, count);
+    if (kind < 0) FAIL(err, ERROR_FILE, "a face of the contact has %d points", count);
+    face->kind = (ElementKind)kind;
+    for (int32_t a = 0; a < count; ++a)
+        if (!take_point(plane, faces, stored[a], &face->point[a], face->place[a]))
+            FAIL(err, ERROR_FILE, "a face of the contact has a point that is none");
+cleanup:
+    return error_is_clean(err);
+}
+
+static void place_at(const Face *face, const double at[2], double place[2])
+{
+    ShapeValues shape = shape_at(face->kind, at);
+    place[0] = place[1] = 0;
+    for (int32_t a = 0; a < element_node_count(face->kind); ++a)
+        for (int32_t d = 0; d < 2; ++d) place[d] += shape.value[a] * face->place[a][d];
+}
+
+static void middle_of(const double a[2], const double b[2], double middle[2])
+{
+    for (int32_t d = 0; d < 2; ++d) middle[d] = (a[d] + b[d]) / 2;
+}
+
+// Of a triangle's side k, and in its middle.
+static void triangle_patch(const Face *face, int32_t k, double at[PATCH_CORNERS][2])
+{
+    static const double centre[2] = {1.0 / 3, 1.0 / 3};
+    const double *here = shape_node(face->kind, k), *next = shape_node(face->kind, (k + 1) % 3);
+    const double *last = shape_node(face->kind, (k + 2) % 3);
+    memcpy(at[0], here, sizeof at[0]);
+    middle_of(here, next, at[1]);
+    memcpy(at[2], centre, sizeof centre);
+    if (face->kind == ELEMENT_T6)   // the mid-side's: from corner over itself to corner
+        memcpy(at[2], next, sizeof at[2]), memcpy(at[3], centre, sizeof centre);
+    else
+        middle_of(last, here, at[3]);
+}
+
+// Half way to the nodes beside it, or to the end of the face.
+static void square_patch(const Face *face, int32_t a, double at[PATCH_CORNERS][2])
+{
+    static const int32_t turn[PATCH_CORNERS][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    double half = face->kind == ELEMENT_Q9 ? 0.5 : 1, range[2][2];
+    for (int32_t d = 0; d < 2; ++d) {
+        double node = shape_node(face->kind, a)[d];
+        range[0][d] = fmax(-1, node - half);
+        range[1][d] = fmin(1, node + half);
+    }
+    for (int32_t k = 0; k < PATCH_CORNERS; ++k)
+        for (int32_t d = 0; d < 2; ++d) at[k][d] = range[turn[k][d]][d];
+}
+
+static void add_patches(const Face *face, ContactPlane *plane)
+{
+    bool triangle = element_corner_count(face->kind) == 3;
+    int32_t own = triangle ? 3 : element_node_count(face->kind);
+    for (int32_t k = 0; k < own; ++k) {
+        double at[PATCH_CORNERS][2];
+        ContactPatch *patch = &plane->patches[plane->patch_count];
+        patch->node = face->point[face->kind == ELEMENT_T6 ? 3 + k : k];
+        if (patch->node >= plane->nodes) continue;
+        if (triangle)
+            triangle_patch(face, k, at);
+        else
+            square_patch(face, k, at);
+        for (int32_t c = 0; c < PATCH_CORNERS; ++c) place_at(face, at[c], patch->corner[c]);
+        ++plane->patch_count;
+    }
+}
+
+// --- outline -------------------------------------------------------------------------------------
+
+typedef struct KnownSide {
+    int32_t low, high;   // points at its ends
+    ContactSide side;
+} KnownSide;
+
+static void add_sides(const Face *face, KnownSide *sides, int32_t *count)
+{
+    int32_t corners = element_corner_count(face->kind);
+    bool between = element_node_count(face->kind) > corners;
+    for (int32_t k = 0; k < corners; ++k) {
+        int32_t next = (k + 1) % corners, a = face->point[k], b = face->point[next];
+        KnownSide *side = &sides[(*count)++];
+        side->low = a < b ? a : b;
+        side->high = a < b ? b : a;
+        memcpy(side->side.point[0], face->place[k], sizeof side->side.point[0]);
+        memcpy(side->side.point[2], face->place[next], sizeof side->side.point[2]);
+        middle_of(face->place[k], face->place[next], side->side.point[1]);
+        if (between) memcpy(side->side.point[1], face->place[corners + k], 2 * sizeof(double));
+    }
+}
+
+static int compare_sides(const void *left, const void *right)
+{
+    const KnownSide *a = left, *b = right;
+    if (a->low != b->low) return a->low < b->low ? -1 : 1;
+    return a->high < b->high ? -1 : a->high > b->high;
+}
+
+// Sides of one face alone.
+static void keep_outline(KnownSide *sides, int32_t count, ContactPlane *plane)
+{
+    qsort(sides, (size_t)count, sizeof *sides, compare_sides);
+    for (int32_t k = 0; k < count; ++k) {
+        bool before = k > 0 && compare_sides(&sides[k - 1], &sides[k]) == 0;
+        bool after = k + 1 < count && compare_sides(&sides[k], &sides[k + 1]) == 0;
+        if (!before && !after) plane->sides[plane->side_count++] = sides[k].side;
+    }
+}
+
+static void find_extent(ContactPlane *plane)
+{
+    for (int32_t d = 0; d < 2; ++d) {
+        plane->low[d] = INFINITY;
+        plane->high[d] = -INFINITY;
+        for (int32_t k = 0; k < plane->patch_count; ++k)
+            for (int32_t c = 0; c < PATCH_CORNERS; ++c) {
+                plane->low[d] = fmin(plane->low[d], plane->patches[k].corner[c][d]);
+                plane->high[d] = fmax(plane->high[d], plane->patches[k].corner[c][d]);
+            }
+    }
+}
+
+// --- reading -------------------------------------------------------------------------------------
+
+static bool read_nodes(ArrayFile *file, ContactPlane *plane, Error *err)
+{
+    struct {
+        ResultNodes nodes;
+        double **values;
+    } arrays[] = {{NODES_X, &plane->x}, {NODES_Y, &plane->y}, {NODES_WEIGHT, &plane->weight}};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
+        int32_t count = 0;
+        TRY(result_file_read_nodes(file, arrays[k].nodes, arrays[k].values, &count, err));
+        if (count != plane->nodes)
+            FAIL(err, ERROR_FILE, "%d of %d contact nodes have a place", count, plane->nodes);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool read_faces(ArrayFile *file, Faces *faces, Error *err)
+{
+    int32_t two = 0;
+    TRY(result_file_read_faces(file, FACES_NODES, &faces->point, &faces->count, &faces->width,
+                               err));
+    TRY(result_file_read_faces(file, FACES_CORNERS, &faces->corner, &faces->corners, &two, err));
+    if (faces->count == 0)
+        FAIL(err, ERROR_INPUT,
+             "the history does not have the faces of the contact: it was written before they were "
+             "stored, or by a run that did not read its mesh");
+    if (faces->corners > 0 && two != 2) FAIL(err, ERROR_FILE, "corners have %d numbers", two);
+    if (faces->width > FACE_NODES_MAX)
+        FAIL(err, ERROR_FILE, "faces have up to %d points", faces->width);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Error *err)
+{
+    Faces faces = {0};
+    Face face;
+    KnownSide *sides = NULL;
+    int32_t count = 0;
+    *plane = (ContactPlane){.nodes = nodes};
+    TRY(read_nodes(file, plane, err));
+    TRY(read_faces(file, &faces, err));
+    TRY(plane->patches = NEW_ARRAY(ContactPatch, (int64_t)FACE_PATCHES_MAX * faces.count, err));
+    TRY(plane->sides = NEW_ARRAY(ContactSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
+    TRY(sides = NEW_ARRAY(KnownSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
+    for (int32_t f = 0; f < faces.count; ++f) {
+        TRY(take_face(plane, &faces, f, &face, err));
+        add_patches(&face, plane);
+        add_sides(&face, sides, &count);
+    }
+    keep_outline(sides, count, plane);
+    find_extent(plane);
+cleanup:
+    memory_free(sides);
+    memory_free(faces.corner);
+    memory_free(faces.point);
+    if (!error_is_clean(err)) contact_plane_destroy(plane);
+    return error_is_clean(err);
+}
+
+void contact_plane_destroy(ContactPlane *plane)
+{
+    memory_free(plane->x);
+    memory_free(plane->y);
+    memory_free(plane->weight);
+    memory_free(plane->patches);
+    memory_free(plane->sides);
+    *plane = (ContactPlane){0};
+}

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read is checked here once; the figures trust it.
+#include "render/view/result_view.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { UNITS_SIZE = 32, LINES_SIZE = 1 << 16 };   // bytes
+
+static const double LINE_ROUNDING = 1e-6;   // of places along the contact, over a mean cell
+
+// One value a row; `rows` shrinks to the shortest series: a killed run may have flushed some only.
+static bool scalar_read(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
+    if (width != 1)
+        FAIL(err, ERROR_FILE, "%s has %d columns, not 1", result_series_name(series), width);
+    if (rows < view->rows) view->rows = rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+void result_view_range(const ResultView *view, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (!isfinite(view->U[row])) continue;
+        *low = fmin(*low, view->U[row]);
+        *high = fmax(*high, view->U[row]);
+    }
+}
+
+// A picture needs two steps between which the rod has moved.
+static bool range_check(const ResultView *view, Error *err)
+{
+    double low = 0, high = 0;
+    if (view->rows < 2)
+        FAIL(err, ERROR_INPUT, "the history holds %lld step%s: a picture needs two at least",
+             (long long)view->rows, view->rows == 1 ? "" : "s");
+    result_view_range(view, &low, &high);
+    if (!(high > low))
+        FAIL(err, ERROR_INPUT,
+             "the rod does not move in this history: pictures are drawn against "
+             "its displacement U");
+cleanup:
+    return error_is_clean(err);
+}
+
+enum { SLIP_COMPONENTS = 2 };   // in space
+
+// Of a vector, how large it is; of slip its part along the drive.
+static double vector_value(ResultSeries series, const double *vector)
+{
+    return series == SERIES_SLIP ? vector[0] : hypot(vector[0], vector[1]);
+}
+
+// In place: of each vector one value, of several states one.
+static void take_values(const ResultView *view, ResultSeries series, int32_t components,
+                        double *values, int64_t count)
+{
+    for (int64_t k = 0; k < count; ++k)
+        values[k] = series == SERIES_STATE ? values[components * k + view->state]
+                                           : vector_value(series, values + components * k);
+}
+
+static void take_line(const ResultView *view, double *values, int64_t rows)
+{
+    for (int64_t row = 0; row < rows; ++row)
+        for (int32_t k = 0; k < view->nodes; ++k)
+            values[row * view->nodes + k] = values[row * view->all_nodes + view->line[k]];
+}
+
+// One value a row and contact node; `rows` shrinks likewise.
+static bool nodes_series_read(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0, nodes = view->all_nodes;
+    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
+    int32_t components = series == SERIES_STATE         ? view->states
+                         : view->line && width != nodes ? SLIP_COMPONENTS
+                                                        : 1;
+    if (width != (int64_t)components * nodes)
+        FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
+             result_series_name(series), width, nodes);
+    if (components > 1) take_values(view, series, components, *values, rows * nodes);
+    if (rows < view->rows) view->rows = rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    TRY(nodes_series_read(view, series, values, err));
+    TRY(range_check(view, err));
+cleanup:
+    if (!error_is_clean(err)) {
+        memory_free(*values);
+        *values = NULL;
+    }
+    return error_is_clean(err);
+}
+
+// The same of the nodes that are shown against U.
+bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err)
+{
+    TRY(nodes_series_read(view, series, values, err));
+    if (view->line) take_line(view, *values, view->rows);
+    TRY(range_check(view, err));
+cleanup:
+    if (!error_is_clean(err)) {
+        memory_free(*values);
+        *values = NULL;
+    }
+    return error_is_clean(err);
+}
+
+// x and pads become those of the line; ascending x, as the nodes are.
+static bool line_read(ResultView *view, Error *err)
+{
+    double *of_line = NULL;
+    int32_t count = 0, all = view->nodes;
+    TRY(result_file_read_nodes(view->file, NODES_LINE, &of_line, &count, err));
+    if (count != all)
+        FAIL(err, ERROR_FILE, "%d contact nodes with %d marks of the line", all, count);
+    TRY(view->line = NEW_ARRAY(int32_t, all, err));
+    view->nodes = 0;
+    for (int32_t i = 0; i < all; ++i) {
+        if (!(of_line[i] > 0)) continue;
+        view->x[view->nodes] = view->x[i];
+        view->pad[view->nodes] = view->pad[i];
+        view->line[view->nodes++] = i;
+    }
+    if (view->nodes < 1) FAIL(err, ERROR_FILE, "no contact node is on the line");
+cleanup:
+    memory_free(of_line);
+    return error_is_clean(err);
+}
+
+// Positions and pads of the contact nodes.
+static bool nodes_read(ResultView *view, Error *err)
+{
+    int32_t pads = 0;
+    TRY(result_file_read_nodes(view->file, NODES_X, &view->x, &view->nodes, err));
+    TRY(result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err));
+    if (view->nodes < 1 || pads != view->nodes)
+        FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
+    view->all_nodes = view->nodes;
+    if (result_file_has_nodes(view->file, NODES_LINE)) TRY(line_read(view, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// A text of several lines; "" where the history has none: no error.
+static bool lines_read(ResultView *view, const char *name, char **lines, Error *err)
+{
+    Error absent = {0};
+    TRY(*lines = NEW_ARRAY(char, LINES_SIZE, err));
+    if (!result_file_text(view->file, name, *lines, LINES_SIZE, &absent)) (*lines)[0] = '\0';
+cleanup:
+    return error_is_clean(err);
+}
+
+// Three columns of the file into a list of peaks.
+static bool peaks_read(ResultView *view, Error *err)
+{
+    static const ResultTable tables[3] = {PEAKS_U, PEAKS_MU, PEAKS_COUNTS};
+    double *column[3] = {0};
+    int32_t count = 0;
+    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
+    TRY(view->peaks = NEW_ARRAY(ViewPeak, count, err));
+    for (int32_t k = 0; k < count; ++k)
+        view->peaks[k] = (ViewPeak){column[0][k], column[1][k], column[2][k] > 0.5};
+    view->peak_count = count;
+cleanup:
+    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    return error_is_clean(err);
+}
+
+// As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
+static bool events_read(ResultView *view, Error *err)
+{
+    static const ResultTable tables[4] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP, EVENTS_REACH};
+    double *column[4] = {0};
+    int32_t count = 0;
+    TRY(result_file_read_tables(view->file, tables, 4, column, &count, err));
+    TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
+    for (int32_t k = 0; k < count; ++k) {
+        double kind = column[0][k];
+        bool known = kind >= 0 && kind <= VIEW_LEADING;
+        view->events[k] =
+            (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k], column[3][k]};
+    }
+    view->event_count = count;
+    TRY(view->rapid = memory_array(count, sizeof *view->rapid, err));
+    for (int32_t k = 0; k < count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind <= VIEW_QUASI_STATIC || !isfinite(event->U_start + event->U_stop)) continue;
+        view->rapid[view->rapid_count][0] = event->U_start;
+        view->rapid[view->rapid_count++][1] = event->U_stop;
+    }
+cleanup:
+    for (int32_t k = 0; k < 4; ++k) memory_free(column[k]);
+    return error_is_clean(err);
+}
+
+// Older histories name the states of one's own formulas alone.
+static bool states_read(ResultView *view, Error *err)
+{
+    TRY(lines_read(view, "states", &view->state_names, err));
+    TRY(lines_read(view, "state_unit", &view->state_unit, err));
+    if (!result_file_remembers(view->file)) return true;
+    view->states = 1;
+    for (const char *at = view->state_names; *at; ++at) view->states += *at == '\n';
+cleanup:
+    return error_is_clean(err);
+}
+
+void result_view_state_name(const ResultView *view, char name[VIEW_STATE_SIZE])
+{
+    const char *at = view->state_names;
+    for (int32_t k = 0; k < view->state && *at; ++k) at += strcspn(at, "\n") + 1;
+    snprintf(name, VIEW_STATE_SIZE, "%.*s", (int)strcspn(at, "\n"), at);
+    if (!name[0]) snprintf(name, VIEW_STATE_SIZE, "state");
+}
+
+bool result_view_choose_state(ResultView *view, const char *name)
+{
+    char own[VIEW_STATE_SIZE];
+    for (view->state = 0; view->state < view->states; ++view->state) {
+        result_view_state_name(view, own);
+        if (strcmp(own, name) == 0) return true;
+    }
+    view->state = 0;
+    return view->states > 0 && strcmp(name, "state") == 0;
+}
+
+// Series of one number a step are read at once, those over the nodes on demand: they are the most
+// of the file.
+bool result_view_open(const char *folder, ResultView *view, Error *err)
+{
+    char units[UNITS_SIZE] = "";
+    *view = (ResultView){.rows = INT64_MAX};
+    TRY(view->file = result_file_open(folder, err));
+    TRY(result_file_text(view->file, "units", units, sizeof units, err));
+    view->si = strcmp(units, "si") == 0;
+    TRY(scalar_read(view, SERIES_TIME, &view->t, err));
+    TRY(scalar_read(view, SERIES_ROD, &view->U, err));
+    TRY(scalar_read(view, SERIES_MU, &view->mu, err));
+    TRY(range_check(view, err));
+    TRY(nodes_read(view, err));
+    TRY(lines_read(view, "title", &view->title, err));
+    TRY(lines_read(view, "pads", &view->pad_names, err));
+    TRY(lines_read(view, "warnings", &view->warnings, err));
+    TRY(states_read(view, err));
+    TRY(events_read(view, err));
+    TRY(peaks_read(view, err));
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
+        view->number[k] = result_file_number(view->file, (ResultNumber)k);
+cleanup:
+    if (!error_is_clean(err)) {
+        error_context(err, "while reading the result in %s", folder);
+        result_view_close(view);
+    }
+    return error_is_clean(err);
+}
+
+bool result_view_read_slip_rate(ResultView *view, Error *err)
+{
+    return view->slip_rate || result_view_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
+}
+
+// In space also those beside the line, where the history says what the contact is made of.
+bool result_view_read_status(ResultView *view, Error *err)
+{
+    if (view->line && result_file_has_faces(view->file) && !result_view_read_plane(view, err))
+        return false;
+    return view->status || result_view_read(view, SERIES_STATUS, &view->status, err);
+}
+
+bool result_view_read_plane(ResultView *view, Error *err)
+{
+    if (!view->line)
+        FAIL(err, ERROR_INPUT,
+             "the block is in the plane: slip-map and contact-density show its contact");
+    if (view->plane.patch_count == 0)
+        TRY(contact_plane_read(view->file, view->all_nodes, &view->plane, err));
+    if (!view->contact_status)
+        TRY(result_view_read_contact(view, SERIES_STATUS, &view->contact_status, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// y of the node nearest to `wanted`.
+static double nearest_y(const ContactPlane *plane, double wanted)
+{
+    double nearest = INFINITY;
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        if (fabs(plane->y[i] - wanted) < fabs(nearest - wanted)) nearest = plane->y[i];
+    return nearest;
+}
+
+// The nodes within half a mean cell of y, one for each x: that nearest to y. As the run itself
+// finds its line.
+static void take_nodes_at(ResultView *view, double y)
+{
+    const ContactPlane *plane = &view->plane;
+    double area = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) area += plane->weight[i];
+    double cell = sqrt(area / plane->nodes), rounding = LINE_ROUNDING * cell;
+    view->nodes = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) {
+        double off = fabs(plane->y[i] - y);
+        if (off > 0.5 * cell + rounding) continue;
+        int32_t last = view->nodes - 1;
+        bool beside = last >= 0 && plane->x[i] - view->x[last] <= rounding;
+        if (beside && off >= fabs(plane->y[view->line[last]] - y)) continue;
+        int32_t at = beside ? last : view->nodes++;
+        view->line[at] = i;
+        view->x[at] = plane->x[i];
+    }
+}
+
+bool result_view_choose_line(ResultView *view, const char *words, Error *err)
+{
+    double *pad = NULL, y = NAN;
+    int32_t pads = 0;
+    char *end = NULL;
+    if (strncmp(words, "y=", 2) == 0) y = strtod(words + 2, &end);
+    if (!isfinite(y) || *end)
+        FAIL(err, ERROR_INPUT, "a line is given by its y, as y=0.2, not as \"%.40s\"", words);
+    TRY(result_view_read_plane(view, err));
+    TRY(result_file_read_nodes(view->file, NODES_PAD, &pad, &pads, err));
+    memory_free(view->x);
+    view->x = NULL;
+    TRY(view->x = NEW_ARRAY(double, view->all_nodes, err));
+    take_nodes_at(view, nearest_y(&view->plane, y));
+    for (int32_t k = 0; k < view->nodes; ++k) view->pad[k] = pad[view->line[k]];
+cleanup:
+    memory_free(pad);
+    return error_is_clean(err);
+}
+
+bool result_view_read_slip(ResultView *view, Error *err)
+{
+    return view->slip || result_view_read(view, SERIES_SLIP, &view->slip, err);
+}
+
+bool result_view_read_front(ResultView *view, Error *err)
+{
+    return view->front || scalar_read(view, SERIES_FRONT, &view->front, err);
+}
+
+void result_view_close(ResultView *view)
+{
+    Error ignored = {0};   // nothing was written: closing has nothing to lose
+    array_file_close(view->file, &ignored);
+    memory_free(view->t);
+    memory_free(view->U);
+    memory_free(view->mu);
+    memory_free(view->x);
+    memory_free(view->pad);
+    memory_free(view->line);
+    memory_free(view->title);
+    memory_free(view->pad_names);
+    memory_free(view->warnings);
+    memory_free(view->state_names);
+    memory_free(view->state_unit);
+    memory_free(view->slip_rate);
+    memory_free(view->slip);
+    memory_free(view->front);
+    memory_free(view->status);
+    memory_free_all(view->precursors.at, view->precursors.value);
+    memory_free_all(view->front_speed.at, view->front_speed.value);
+    memory_free(view->contact_status);
+    contact_plane_destroy(&view->plane);
+    memory_free(view->events);
+    memory_free(view->rapid);
+    memory_free(view->peaks);
+    *view = (ResultView){0};
+}

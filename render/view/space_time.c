@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From values at (step, node) to pixels in two moves: steps to columns, then nodes to rows. A pixel
+// shows the largest value that falls into it, because what matters in these maps is short and
+// narrow: a mean would hide it. Steps are far from equal: some columns hold hundreds of them,
+// others lie inside one.
+#include "render/view/space_time.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static const double ROUND_DOWN = 0.5;   // columns: an event not longer than its mark by more is one
+
+// Half way to the neighbours on the same pad; the last node of a pad has nothing beyond it, so that
+// gaps stay gaps.
+void node_extent(const SpaceTime *data, int32_t i, double *from, double *to)
+{
+    bool joined_before = i > 0 && data->pad[i - 1] == data->pad[i];
+    bool joined_after = i + 1 < data->nodes && data->pad[i + 1] == data->pad[i];
+    *from = joined_before ? (data->x[i - 1] + data->x[i]) / 2 : data->x[i];
+    *to = joined_after ? (data->x[i] + data->x[i + 1]) / 2 : data->x[i];
+}
+
+// The larger of two, where NaN means none.
+static float larger(float a, float b)
+{
+    return isnan(b) || a >= b ? a : b;
+}
+
+// Column of a step, -1 before the first, `columns` behind the last.
+static int32_t column_of(const PixelGrid *grid, double U)
+{
+    double place = (U - grid->U_low) / (grid->U_high - grid->U_low) * grid->columns;
+    if (place < 0) return -1;
+    if (U == grid->U_high) return grid->columns - 1;
+    return place >= grid->columns ? grid->columns : (int32_t)place;
+}
+
+// The first column of a step, and in *count how many: of a short rapid event always the same.
+static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, double U,
+                               int32_t *count)
+{
+    double width = (grid->U_high - grid->U_low) / grid->columns;
+    int32_t column = column_of(grid, U);
+    *count = 1;
+    if (column < 0 || column == grid->columns) return column;   // of most steps of a long run
+    for (int32_t k = 0; k < data->event_count; ++k) {
+        const double *event = data->events[k];
+        double room = (grid->event_columns + ROUND_DOWN) * width;
+        if (!(U >= event[0] && U <= event[1]) || event[1] - event[0] >= room) continue;
+        int32_t middle = column_of(grid, (event[0] + event[1]) / 2);
+        if (middle < 0 || middle == grid->columns) return middle;
+        *count = grid->event_columns;
+        return middle - *count / 2 < 0 ? 0 : middle - *count / 2;
+    }
+    return column;
+}
+
+// by_column: [columns * nodes], times the sign; an open node counts as more than any rate.
+static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
+{
+    const double *value = data->value + row * data->nodes;
+    const double *status = data->status ? data->status + row * data->nodes : NULL;
+    float *cell = by_column + (int64_t)column * data->nodes;
+    for (int32_t i = 0; i < data->nodes; ++i) {
+        bool open = status && status[i] == 0;
+        double counts = data->sign ? data->sign * value[i] : fabs(value[i]);
+        cell[i] = larger(cell[i], open ? INFINITY : (float)counts);
+    }
+}
+
+// The largest value at each column and node, [columns * nodes]; `next[column]`: -1 where steps lie
+// inside, else the step that ends behind it (data->rows: none).
+static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *by_column,
+                           int64_t *next)
+{
+    int32_t reached = 0;   // columns before this one are settled, but for the steps inside
+    for (int32_t column = 0; column < grid->columns; ++column) next[column] = data->rows;
+    for (int64_t k = 0; k < (int64_t)data->nodes * grid->columns; ++k) by_column[k] = NAN;
+    for (int64_t row = 0; row < data->rows; ++row) {
+        if (!isfinite(data->U[row])) continue;
+        int32_t wide = 1, column = columns_of_step(data, grid, data->U[row], &wide);
+        if (column < 0) continue;
+        for (; reached < column; ++reached)
+            if (next[reached] == data->rows) next[reached] = row;
+        if (column == grid->columns) break;
+        for (int32_t k = column; k < column + wide && k < grid->columns; ++k) {
+            next[k] = -1;
+            step_add(data, row, k, by_column);
+        }
+    }
+}
+
+// Before the first step of the history there is nothing; in a long step there is its end.
+static void columns_hold(const SpaceTime *data, const PixelGrid *grid, const int64_t *next,
+                         float *by_column)
+{
+    int64_t first = 0;
+    while (first < data->rows && !isfinite(data->U[first])) ++first;
+    for (int32_t column = 0; column < grid->columns; ++column)
+        if (next[column] > first && next[column] < data->rows)
+            step_add(data, next[column], column, by_column);
+}
+
+// Slip of node i when the rod was at U, from row *at on, which is led along.
+static double slip_at(const SpaceTime *data, int32_t i, double U, int64_t *at)
+{
+    while (*at + 2 < data->rows && data->U[*at + 1] < U) ++*at;
+    double low = data->U[*at], high = data->U[*at + 1];
+    double part = high > low ? fmin(fmax((U - low) / (high - low), 0), 1) : 0;
+    const double *slip = data->slip + *at * data->nodes + i;
+    return slip[0] + part * (slip[data->nodes] - slip[0]);
+}
+
+// What is not finite stays not known.
+static void columns_mean(const SpaceTime *data, const PixelGrid *grid, float *by_column)
+{
+    double width = (grid->U_high - grid->U_low) / grid->columns;
+    for (int32_t i = 0; i < data->nodes; ++i) {
+        int64_t at = 0;
+        double before = slip_at(data, i, grid->U_low, &at);
+        for (int32_t column = 0; column < grid->columns; ++column) {
+            double slip = slip_at(data, i, grid->U_low + (column + 1) * width, &at);
+            by_column[(int64_t)column * data->nodes + i] =
+                (float)(fabs(slip - before) / width * data->V);
+            before = slip;
+        }
+    }
+}
+
+// Whether node i is seen in the pixels of height `pixel` around x.
+static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
+{
+    double from = 0, to = 0;
+    node_extent(data, i, &from, &to);
+    return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
+}
+
+// Nodes that are neighbours; none: last < first.
+typedef struct NodeRange {
+    int32_t first, last;
+} NodeRange;
+
+// Those that row `row` shows.
+static NodeRange nodes_of_row(const SpaceTime *data, const PixelGrid *grid, int32_t row)
+{
+    double pixel = (grid->x_high - grid->x_low) / grid->rows;
+    double x = grid->x_high - (row + 0.5) * pixel;
+    NodeRange range = {0, -1};
+    for (int32_t i = 0; i < data->nodes; ++i) {
+        if (!node_is_at(data, i, x, pixel)) continue;
+        if (range.last < 0) range.first = i;
+        range.last = i;
+    }
+    return range;
+}
+
+// Rows that show the same nodes are one; ranges: [rows] of which `bands` are filled.
+static void rows_join(const SpaceTime *data, PixelGrid *grid, NodeRange *ranges)
+{
+    grid->bands = 0;
+    for (int32_t row = 0; row < grid->rows; ++row) {
+        NodeRange range = nodes_of_row(data, grid, row);
+        const NodeRange *before = grid->bands > 0 ? &ranges[grid->bands - 1] : NULL;
+        if (!before || range.first != before->first || range.last != before->last)
+            ranges[grid->bands++] = range;
+        grid->band[row] = grid->bands - 1;
+    }
+}
+
+// Several nodes in a band: the largest of them; none: NaN.
+static void bands_fill(const SpaceTime *data, PixelGrid *grid, const NodeRange *ranges,
+                       const float *by_column)
+{
+    for (int32_t column = 0; column < grid->columns; ++column) {
+        const float *value = by_column + (int64_t)column * data->nodes;
+        for (int32_t band = 0; band < grid->bands; ++band) {
+            float most = NAN;
+            for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
+                most = larger(most, value[i]);
+            grid->values[(int64_t)band * grid->columns + column] = data->sign < 0 ? -most : most;
+        }
+    }
+}
+
+// grid->values and band are made here; pixel_grid_destroy.
+bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
+{
+    float *by_column = NULL;
+    NodeRange *ranges = NULL;
+    int64_t *next = NULL;
+    TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
+    TRY(ranges = NEW_ARRAY(NodeRange, grid->rows, err));
+    TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
+    TRY(grid->band = NEW_ARRAY(int32_t, grid->rows, err));
+    rows_join(data, grid, ranges);
+    TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->bands * grid->columns, err));
+    if (data->slip) {
+        columns_mean(data, grid, by_column);
+    } else {
+        columns_gather(data, grid, by_column, next);
+        columns_hold(data, grid, next, by_column);
+    }
+    bands_fill(data, grid, ranges, by_column);
+cleanup:
+    memory_free(by_column);
+    memory_free(ranges);
+    memory_free(next);
+    return error_is_clean(err);
+}
+
+void pixel_grid_destroy(PixelGrid *grid)
+{
+    memory_free(grid->values);
+    memory_free(grid->band);
+    grid->values = NULL;
+    grid->band = NULL;
+}

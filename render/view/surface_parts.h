@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is seen of a block in space, as small triangles and lines. Used by surface, surface_cut and
+// space_page.
+#ifndef AMONTONS_RENDER_VIEW_SURFACE_PARTS_H
+#define AMONTONS_RENDER_VIEW_SURFACE_PARTS_H
+
+#include "render/view/block.h"
+
+// Planes x, y or z = value through the block as it was; what lies before all of them, as seen from
+// the camera, is taken away.
+typedef struct SpaceCut {
+    int32_t count;
+    int32_t axis[3];   // 0 to 2
+    double value[3];   // length
+} SpaceCut;
+
+typedef struct SurfacePoint {
+    double was[3], at[3];   // before anything moved, and as drawn; length
+    double value;
+} SurfacePoint;
+
+typedef struct SurfaceParts {
+    SurfacePoint *points;   // [each * count] owned
+    int32_t count, room;
+} SurfaceParts;
+
+typedef struct Surface {
+    SurfaceParts triangles;   // three points each
+    SurfaceParts outline;   // two: where faces meet at an angle, and around the cut
+    bool with_edges;
+    SurfaceParts edges;   // two: of elements, where they were asked for
+} Surface;
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/view/window.h"
+
+#include "render/view/block.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { SLIDINGS_MOST = 40, SLIDINGS_SHOWN = 20 };   // each has 3 mm of a column then
+
+// The end of the sliding behind which the last SLIDINGS_SHOWN of `count` lie.
+static double find_start(const ResultView *view, int32_t count)
+{
+    int32_t seen = 0;
+    for (int32_t k = 0; k < view->event_count; ++k)
+        if (view->events[k].kind == VIEW_LEADING && ++seen == count - SLIDINGS_SHOWN)
+            return view->events[k].U_stop;
+    return NAN;
+}
+
+// "U=0.01" as it is; of "t=100" where the rod was then.
+static bool read_moment(const ResultView *view, const char *at, double *U, Error *err)
+{
+    bool is_U = false;
+    double value = 0;
+    TRY(block_moment_read(at, &is_U, &value, err));
+    *U = value;
+    for (int64_t row = 0; !is_U && row < view->rows; ++row)
+        if (row == 0 || view->t[row] <= value) *U = view->U[row];
+cleanup:
+    return error_is_clean(err);
+}
+
+bool window_find(const ResultView *view, const PictureStyle *style, Window *window, Error *err)
+{
+    double low = 0, high = 0;
+    int32_t count = 0;
+    result_view_range(view, &low, &high);
+    *window = (Window){.low = low, .high = high};
+    for (int32_t k = 0; k < view->event_count; ++k)
+        if (view->events[k].kind == VIEW_LEADING) ++count;
+    double start = count > SLIDINGS_MOST ? find_start(view, count) : NAN;
+    if (isfinite(start) && !style->from && !style->to) {
+        window->low = start;
+        snprintf(window->words, sizeof window->words, "the last %d of %d slidings", SLIDINGS_SHOWN,
+                 count);
+    }
+    if (style->from) TRY(read_moment(view, style->from, &window->low, err));
+    if (style->to) TRY(read_moment(view, style->to, &window->high, err));
+    window->low = fmax(window->low, low);
+    window->high = fmin(window->high, high);
+    if (!(window->high > window->low))
+        FAIL(err, ERROR_INPUT, "nothing lies from U = %g to U = %g: the history goes from %g to %g",
+             window->low, window->high, low, high);
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which part of U the zoomed pictures show: the last precursors before a sliding, of a cycle that
+// stands for the periodic regime. From the table of events where there is one, else from the falls
+// of mu.
+#include "render/view/zoom.h"
+
+#include <math.h>
+
+enum { PRECURSORS_SHOWN = 8 };
+
+static const double PAD = 0.08;   // beside the precursors, over what they span
+static const double CYCLE_SHOWN = 0.15;   // of a cycle without rapid precursors
+static const double SPAN_MIN = 0.01;   // of a cycle: one precursor close to sliding
+static const double DROP_LARGE = 0.25;   // of the range of mu: bulk sliding
+
+// From the end of one sliding to the start of the next.
+typedef struct Cycle {
+    double U_start, U_slide, U_stop;   // length
+    double U_precursor;   // start of the first bounded precursor to be shown
+    int32_t bounded;   // rapid precursors inside
+    bool periodic;   // its peak counts for mu_M
+} Cycle;
+
+// Counts the bounded precursors of a cycle and finds where the first of the last few starts.
+static void cycle_count_events(const ResultView *view, Cycle *cycle)
+{
+    cycle->bounded = 0;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind == VIEW_BOUNDED && event->U_start >= cycle->U_start &&
+            event->U_start < cycle->U_slide)
+            ++cycle->bounded;
+    }
+    int32_t passed = cycle->bounded - PRECURSORS_SHOWN;
+    for (int32_t k = 0; k < view->event_count && cycle->bounded > 0; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind != VIEW_BOUNDED || event->U_start < cycle->U_start) continue;
+        if (passed-- > 0) continue;
+        cycle->U_precursor = event->U_start;
+        break;
+    }
+}
+
+// A cycle is periodic when a peak of mu inside it counts for mu_M.
+static void cycle_match_peak(const ResultView *view, Cycle *cycle)
+{
+    cycle->periodic = false;
+    for (int32_t k = 0; k < view->peak_count; ++k) {
+        const ViewPeak *peak = &view->peaks[k];
+        bool inside = peak->U > cycle->U_start && peak->U <= cycle->U_stop;
+        if (inside && peak->counts) cycle->periodic = true;
+    }
+}
+
+// Periodic weighs more than having precursors; both is best.
+static int32_t cycle_merit(const Cycle *cycle)
+{
+    return (cycle->periodic ? 2 : 0) + (cycle->bounded > 0 ? 1 : 0);
+}
+
+// The best cycle of the events table; false where no sliding is in it.
+static bool cycle_from_events(const ResultView *view, Cycle *best)
+{
+    double low = 0, high = 0;
+    bool found = false;
+    result_view_range(view, &low, &high);
+    Cycle cycle = {.U_start = low};
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind != VIEW_LEADING || !isfinite(event->U_start)) continue;
+        cycle.U_slide = event->U_start;
+        cycle.U_stop = isfinite(event->U_stop) ? event->U_stop : high;
+        cycle_count_events(view, &cycle);
+        cycle_match_peak(view, &cycle);
+        if (cycle.U_slide > cycle.U_start && (!found || cycle_merit(&cycle) >= cycle_merit(best))) {
+            *best = cycle;
+            found = true;
+        }
+        cycle.U_start = cycle.U_stop;
+    }
+    return found;
+}
+
+// The last fall of mu by DROP_LARGE of its range.
+static bool cycle_from_mu(const ResultView *view, Cycle *cycle)
+{
+    double low = INFINITY, high = -INFINITY;
+    bool found = false, falling = false;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        low = fmin(low, view->mu[row]);
+        high = fmax(high, view->mu[row]);
+    }
+    double fall = DROP_LARGE * (high - low), top = -INFINITY, bottom = INFINITY;
+    double U_top = 0, U_bottom = view->U[0];
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double mu = view->mu[row], U = view->U[row];
+        if (!isfinite(mu) || !isfinite(U)) continue;
+        if (falling && mu < bottom) {
+            bottom = mu;
+            U_bottom = U;
+        }
+        if (falling && mu > bottom + fall / 2) {
+            falling = false;
+            top = mu;
+            U_top = U;
+        }
+        if (!falling && mu > top) {
+            top = mu;
+            U_top = U;
+        }
+        if (!falling && mu < top - fall) {
+            *cycle = (Cycle){.U_start = U_bottom, .U_slide = U_top, .U_stop = U};
+            found = fall > 0 && U_top > U_bottom;
+            falling = true;
+            bottom = mu;
+            U_bottom = U;
+        }
+    }
+    return found;
+}
+
+// From the first precursor to be shown to a little beyond the sliding; never less than SPAN_MIN of
+// the cycle, and never beyond the history.
+Zoom zoom_choose(const ResultView *view)
+{
+    Cycle cycle = {0};
+    Zoom zoom = {0};
+    double low = 0, high = 0;
+    bool by_events = cycle_from_events(view, &cycle);
+    zoom.found = by_events || cycle_from_mu(view, &cycle);
+    if (!zoom.found) return zoom;
+    double length = cycle.U_slide - cycle.U_start;
+    double first = cycle.bounded > 0 ? cycle.U_precursor : cycle.U_slide - CYCLE_SHOWN * length;
+    double span = fmax(cycle.U_slide - first, SPAN_MIN * length);
+    result_view_range(view, &low, &high);
+    zoom.U_start = cycle.U_start;
+    zoom.U_slide = cycle.U_slide;
+    zoom.smooth = by_events && cycle.bounded == 0;
+    zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
+    zoom.U_high = fmin(high, cycle.U_slide + PAD * span);
+    return zoom;
+}

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// LAPACK's Fortran entry points come with OpenBLAS; they are declared here because Debian's
+// LAPACK headers belong to another package. Character arguments carry hidden lengths.
+//
+// Matrices are column-major without gaps: entry (i, j) of an n x n one is a[j n + i]. Sizes of 0
+// occur (nothing slips, no rod) and are looked after here, as BLAS wants a leading dimension of 1
+// at least. Nothing allocates, so that the loop of steps may call all of it.
+#include "algebra/dense.h"
+
+#include "algebra/lanes.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <string.h>
+
+// Of dense_apply_each: half a megabyte; whole vectors, so that all rows are rounded alike.
+enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
+
+// Vectors are found one by one where this times as many are fewer than all.
+enum { MANY = 6 };
+
+typedef struct DenseTridiagonal {
+    int32_t size;
+    double *diagonal, *beside;
+} DenseTridiagonal;
+
+void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
+             size_t uplo_size);
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
+void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
+             const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
+void sgetrf_(const int *m, const int *n, float *a, const int *lda, int *pivots, int *info);
+void sgetrs_(const char *trans, const int *n, const int *nrhs, const float *a, const int *lda,
+             const int *pivots, float *b, const int *ldb, int *info, size_t trans_size);
+void dtrtri_(const char *uplo, const char *diag, const int *n, double *a, const int *lda, int *info,
+             size_t uplo_size, size_t diag_size);
+void dlauum_(const char *uplo, const int *n, double *a, const int *lda, int *info,
+             size_t uplo_size);
+void dsyevd_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
+             double *work, const int *lwork, int *iwork, const int *liwork, int *info,
+             size_t jobz_size, size_t uplo_size);
+void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e,
+             double *tau, double *work, const int *lwork, int *info, size_t uplo_size);
+void dorgtr_(const char *uplo, const int *n, double *a, const int *lda, const double *tau,
+             double *work, const int *lwork, int *info, size_t uplo_size);
+void dsterf_(const int *n, double *d, double *e, int *info);
+void dstein_(const int *n, const double *d, const double *e, const int *m, const double *w,
+             const int *iblock, const int *isplit, double *z, const int *ldz, double *work,
+             int *iwork, int *ifail, int *info);
+void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz,
+             double *work, const int *lwork, int *iwork, const int *liwork, int *info,
+             size_t compz_size);
+void dormtr_(const char *side, const char *uplo, const char *trans, const int *m, const int *n,
+             const double *a, const int *lda, const double *tau, double *c, const int *ldc,
+             double *work, const int *lwork, int *info, size_t side_size, size_t uplo_size,
+             size_t trans_size);
+void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda,
+            double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
+            double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
+
+// What OpenBLAS itself calls before a fork. Its builds without threads do not have it.
+int blas_thread_shutdown_(void) __attribute__((weak));
+
+// OpenBLAS starts its threads when it is loaded, and an idle one looks for work at full speed for
+// 2^26 clock ticks (26 ms) before it sleeps: more than a short run takes.
+void dense_use_one_thread(void)
+{
+    if (openblas_get_num_threads() == 1) return;   // to set it again would start them again
+    openblas_set_num_threads(1);
+    if (blas_thread_shutdown_) blas_thread_shutdown_();
+}
+
+// A = L L'. LAPACK stops at the first pivot that is not above 0, which is the test for definiteness
+// itself: no tolerance is involved.
+bool dense_cholesky(double *a, int32_t n)
+{
+    int info = 0;
+    if (n > 0) dpotrf_("L", &n, a, &n, &info, 1);
+    if (info != 0) return false;
+    for (int64_t k = 0; k < n; k++) {   // LAPACK lets NaN pass
+        if (!(a[k * n + k] > 0)) return false;
+    }
+    return true;
+}
+
+// P A = L U by rows (dgetrf). A pivot of exactly 0 is what LAPACK calls singular; a matrix that is
+// nearly so passes, and its caller sees it in the residual.
+bool dense_lu(double *a, int32_t n, int32_t *pivots)
+{
+    int info = 0;
+    if (n > 0) dgetrf_(&n, &n, a, &n, pivots, &info);
+    return info == 0;
+}
+
+// det A = (-1)^(row swaps) times the product of U's diagonal: only signs are multiplied, since the
+// product itself would overflow.
+int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots)
+{
+    int sign = 1;
+    for (int64_t k = 0; k < n; k++) {
+        double pivot = lu[k * n + k];
+        if (pivot == 0) return 0;
+        if (pivot < 0) sign = -sign;
+        if (pivots[k] != k + 1) sign = -sign;   // LAPACK counts rows from 1
+    }
+    return sign;
+}
+
+// b: [n], overwritten with the solution.
+void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b)
+{
+    int info = 0, one = 1;
+    if (n > 0) dgetrs_("N", &n, &one, lu, &n, pivots, b, &n, &info, 1);
+}
+
+bool dense_lu_single(float *a, int32_t n, int32_t *pivots)
+{
+    int info = 0;
+    if (n > 0) sgetrf_(&n, &n, a, &n, pivots, &info);
+    return info == 0;
+}
+
+// b over its largest entry, so that nothing is too small for single precision.
+void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, double *b,
+                           float *work)
+{
+    int info = 0, one = 1;
+    double largest = dense_max_abs(b, n);
+    if (largest == 0) return;
+    for (int32_t k = 0; k < n; k++) work[k] = (float)(b[k] / largest);
+    sgetrs_("N", &n, &one, lu, &n, pivots, work, &n, &info, 1);
+    for (int32_t k = 0; k < n; k++) b[k] = largest * (double)work[k];
+}
+
+// Reads the lower triangle only: half the memory of a general product.
+void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *y)
+{
+    if (n > 0) cblas_dsymv(CblasColMajor, CblasLower, n, 1.0, a, n, x, 1, 0.0, y, 1);
+}
+
+// L^-1 in the place of L, TRIANGLE columns at a time from the last ones on: with both blocks on the
+// diagonal inverted, what is below is -L22^-1 L21 L11^-1. OpenBLAS's own dtrtri takes one column at
+// a time with one thread, which at 322 columns takes three times as long.
+static int invert_lower(double *a, int n)
+{
+    enum { TRIANGLE = 96 };
+    int info = 0;
+    for (int end = n, size; end > 0 && info == 0; end -= size) {
+        size = (end - 1) % TRIANGLE + 1;
+        int first = end - size, below = n - end;
+        double *block = a + first * ((int64_t)n + 1);
+        if (below > 0) {
+            cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, below,
+                        size, 1, block + size * ((int64_t)n + 1), n, block + size, n);
+            cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, below,
+                        size, -1, block, n, block + size, n);
+        }
+        dtrtri_("L", "N", &size, block, &n, &info, 1, 1);
+    }
+    return info;
+}
+
+// dlauum leaves L^-T L^-1 in the lower triangle: the upper one is mirrored from it.
+bool dense_invert_factored(double *a, int32_t n)
+{
+    int info = invert_lower(a, n);
+    if (n > 0 && info == 0) dlauum_("L", &n, a, &n, &info, 1);
+    dense_mirror(a, n);
+    return info == 0;
+}
+
+// One pass over a; two of dger's take twice as long.
+FOR_EACH_PROCESSOR void dense_subtract_pair(double *restrict a, int32_t n, const double *was,
+                                            const double *over)
+{
+    const double *restrict first = was, *restrict second = was + n;
+    for (int32_t j = 0; j < n; j++, a += n) {
+        double x = over[2 * j], y = over[2 * j + 1];
+        for (int32_t i = 0; i < n; i++) a[i] -= x * first[i] + y * second[i];
+    }
+}
+
+void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
+{
+    if (n > 0) cblas_daxpy(n, factor, x, 1, y, 1);
+}
+
+// Doubles, and dsyevd's integers in the place of some: it asks for 1 + 6 n + 2 n^2, and 3 + 5 n;
+// dgeev for 4 n at least.
+int64_t dense_eigen_work(int32_t n)
+{
+    return 1 + 6 * (int64_t)n + 2 * (int64_t)n * n + 3 + 5 * (int64_t)n;
+}
+
+// dsyevd: reduction to tridiagonal form, then divide and conquer (LAPACK Users' Guide, 3rd ed.,
+// 2.4.4); of 171, 339, 651 unknowns 2.4, 3.6 and 6.2 times as fast as QL.
+bool dense_eigen(double *a, int32_t n, double *values, double *work)
+{
+    int info = 0, whole = 3 + 5 * n, size = (int)(dense_eigen_work(n) - whole);
+    if (n > 0)
+        dsyevd_("V", "L", &n, a, &n, values, work, &size, (int *)(void *)(work + size), &whole,
+                &info, 1, 1);
+    return info == 0;
+}
+
+// Some of T's vectors by inverse iteration (dstein), orthogonal where values are close. T is taken
+// as one block: where an entry of `beside` is 0 that costs no more than a random start.
+static bool find_few_vectors(DenseTridiagonal t, int32_t count, const double *values,
+                             double *vectors, double *work)
+{
+    int info = 0, n = t.size, *blocks = (int *)(void *)(work + 5 * (int64_t)n);
+    int *ends = blocks + n, *rest = ends + n, *failed = rest + n;
+    for (int32_t k = 0; k < n; k++) blocks[k] = 1;
+    ends[0] = n;
+    dstein_(&n, t.diagonal, t.beside, &count, values, blocks, ends, vectors, &n, work, rest, failed,
+            &info);
+    return info == 0;
+}
+
+// All of them by divide and conquer (dstedc), which destroys T.
+static bool find_all_vectors(DenseTridiagonal t, double *vectors, double *work)
+{
+    int info = 0, n = t.size, whole = 3 + 5 * n, size = 1 + 4 * n + n * n;
+    dstedc_("I", &n, t.diagonal, t.beside, vectors, &n, work, &size, (int *)(void *)(work + size),
+            &whole, &info, 1);
+    return info == 0;
+}
+
+bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work)
+{
+    int64_t size = n;
+    DenseTridiagonal t = {.size = n, .diagonal = work + size, .beside = work + 2 * size};
+    double *reflectors = work, *vectors = work + 3 * size, *rest = vectors + size * size;
+    int info = 0, rest_size = (int)(dense_eigen_work(n) - 3 * size - size * size), wanted = 0;
+    if (n == 0) return true;
+    dsytrd_("L", &n, a, &n, t.diagonal, t.beside, reflectors, rest, &rest_size, &info, 1);
+    memcpy(values, t.diagonal, (size_t)n * sizeof *values);
+    memcpy(rest, t.beside, (size_t)n * sizeof *rest);
+    if (info == 0) dsterf_(&n, values, rest, &info);
+    if (info != 0) return false;
+    while (wanted < n && values[n - 1 - wanted] > least) wanted++;
+    if (wanted == 0) return true;
+    double *first = vectors + (size - wanted) * size;
+    bool few = wanted <= n / MANY && find_few_vectors(t, wanted, values + n - wanted, first, rest);
+    if (!few && !find_all_vectors(t, vectors, rest)) return false;
+    dormtr_("L", "L", "N", &n, &wanted, a, &n, reflectors, first, &n, rest, &rest_size, &info, 1, 1,
+            1);
+    memcpy(a + (size - wanted) * size, first, (size_t)(size * wanted) * sizeof *a);
+    return info == 0;
+}
+
+// dgeev: Hessenberg form, then shifted QR. Left eigenvectors are not asked for.
+bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
+                         double *work)
+{
+    int info = 0, size = (int)dense_eigen_work(n), one = 1;
+    if (n > 0)
+        dgeev_("N", "V", &n, a, &n, re, im, NULL, &one, vectors, &n, work, &size, &info, 1, 1);
+    return info == 0;
+}
+
+bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work)
+{
+    int info = 0, size = (int)dense_eigen_work(n) - n;
+    double *reflectors = work, *rest = work + n;
+    if (n > 0) dsytrd_("L", &n, a, &n, diagonal, beside, reflectors, rest, &size, &info, 1);
+    if (n > 0 && info == 0) dorgtr_("L", &n, a, &n, reflectors, rest, &size, &info, 1);
+    return info == 0;
+}
+
+// c := keep c, where there is nothing to add: BLAS takes no matrix without rows.
+static void scale_by(double keep, int64_t count, double *c)
+{
+    for (int64_t k = 0; k < count; k++) c[k] = keep == 0 ? 0 : keep * c[k];
+}
+
+void dense_multiply_by_transposed(DenseView a, DenseView b, double *c)
+{
+    if (a.columns == 0 || a.rows == 0 || b.rows == 0) return;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, a.rows, b.rows, a.columns, 1, a.values,
+                a.rows, b.values, b.rows, 1, c, a.rows);
+}
+
+void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)
+{
+    if (a.columns == 0 || a.rows == 0) return;
+    cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1,
+                keep, y, 1);
+}
+
+// A run ends at a 0; one of every second column also before it would leave out what is none.
+void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
+{
+    int64_t rows = a.rows;
+    for (int32_t first = 0, end; first < a.columns && rows > 0; first++) {
+        if (x[first] == 0) continue;
+        int32_t stride = first + 1 < a.columns && x[first + 1] != 0 ? 1 : 2;
+        for (end = first + stride; end < a.columns && x[end] != 0; end += stride)
+            if (stride == 2 && x[end - 1] != 0) break;
+        cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows, (end - first) / stride, factor,
+                    a.values + first * rows, stride * a.rows, x + first, stride, 1, y, 1);
+        first = end - stride;
+    }
+}
+
+void dense_bordered_apply(DenseBordered a, const double *x, double *y)
+{
+    int32_t border = a.border, inner = a.size - border;
+    const double *in = x + border;
+    double *out = y + border;
+    memset(y, 0, (size_t)border * sizeof *y);
+    for (int32_t k = 0; k < inner; k++) out[k] = a.diagonal[k] * in[k];
+    for (int32_t k = 0; k + 1 < inner; k++) {
+        out[k] += a.beside[k] * in[k + 1];
+        out[k + 1] += a.beside[k] * in[k];
+    }
+    if (border > 0 && inner > 0)
+        cblas_dgemv(CblasColMajor, CblasTrans, inner, border, 1, a.values + border, a.size, in, 1,
+                    0, y, 1);
+    dense_add_nonzero((DenseView){a.values, a.size, border}, x, 1, y);
+}
+
+// A few rows at a time, which stay in the processor's cache for the next vector.
+void dense_apply_each(DenseView a, int32_t count, const double *const *x, double *const *y)
+{
+    int32_t block = ROWS_CACHED / (a.columns + 1) / ROWS_STEP * ROWS_STEP + ROWS_STEP;
+    for (int32_t row = 0; row < a.rows && a.columns > 0; row += block) {
+        int32_t rows = a.rows - row < block ? a.rows - row : block;
+        for (int32_t k = 0; k < count; k++)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, a.columns, 1, a.values + row, a.rows,
+                        x[k], 1, 0, y[k] + row, 1);
+    }
+}
+
+void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y)
+{
+    if (a.columns == 0) return;
+    if (a.rows == 0) {
+        scale_by(keep, a.columns, y);
+        return;
+    }
+    cblas_dgemv(CblasColMajor, CblasTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1, keep,
+                y, 1);
+}
+
+// In BLAS's order of summation: the same bits on one machine, not on every one.
+double dense_dot(const double *x, const double *y, int32_t n)
+{
+    return cblas_ddot(n, x, 1, y, 1);
+}
+
+// fmax would be a call; it passes NaN by, as this does. Side by side, as each comparison waits for
+// the one before it.
+double dense_max_abs(const double *x, int32_t n)
+{
+    enum { LANES = 4 };
+    double largest[LANES] = {0};
+    int32_t even = n - n % LANES;
+    for (int32_t i = 0; i < even; i += LANES) {
+        for (int32_t k = 0; k < LANES; k++) {
+            double size = fabs(x[i + k]);
+            largest[k] = size > largest[k] ? size : largest[k];
+        }
+    }
+    for (int32_t i = even; i < n; i++) {
+        double size = fabs(x[i]);
+        largest[0] = size > largest[0] ? size : largest[0];
+    }
+    for (int32_t k = 1; k < LANES; k++)
+        largest[0] = largest[k] > largest[0] ? largest[k] : largest[0];
+    return largest[0];
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Small dense matrices, column-major, through BLAS and LAPACK.
+#ifndef AMONTONS_ALGEBRA_DENSE_H
+#define AMONTONS_ALGEBRA_DENSE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Ends BLAS's threads: at these sizes they gain nothing, and beside another process they cost twice
+// as much.
+void dense_use_one_thread(void);
+
+// Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.
+// false: `a` is not positive definite (nothing else can go wrong).
+bool dense_cholesky(double *a, int32_t n);
+
+// LU with partial pivoting in place, then one right-hand side in place. pivots: [n].
+// false: singular to working precision.
+bool dense_lu(double *a, int32_t n, int32_t *pivots);
+// The sign of the determinant of a factored matrix: 1, -1 or 0.
+int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots);
+void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b);
+// In single precision, in half the time: some six digits, which are enough for steps whose
+// residual is of double precision. work: [n].
+bool dense_lu_single(float *a, int32_t n, int32_t *pivots);
+void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, double *b,
+                           float *work);
+
+// y = a x with the lower triangle of a symmetric `a` [n * n].
+void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *y);
+
+// x := L x and x := L' x with the lower triangle of `lower` [n * n].
+void dense_lower_apply(const double *lower, int32_t n, double *x);
+void dense_lower_apply_transposed(const double *lower, int32_t n, double *x);
+// x := L^-1 x and x := L^-T x
+void dense_lower_solve(const double *lower, int32_t n, double *x);
+void dense_lower_solve_transposed(const double *lower, int32_t n, double *x);
+
+// c = L L' (all of c is written); lower, 0 above its diagonal, c: [n * n], distinct.
+void dense_lower_square(const double *lower, int32_t n, double *c);
+
+// Inverse, both triangles, of a symmetric positive definite `a` [n * n] from its Cholesky factor.
+bool dense_invert_factored(double *a, int32_t n);
+
+// a [n * n] -= was over, was [n * 2] and over [2 * n].
+void dense_subtract_pair(double *a, int32_t n, const double *was, const double *over);
+
+// y += factor x
+void dense_add_scaled(double factor, const double *x, int32_t n, double *y);
+
+// b := L b, L^-1 b and L^-T b, of `columns` columns of n.
+void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b);
+void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b);
+void dense_lower_divide_transposed(const double *lower, int32_t n, int32_t columns, double *b);
+
+// a := L^-1 a L^-T with a Cholesky factor `lower`; of the symmetric `a` [n * n] the lower triangle
+// is read and written.
+void dense_divide_both_sides(const double *lower, int32_t n, double *a);
+
+// Eigenvalues, ascending, and orthonormal eigenvectors (columns, in place) of a symmetric `a` [n *
+// n]. values: [n]; work: [dense_eigen_work(n)], here and below.
+int64_t dense_eigen_work(int32_t n);
+bool dense_eigen(double *a, int32_t n, double *values, double *work);
+
+// Likewise, where vectors are wanted of eigenvalues above `least` alone: as the last columns of
+// `a`. What stands before them is of no use.
+bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work);
+
+// Eigenvalues (re, im: [n]) and right eigenvectors of a general `a` [n * n], which is destroyed. A
+// complex pair takes two columns of `vectors` [n * n], real and imaginary part of the one with im >
+// 0. work: [dense_eigen_work(n)].
+bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
+                         double *work);
+
+// a = Q T Q' for a symmetric `a` [n * n], which becomes the orthogonal Q; T is tridiagonal, its
+// diagonal [n] and beside it n - 1 entries. work: [dense_eigen_work(n)].
+bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work);
+
+// y = a x for a symmetric `a` [n * n], both triangles, tridiagonal from row and column `border` on:
+// there `diagonal` and `beside` are read in its place, and before it columns that meet a 0 are not.
+typedef struct DenseBordered {
+    const double *values;
+    int32_t size, border;
+    const double *diagonal, *beside;   // [size - border] each
+} DenseBordered;
+void dense_bordered_apply(DenseBordered a, const double *x, double *y);
+
+// A general matrix: column-major, `rows` long columns, no gaps.
+typedef struct DenseView {
+    const double *values;
+    int32_t rows, columns;
+} DenseView;
+static inline DenseView dense_view(const double *values, int64_t rows, int64_t columns)
+{
+    return (DenseView){values, (int32_t)rows, (int32_t)columns};
+}
+
+// c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
+void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);
+void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
+// c += a b'
+void dense_multiply_by_transposed(DenseView a, DenseView b, double *c);
+// Where c or b are rows of a larger matrix, whose columns are `stride` apart: c = factor
+// a' b + keep c, and c += factor a b, b [a.columns * columns].
+void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,
+                                    int64_t stride);
+void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,
+                         double factor, double *c);
+// y = factor a x + keep y, y = factor a' x + keep y
+void dense_apply(DenseView a, const double *x, double factor, double keep, double *y);
+void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y);
+// y += factor a x where much of x is 0: columns that meet a 0 are not read. Runs of columns and of
+// every second one, as where unknowns of two directions take turns, go through BLAS together.
+void dense_add_nonzero(DenseView a, const double *x, double factor, double *y);
+// y = a x for `count` vectors, the same bits as one by one: `a` comes from memory once.
+void dense_apply_each(DenseView a, int32_t count, const double *const *x, double *const *y);
+
+// out := a', [a.columns * a.rows] with columns `stride` apart.
+void dense_transpose(DenseView a, double *out, int64_t stride);
+// a [n * n]: its lower triangle into the upper one.
+void dense_mirror(double *a, int64_t n);
+
+double dense_dot(const double *x, const double *y, int32_t n);
+double dense_max_abs(const double *x, int32_t n);
+
+#endif

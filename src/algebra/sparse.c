@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "algebra/sparse.h"
+
+#include "algebra/lanes.h"
+#include "base/memory.h"
+
+void sparse_pattern_destroy(SparsePattern *pattern)
+{
+    memory_free_all(pattern->start, pattern->index);
+    *pattern = (SparsePattern){0};
+}
+
+// Bisection: the columns of a row are ascending. The entry must exist.
+int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column)
+{
+    int32_t low = pattern->start[row], high = pattern->start[row + 1] - 1;
+    while (low < high) {
+        int32_t middle = (low + high) / 2;
+        if (pattern->index[middle] < column)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+// By rows, as both triangles are stored: one pass over the values without scattered writes.
+void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y)
+{
+    const int32_t *start = pattern->start, *index = pattern->index;
+    for (int32_t row = 0; row < pattern->size; row++) {
+        double sum = 0.0;
+        for (int32_t k = start[row]; k < start[row + 1]; k++) sum += values[k] * x[index[k]];
+        y[row] = sum;
+    }
+}
+
+// Columns of `lanes` share a pass, their entries of a row side by side; a constant.
+WITH_CONSTANTS void apply_together(const SparsePattern *pattern, const double *values,
+                                   const double *x, int lanes, double *y, double *work)
+{
+    int64_t size = pattern->size, wide = lanes * LANE;
+    for (int64_t k = 0; k < size; k++)
+        for (int64_t j = 0; j < wide; j++) work[k * wide + j] = x[j * size + k];
+    for (int64_t row = 0; row < size; row++) {
+        Lane sum[SPARSE_WIDE / LANE] = {0};
+        for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k++) {
+            const Lane *from = (const Lane *)work + (int64_t)pattern->index[k] * lanes;
+            UNROLLED
+            for (int j = 0; j < lanes; j++) sum[j] += values[k] * from[j];
+        }
+        for (int64_t j = 0; j < wide; j++) y[j * size + row] = sum[j / LANE][j % LANE];
+    }
+}
+
+FOR_EACH_PROCESSOR void sparse_apply_many(const SparsePattern *pattern, const double *values,
+                                          const double *x, int64_t columns, double *y, double *work)
+{
+    enum { WIDE = SPARSE_WIDE };
+    int64_t size = pattern->size, column = 0;
+    for (; column + WIDE <= columns; column += WIDE)
+        apply_together(pattern, values, x + column * size, WIDE / LANE, y + column * size, work);
+    for (; column + LANE <= columns; column += LANE)
+        apply_together(pattern, values, x + column * size, 1, y + column * size, work);
+    for (; column < columns; column++)
+        sparse_apply(pattern, values, x + column * size, y + column * size);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Sparse symmetric matrices and their Cholesky factors (CHOLMOD behind it), with a chosen set of
+// unknowns eliminated last. Called by fem/assembly (products) and reduction/interface_operator.
+//
+// With the border b ordered last and the interior i before it,
+//
+//     A = [ A_ii  A_ib ] = L L',   L = [ L_ii   0   ],   L_bb L_bb' = S = A_bb - A_bi A_ii^-1 A_ib:
+//         [ A_bi  A_bb ]               [ L_bi  L_bb ]
+//
+// the factor holds the exact Schur complement of the interior. A solve splits at the border:
+// condense (forward substitution) gives g = b_b - A_bi A_ii^-1 b_i, the caller finds x_b from
+// S x_b = g + r in its own way, expand (backward substitution) gives all of x.
+#ifndef AMONTONS_ALGEBRA_SPARSE_H
+#define AMONTONS_ALGEBRA_SPARSE_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+// Symmetric, both triangles stored, compressed columns (or rows: the same).
+typedef struct SparsePattern {
+    int32_t size;
+    int32_t *start;   // [size + 1]; owned
+    int32_t *index;   // [start[size]] ascending in a column; owned
+} SparsePattern;
+void sparse_pattern_destroy(SparsePattern *pattern);
+
+// Where (row, column), which the pattern holds, stands among the values.
+int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
+
+// y = A x; values: [start[size]].
+void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y);
+// Of `columns` columns of x and y, [size] each; work: [size * SPARSE_WIDE].
+enum { SPARSE_WIDE = 8 };
+void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
+                       int64_t columns, double *y, double *work);
+
+// The fill-reducing order and symbolic factor of one pattern, made once.
+typedef struct SparseAnalysis SparseAnalysis;
+SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
+                               int32_t border_count, Error *err);
+// Another one, for another thread.
+SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err);
+void sparse_analysis_destroy(SparseAnalysis *analysis);   // NULL is fine
+
+typedef struct SparseFactor SparseFactor;   // of one matrix; the analysis must outlive it
+
+// values: [start[size]] of the analysed pattern. ERROR_COMPUTE: not positive definite.
+SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err);
+void sparse_factor_destroy(SparseFactor *factor);   // NULL is fine
+
+// schur := S, column-major [border_count * border_count], both triangles, in the order of `border`.
+void sparse_schur(const SparseFactor *factor, double *schur);
+// Its Cholesky factor, owned by the factor; 0 above the diagonal.
+const double *sparse_schur_lower(const SparseFactor *factor);
+
+// rhs: [size] -> g: [border_count]. Keeps the half-solved system for the expand that follows.
+bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err);
+// x_border: [border_count] -> x: [size]; nothing is allocated after the first solve.
+bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err);
+// x [size * count], with no right-hand side inside, from as many x_border [border_count * count].
+// Many at once take a fraction of the time that one by one would; two threads do half each.
+bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
+                        Error *err);
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// CAMD orders the border last. The matrix is put into L's order here, entry by entry:
+// cholmod_factorize would transpose it twice for that at every factorisation.
+#include "algebra/sparse_analysis.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+#define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
+
+// Also of one half built. Factors made from it must have been destroyed.
+void sparse_analysis_destroy(SparseAnalysis *analysis)
+{
+    if (!analysis) return;
+    if (analysis->started) {
+        cholmod_common *common = &analysis->common;
+        cholmod_free_factor(&analysis->symbolic, common);
+        cholmod_free_factor(&analysis->spare, common);
+        cholmod_free_sparse(&analysis->ordered, common);
+        cholmod_free_dense(&analysis->forward, common);
+        cholmod_free_dense(&analysis->work_y, common);
+        cholmod_free_dense(&analysis->work_e, common);
+        cholmod_free_dense(&analysis->permuted, common);
+        for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++)
+            cholmod_free_dense(&analysis->passages[k], common);
+        cholmod_finish(common);
+    }
+    memory_free_all(analysis->source, analysis);
+}
+
+// A CHOLMOD view of the pattern, into the caller's arrays.
+static cholmod_sparse pattern_view(const SparsePattern *pattern)
+{
+    return (cholmod_sparse){.nrow = (size_t)pattern->size,
+                            .ncol = (size_t)pattern->size,
+                            .nzmax = (size_t)pattern->start[pattern->size],
+                            .p = pattern->start,
+                            .i = pattern->index,
+                            .stype = -1,
+                            .itype = CHOLMOD_INT,
+                            .xtype = CHOLMOD_PATTERN,
+                            .dtype = CHOLMOD_DOUBLE,
+                            .sorted = 1,
+                            .packed = 1};
+}
+
+// Whether the analysis left the border last, in the caller's order.
+static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border)
+{
+    int64_t count = analysis->border_count, first = analysis->size - count;
+    const int32_t *permutation = analysis->symbolic->Perm;
+    return memcmp(permutation + first, border, (size_t)count * sizeof *border) == 0;
+}
+
+// Symbolic factorisation in the given `order` [n]; an earlier one is dropped.
+static bool analyse_in_order(SparseAnalysis *analysis, cholmod_sparse *pattern, int32_t *order,
+                             bool postorder, Error *err)
+{
+    cholmod_common *common = &analysis->common;
+    cholmod_free_factor(&analysis->symbolic, common);
+    common->postorder = postorder;
+    analysis->symbolic = cholmod_analyze_p(pattern, order, NULL, 0, common);
+    if (!analysis->symbolic)
+        return FAULT(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)",
+                     common->status);
+    return true;
+}
+
+// The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
+// border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own
+// order is taken as it is.
+static bool analyse_with_border(SparseAnalysis *analysis, cholmod_sparse *pattern,
+                                const int32_t *border, Error *err)
+{
+    cholmod_common *common = &analysis->common;
+    int32_t size = analysis->size, count = analysis->border_count;
+    int32_t *member = NEW_ARRAY(int32_t, size, err);
+    int32_t *order = NEW_ARRAY(int32_t, size, err);
+    if (!member || !order) goto cleanup;
+    for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
+    if (!cholmod_camd(pattern, NULL, 0, member, order, common))
+        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the fill-reducing order failed (status %d)",
+             common->status);
+    // S is full, in whatever order.
+    memcpy(order + size - count, border, (size_t)count * sizeof *border);
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+    common->supernodal = CHOLMOD_SUPERNODAL;
+    common->final_ll = 1;
+    TRY(analyse_in_order(analysis, pattern, order, true, err));
+    if (!border_is_last(analysis, border))
+        TRY(analyse_in_order(analysis, pattern, order, false, err));
+    if (!border_is_last(analysis, border))
+        FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
+cleanup:
+    memory_free_all(member, order);
+    return error_is_clean(err);
+}
+
+// The lower triangle, column by column, in the order of L: entry (i, j) of the pattern becomes one
+// of column min(p(i), p(j)).
+static bool order_entries(SparseAnalysis *analysis, const SparsePattern *pattern, Error *err)
+{
+    cholmod_common *common = &analysis->common;
+    const int32_t *permutation = analysis->symbolic->Perm;
+    int32_t size = analysis->size, entries = 0;
+    int32_t *place = NEW_ARRAY(int32_t, size, err), *next = NEW_ARRAY(int32_t, size, err);
+    if (!place || !next) goto cleanup;
+    for (int32_t k = 0; k < size; k++) place[permutation[k]] = k;
+    for (int32_t j = 0; j < size; j++)
+        for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
+            int32_t i = pattern->index[k];
+            if (i >= j) next[place[i] < place[j] ? place[i] : place[j]]++, entries++;
+        }
+    analysis->source = NEW_ARRAY(int32_t, entries, err);
+    analysis->ordered = cholmod_allocate_sparse((size_t)size, (size_t)size, (size_t)entries, 0, 1,
+                                                -1, CHOLMOD_REAL, common);
+    if (!analysis->source) goto cleanup;
+    if (!analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, size);
+    int32_t *start = analysis->ordered->p, *index = analysis->ordered->i;
+    for (int32_t j = 0; j < size; j++) {
+        start[j + 1] = start[j] + next[j];
+        next[j] = start[j];
+    }
+    for (int32_t j = 0; j < size; j++)
+        for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
+            int32_t a = place[pattern->index[k]], b = place[j];
+            if (pattern->index[k] < j) continue;
+            int32_t at = next[a < b ? a : b]++;
+            index[at] = a < b ? b : a;
+            analysis->source[at] = k;
+        }
+cleanup:
+    memory_free_all(place, next);
+    return error_is_clean(err);
+}
+
+// CHOLMOD prints nothing. NULL: no memory.
+static SparseAnalysis *begin_analysis(int32_t size, int32_t border_count, Error *err)
+{
+    SparseAnalysis *analysis = NEW_ARRAY(SparseAnalysis, 1, err);
+    if (!analysis) return NULL;
+    cholmod_start(&analysis->common);
+    analysis->started = true;
+    analysis->common.print = 0;
+    analysis->size = size;
+    analysis->border_count = border_count;
+    analysis->permuted = cholmod_zeros((size_t)size, 1, CHOLMOD_REAL, &analysis->common);
+    if (!analysis->permuted) FAIL(err, ERROR_MEMORY, NO_MEMORY, size);
+cleanup:
+    if (error_is_clean(err)) return analysis;
+    sparse_analysis_destroy(analysis);
+    return NULL;
+}
+
+SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
+                               int32_t border_count, Error *err)
+{
+    cholmod_sparse view = pattern_view(pattern);
+    SparseAnalysis *analysis = begin_analysis(pattern->size, border_count, err);
+    if (!analysis) return NULL;
+    TRY(analyse_with_border(analysis, &view, border, err));
+    TRY(order_entries(analysis, pattern, err));
+cleanup:
+    if (error_is_clean(err)) return analysis;
+    sparse_analysis_destroy(analysis);
+    return NULL;
+}
+
+// Without the values, which another thread may be writing.
+static cholmod_sparse *copy_pattern(const cholmod_sparse *from, cholmod_common *common)
+{
+    cholmod_sparse *to = cholmod_allocate_sparse(from->nrow, from->ncol, from->nzmax, from->sorted,
+                                                 from->packed, from->stype, CHOLMOD_REAL, common);
+    if (!to) return NULL;
+    memcpy(to->p, from->p, (from->ncol + 1) * sizeof(int32_t));
+    memcpy(to->i, from->i, from->nzmax * sizeof(int32_t));
+    return to;
+}
+
+SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err)
+{
+    int64_t entries = (int64_t)from->ordered->nzmax;
+    SparseAnalysis *analysis = begin_analysis(from->size, from->border_count, err);
+    if (!analysis) return NULL;
+    analysis->symbolic = cholmod_copy_factor(from->symbolic, &analysis->common);
+    analysis->ordered = copy_pattern(from->ordered, &analysis->common);
+    TRY((analysis->source = NEW_ARRAY(int32_t, entries, err)));
+    if (!analysis->symbolic || !analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, from->size);
+    memcpy(analysis->source, from->source, (size_t)entries * sizeof *from->source);
+cleanup:
+    if (error_is_clean(err)) return analysis;
+    sparse_analysis_destroy(analysis);
+    return NULL;
+}

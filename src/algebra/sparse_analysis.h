@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What algebra/sparse_analysis makes and algebra/sparse_factor and algebra/sparse_expand work with;
+// nobody else includes this.
+#ifndef AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
+#define AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
+
+#include "base/parallel.h"
+#include "algebra/sparse.h"
+
+#include <cholmod.h>
+
+enum { PASSAGE_COLUMNS = 16 };   // of one pass over a factor with many columns
+
+// L's border stands in the caller's order.
+struct SparseAnalysis {
+    cholmod_common common;
+    bool started;
+    int32_t size;
+    cholmod_factor *symbolic;
+    cholmod_sparse *ordered;   // the matrix in L's order, its lower triangle (stype -1)
+    int32_t *source;   // [entries of it] where they stand among the caller's values
+    cholmod_factor *spare;   // of a factor that was destroyed: the next one's memory; NULL: none
+    int32_t border_count;
+    cholmod_dense *forward;   // solve2's workspaces, shared by all factors
+    cholmod_dense *work_y, *work_e;
+    cholmod_dense *permuted;   // right-hand side in L's order
+    cholmod_dense
+        *passages[PARALLEL_WORKERS_MAX];   // [size, PASSAGE_COLUMNS] work of a thread each;
+    // NULL: not used yet
+};
+
+struct SparseFactor {
+    SparseAnalysis *analysis;   // not owned
+    cholmod_factor *numeric;
+    double *border_factor;   // L_bb
+};
+
+#endif

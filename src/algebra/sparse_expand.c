@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// L' x = 0 inside, from x on the border, for many columns at once. Rows of x stand together, so
+// that each entry of L is read once for up to 16 columns and no row is gathered: CHOLMOD's own
+// solve calls BLAS twice for each supernode, most of which are too small for that (160 x 160 cells:
+// the same 5 Gflop in a third of the time).
+#include "algebra/lanes.h"
+#include "algebra/sparse_analysis.h"
+
+enum {
+    LANES_MAX = PASSAGE_COLUMNS / LANE,
+    TOGETHER = 3   // columns of L: 12 sums stay in registers
+};
+
+// Of L: `height` rows below and with its first column, those of its own columns first.
+typedef struct Supernode {
+    int32_t first, height;
+    const int32_t *rows;   // [height]
+    const double *values;   // [height] of each column
+} Supernode;
+
+// Unknowns of columns `column` to `column + together - 1` from those below. x: [lanes] of each row.
+WITH_CONSTANTS void find_unknowns(const Supernode *node, int32_t column, int together, int lanes,
+                                  Lane *x)
+{
+    Lane sum[TOGETHER][LANES_MAX] = {0};
+    const double *entries = node->values + (int64_t)column * node->height;
+    for (int32_t row = column + together; row < node->height; row++) {
+        const Lane *below = x + (int64_t)node->rows[row] * lanes;
+        UNROLLED
+        for (int c = 0; c < together; c++) {
+            double entry = entries[(int64_t)c * node->height + row];
+            UNROLLED
+            for (int k = 0; k < lanes; k++) sum[c][k] -= entry * below[k];
+        }
+    }
+    UNROLLED
+    for (int c = together - 1; c >= 0; c--) {
+        const double *own = entries + (int64_t)c * node->height + column;
+        UNROLLED
+        for (int d = c + 1; d < together; d++) {
+            UNROLLED
+            for (int k = 0; k < lanes; k++) sum[c][k] -= own[d] * sum[d][k];
+        }
+        UNROLLED
+        for (int k = 0; k < lanes; k++)
+            x[(int64_t)(node->first + column + c) * lanes + k] = sum[c][k] /= own[c];
+    }
+}
+
+// end: of its columns, those beyond are the border's.
+WITH_CONSTANTS void pass_supernode(const Supernode *node, int32_t end, int lanes, Lane *x)
+{
+    int32_t column = end;
+    for (; column >= TOGETHER; column -= TOGETHER)
+        find_unknowns(node, column - TOGETHER, TOGETHER, lanes, x);
+    if (column == 2) find_unknowns(node, 0, 2, lanes, x);
+    if (column == 1) find_unknowns(node, 0, 1, lanes, x);
+}
+
+WITH_CONSTANTS void pass_down(const cholmod_factor *factor, int32_t border, int lanes, Lane *x)
+{
+    const int32_t *super = factor->super, *row_start = factor->pi, *value_start = factor->px;
+    for (int64_t s = (int64_t)factor->nsuper - 1; s >= 0; s--) {
+        Supernode node = {.first = super[s],
+                          .height = row_start[s + 1] - row_start[s],
+                          .rows = (const int32_t *)factor->s + row_start[s],
+                          .values = (const double *)factor->x + value_start[s]};
+        int32_t end = super[s + 1] < border ? super[s + 1] : border;
+        pass_supernode(&node, end - node.first, lanes, x);
+    }
+}
+
+// x: [lanes] of each row; those from `border` on are given.
+FOR_EACH_PROCESSOR static void pass_with(const cholmod_factor *factor, int32_t border, int lanes,
+                                         Lane *x)
+{
+    if (lanes == 1) pass_down(factor, border, 1, x);
+    if (lanes == 2) pass_down(factor, border, 2, x);
+    if (lanes == 3) pass_down(factor, border, 3, x);
+    if (lanes == 4) pass_down(factor, border, 4, x);
+}
+
+typedef struct Expansion {
+    SparseFactor *factor;
+    const double *border;   // [border_count * count]
+    int32_t count, passes;
+    double *x;   // [size * count]
+} Expansion;
+
+static void expand_columns(const Expansion *all, int32_t first, int32_t columns, double *rows)
+{
+    const SparseAnalysis *analysis = all->factor->analysis;
+    const int32_t *permutation = all->factor->numeric->Perm;
+    int32_t lanes = (columns + LANE - 1) / LANE, wide = lanes * LANE;
+    int64_t size = analysis->size, border_count = analysis->border_count;
+    double *border = rows + (size - border_count) * wide;
+    for (int64_t k = 0; k < border_count; k++)
+        for (int32_t j = 0; j < wide; j++)
+            border[k * wide + j] = j < columns ? all->border[(first + j) * border_count + k] : 0;
+    pass_with(all->factor->numeric, (int32_t)(size - border_count), lanes, (Lane *)rows);
+    for (int32_t j = 0; j < columns; j++) {
+        double *out = all->x + (first + j) * size;
+        for (int64_t k = 0; k < size; k++) out[permutation[k]] = rows[k * wide + j];
+    }
+}
+
+static void expand_pass(void *context, int32_t pass, int32_t worker)
+{
+    const Expansion *all = context;
+    int32_t first = (int32_t)((int64_t)all->count * pass / all->passes);
+    int32_t end = (int32_t)((int64_t)all->count * (pass + 1) / all->passes);
+    expand_columns(all, first, end - first, all->factor->analysis->passages[worker]->x);
+}
+
+bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
+                        Error *err)
+{
+    SparseAnalysis *analysis = factor->analysis;
+    // Alike: a few columns alone take as long as many.
+    Expansion all = {factor, x_border, count, (count + PASSAGE_COLUMNS - 1) / PASSAGE_COLUMNS, x};
+    for (int32_t k = 0; k < parallel_workers();
+         k++) {   // kept: memory asked for anew comes page by page
+        cholmod_dense **rows = &analysis->passages[k];
+        if (!*rows)
+            *rows = cholmod_zeros((size_t)analysis->size, PASSAGE_COLUMNS, CHOLMOD_REAL,
+                                  &analysis->common);
+        if (!*rows)
+            return FAULT(err, ERROR_MEMORY, "no memory for %d answers of a factor",
+                         PASSAGE_COLUMNS);
+    }
+    parallel_for(all.passes, expand_pass, &all);
+    return true;
+}

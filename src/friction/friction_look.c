@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "friction/friction_look.h"
+
+#include <math.h>
+
+static const double SAME = 1e-9;   // relative: a number typed twice, rounding of a formula
+static const double JUMP = 1e-6;   // of mu: what is left of a jump that halving does not reduce
+static const double STEP = 1e-6;   // of a speed, for differences
+static const double SLOPE_ERROR = 1e-3;   // relative, that differences leave to a slope
+static const double CHANGED = 0.63212055882855768;   // 1 - 1/e
+static const double SLIGHT = 1e-6;   // of mu_S: what a formula may be below 0
+static const double PEAK = 1.01;   // a wide one is met that nearly
+// LOOKED_MAX pieces take some 10 ms; halves of halves end at rounding before PIECES_MAX wait.
+enum { LOOKED_MAX = 20000, PIECES_MAX = 1100 };
+static const double SPENT_PART = 0.01;   // of the drop may be left where the law is spent
+
+// What mu and its slope are at this speed, and whether they may be that.
+static bool look_at(const FrictionLaw *law, double speed, Error *err)
+{
+    double mu = friction_coefficient(law, speed), slope = friction_slope(law, speed);
+    if (!isfinite(mu))
+        return REFUSE(err, "at velocity %g the coefficient is %g: not a finite number", speed, mu);
+    if (!isfinite(slope))
+        return REFUSE(err, "at velocity %g the slope of the coefficient is %g: not finite", speed,
+                      slope);
+    if (mu < 0)
+        return REFUSE(err, "at velocity %g the coefficient is %g: it must not be negative", speed,
+                      mu);
+    return true;
+}
+
+// A formula also between the speeds that are looked at: each piece whose bounds do not say that mu
+// is neither negative nor a peak that was not seen (PEAK times the highest that was) is looked at
+// in its middle and halved, until they do. Where mu just touches 0 some may stay undecided.
+static bool stays_within(const FrictionLaw *law, double highest, Error *err)
+{
+    double pieces[PIECES_MAX][2] = {{0, law->end}};
+    const double least = -SLIGHT * law->mu_static, most = PEAK * highest;
+    if (law->kind != FRICTION_FORMULA) return true;
+    for (int32_t count = 1, looked = 0; count > 0 && looked < LOOKED_MAX; looked++) {
+        double bounds[2], *piece = pieces[--count];
+        double middle = 0.5 * (piece[0] + piece[1]), high = piece[1];
+        formula_bounds(&law->own.formula, piece, bounds);
+        if (bounds[0] >= least && bounds[1] <= most) continue;
+        if (middle <= piece[0] || middle >= high || count + 2 > PIECES_MAX) continue;
+        double mu = friction_coefficient(law, middle);
+        if (!(mu >= least) && !look_at(law, middle, err)) return false;
+        if (mu > most)
+            return REFUSE(err,
+                          "at velocity %g the coefficient is %g, but at the velocities looked at "
+                          "no more than %g: a peak must be wider",
+                          middle, mu, highest);
+        piece[1] = middle;
+        pieces[count + 1][0] = middle;
+        pieces[count + 1][1] = high;
+        count += 2;
+    }
+    return true;
+}
+
+// Between two speeds that are looked at: where mu changes by more than its slopes say, the interval
+// is halved towards the larger change. A jump stays, whatever is steep shrinks.
+static bool is_continuous(const FrictionLaw *law, double low, double high, Error *err)
+{
+    double from = friction_coefficient(law, low), to = friction_coefficient(law, high);
+    double slopes = friction_slope(law, low) + friction_slope(law, high);
+    double jump = JUMP * fmax(from, to);
+    if (fabs(to - from - 0.5 * (high - low) * slopes) <= jump) return true;
+    double least = low + 1e-12 * high;
+    while (high - low > 1e-13 * high && high > least && fabs(to - from) > jump) {
+        double middle = 0.5 * (low + high), mu = friction_coefficient(law, middle);
+        bool left = fabs(mu - from) > fabs(to - mu);
+        *(left ? &high : &low) = middle;
+        *(left ? &to : &from) = mu;
+    }
+    if (fabs(to - from) > jump)
+        return REFUSE(err,
+                      "at velocity %g the coefficient jumps from %g to %g: it must be continuous",
+                      high, from, to);
+    return true;
+}
+
+// The slope against differences on both sides; at a kink it lies between them.
+static bool slope_fits(const FrictionLaw *law, double speed, Error *err)
+{
+    double h = STEP * speed, mu = friction_coefficient(law, speed);
+    double before = (mu - friction_coefficient(law, speed - h)) / h;
+    double after = (friction_coefficient(law, speed + h) - mu) / h;
+    double slope = friction_slope(law, speed);
+    double allowed = SLOPE_ERROR * (fabs(before) + fabs(after)) +
+                     STEP * fmax(law->mu_static, mu) / speed;
+    if (slope < fmin(before, after) - allowed || slope > fmax(before, after) + allowed)
+        return REFUSE(
+            err,
+            "at velocity %g the slope is said to be %g, but differences of the coefficient give %g",
+            speed, slope, 0.5 * (before + after));
+    return true;
+}
+
+static double weakening(const FrictionLaw *law, double speed)
+{
+    return fmax(-friction_slope(law, speed), 0);
+}
+
+// Weakening, or where there is none what strengthens.
+static double course(const FrictionLaw *law, double speed)
+{
+    double slope = friction_slope(law, speed);
+    return fmax(law->steepest > 0 ? -slope : slope, 0);
+}
+
+// 0 where the law is level.
+static double find_critical(const FrictionLaw *law)
+{
+    double largest = law->steepest > 0 ? law->steepest : law->bend;
+    double at_rest = course(law, 0), allowed = CHANGED * largest, low = 0, high;
+    for (int32_t k = 1; isfinite(high = friction_look_speed(law, k)); k++) {
+        if (fabs(course(law, high) - at_rest) > allowed) break;
+        low = high;
+    }
+    if (!(largest > 0) || !isfinite(high)) return largest > 0 ? law->end : 0;
+    while (high - low > 1e-15 * high) {
+        double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high) break;
+        *(fabs(course(law, middle) - at_rest) > allowed ? &high : &low) = middle;
+    }
+    return high;
+}
+
+// The lowest speed from which on no more than SPENT_PART of the largest fall is to come.
+static double last_fall(const FrictionLaw *law)
+{
+    int32_t k = 0;
+    double lowest = INFINITY, speed = law->end;
+    while (isfinite(friction_look_speed(law, k))) k++;
+    while (k-- > 0) {
+        double mu = friction_coefficient(law, friction_look_speed(law, k));
+        lowest = fmin(lowest, mu);
+        if (mu - lowest > SPENT_PART * law->fall) return speed;
+        speed = friction_look_speed(law, k);
+    }
+    return 0;
+}
+
+// By multiples of v_c, so that it does not depend on the last digits of the law.
+static double find_spent(const FrictionLaw *law)
+{
+    double drop = law->mu_static - law->mu_kinetic;
+    if (law->fall > 0) return last_fall(law);
+    for (double times = 1; times * law->critical_velocity < law->end;
+         times += times < 64 ? 1 : times)
+        if (friction_coefficient(law, times * law->critical_velocity) - law->mu_kinetic <=
+            SPENT_PART * drop)
+            return times * law->critical_velocity;
+    return law->end;
+}
+
+// mu' of a linear table is not continuous and its largest need not be at a point looked at: pieces
+// are looked at from both ends, and inside.
+bool friction_look(FrictionLaw *law, Error *err)
+{
+    double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0, rise = 0;
+    double highest = 0, fall = 0;
+    if (law->remembers) return true;   // friction/friction_start has
+    law->mu_static = friction_coefficient(law, 0);
+    law->steepest = law->fall = 0;
+    for (int32_t k = 0; isfinite(speed = friction_look_speed(law, k)); k++) {
+        if (!look_at(law, speed, err)) return false;
+        if (k > 0 && !is_continuous(law, before, speed, err)) return false;
+        if (k > 0 && speed < law->end && !slope_fits(law, speed, err)) return false;
+        law->steepest = fmax(law->steepest, weakening(law, speed));
+        rise = fmax(rise, friction_slope(law, speed));
+        double mu = friction_coefficient(law, speed);
+        if (mu < lowest) lowest_at = speed;
+        lowest = fmin(lowest, mu);
+        highest = fmax(highest, mu);
+        fall = fmax(fall, highest - mu);
+        before = speed;
+    }
+    if (!stays_within(law, highest, err)) return false;
+    law->bend = fmax(law->steepest, rise);
+    if (highest > law->mu_static * (1 + SAME)) law->fall = fall;
+    if (given > 0 && fabs(given - law->mu_static) > SAME * given)
+        return REFUSE(err, "at velocity 0 the coefficient is %g, but mu_static is given as %g",
+                      law->mu_static, given);
+    if (given > 0) law->mu_static = given;
+    if (law->mu_kinetic > lowest * (1 + SAME))
+        return REFUSE(
+            err, "at velocity %g the coefficient is %g, but mu_kinetic, the lowest, is given as %g",
+            lowest_at, lowest, law->mu_kinetic);
+    if (!(law->mu_kinetic > 0)) law->mu_kinetic = lowest;
+    law->mu_kinetic = fmin(law->mu_kinetic, law->mu_static);
+    if (!(law->critical_velocity > 0)) law->critical_velocity = find_critical(law);
+    law->strengthens = rise > SAME * law->steepest;
+    law->spent = law->steepest > 0 ? find_spent(law) : 0;
+    return true;
+}

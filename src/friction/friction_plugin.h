@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A law whose functions stand in a shared object that somebody else wrote (amontons_friction.h).
+// Called by scene/own_law, friction/friction_law and friction/friction_memory.
+#ifndef AMONTONS_FRICTION_FRICTION_PLUGIN_H
+#define AMONTONS_FRICTION_FRICTION_PLUGIN_H
+
+#include "amontons_friction.h"
+#include "base/error.h"
+
+// Of a law of speed alone coefficient and slope, of one that remembers the rest; others are NULL.
+typedef struct FrictionPlugin {
+    double (*coefficient)(const AmontonsFriction *given, double speed);
+    double (*slope)(const AmontonsFriction *given, double speed);
+    int (*states)(const AmontonsFriction *given);
+    void (*start)(const AmontonsFriction *given, double speed, double rest, double *state);
+    void (*rates)(const AmontonsFriction *given, double speed, double pressure, const double *state,
+                  AmontonsFrictionRates *rates);
+    AmontonsFriction given;
+} FrictionPlugin;
+
+// Opens the file, which stays open until the program ends: copies of a law may be anywhere.
+// ERROR_INPUT where the user has not said that such a file may be trusted (variable AMONTONS_TRUST,
+// --trust), where it cannot be opened, or is no such plug-in.
+bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err);
+
+#endif

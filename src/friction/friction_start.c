@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Steady slip is where an implicit step of any length leads: stages of a growing reach, each from
+// where the last one ended. Rest is stepped by the midpoint rule, in steps that grow with time.
+#include "friction/friction_start.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double SLIGHT = 1e-6;   // of mu_S: what a formula may be below 0
+static const double LEFT = 0.36787944117144233;   // 1/e
+static const double CALM = 1e-12;   // of mu at the rod's velocity: mu(0) of a law that creeps
+enum { DECADES = 12, DECADE = 10 };   // speeds that are looked at
+
+static double look_speed(const FrictionSource *source, int32_t k)
+{
+    return k == 0 ? 0 : source->end * pow(10, (double)(k - DECADES * DECADE) / DECADE);
+}
+
+// "velocity 0.1, theta 2".
+static void write_place(const FrictionSource *source, const FrictionMemory *memory, double speed,
+                        char *words, size_t size)
+{
+    int used = snprintf(words, size, "velocity %g", speed);
+    for (int32_t k = 0; k < memory->states && used > 0 && (size_t)used < size; k++)
+        used += snprintf(words + used, size - (size_t)used, ", %s %g",
+                         k < source->state_count ? source->state[k].name : "state",
+                         memory->from[k]);
+}
+
+// What mu and the rates are at memory->from, and whether they may be that.
+static bool look_at(const FrictionSource *source, const FrictionMemory *memory, double speed,
+                    FrictionRates *rates, const char **key, Error *err)
+{
+    char place[300];
+    double finite = 0;
+    bool formula = memory->kind == MEMORY_FORMULAS;
+    *key = formula ? "state" : "file";
+    memory_rates(memory, speed, memory->from, rates);
+    write_place(source, memory, speed, place, sizeof place);
+    for (int32_t k = 0; k < memory->states; k++) {
+        if (!isfinite(rates->rate[k]))
+            FAIL(err, ERROR_INPUT, "at %s the rate of %s is %g: not a finite number", place,
+                 formula ? source->state[k].name : "a state", rates->rate[k]);
+        finite += rates->mu_state[k] + rates->rate_speed[k];
+        for (int32_t j = 0; j < memory->states; j++) finite += rates->rate_state[k][j];
+    }
+    if (formula) *key = "formula";
+    if (!isfinite(rates->mu))
+        FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: not a finite number", place,
+             rates->mu);
+    if (!isfinite(finite + rates->mu_speed))
+        FAIL(err, ERROR_INPUT, "at %s a derivative of the coefficient or of a rate is not finite",
+             place);
+    if (rates->mu < -SLIGHT)
+        FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: it must not be negative", place,
+             rates->mu);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool friction_find_steady(FrictionMemory *memory, double speed)
+{
+    static const double STAYS = 1e-6;   // of a state: what the last, longest stage may change
+    double state[STATES_MAX], began[STATES_MAX];
+    bool found = true;
+    memcpy(began, memory->from, sizeof began);
+    for (memory->reach = 1e-12; memory->reach < 1e30; memory->reach *= 10) {
+        memory_state(memory, speed, state);
+        found = true;
+        for (int32_t k = 0; k < memory->states; k++) {
+            double change = fabs(state[k] - memory->from[k]);
+            found = found && change <= STAYS * fmax(fabs(state[k]), STAYS);
+            if (!isfinite(state[k])) memory->reach = INFINITY;
+        }
+        memcpy(memory->from, state, sizeof state);
+    }
+    memory->reach = 0;
+    if (!found) memcpy(memory->from, began, sizeof began);
+    return found;
+}
+
+static void rest_for(FrictionMemory *memory, double rest)
+{
+    static const double FIRST = 1e-9, GROWTH = 1.01;   // of the rest; from step to step
+    double middle[STATES_MAX], step = FIRST * rest;
+    for (double time = 0; time < rest; time += step, step *= GROWTH) {
+        step = fmin(step, rest - time);
+        memory->reach = 0.5 * step;
+        memory_state(memory, 0, middle);
+        for (int32_t k = 0; k < memory->states; k++)
+            memory->from[k] = 2 * middle[k] - memory->from[k];
+    }
+    memory->reach = 0;
+}
+
+// Into memory->from.
+static bool find_start(const FrictionSource *source, FrictionMemory *memory, const char **key,
+                       Error *err)
+{
+    FrictionRates rates;
+    bool all = true;
+    *key = "state";
+    if (memory->kind == MEMORY_PLUGIN) {
+        *key = "file";
+        memory->plugin.start(&memory->plugin.given, source->rod_velocity, source->rest,
+                             memory->from);
+        return true;
+    }
+    for (int32_t k = 0; k < memory->states; k++) {
+        const FrictionStateText *state = &source->state[k];
+        memory->from[k] = 1;
+        all = all && *state->start;
+        if (!*state->start) continue;
+        bool read =
+            formula_value(state->start, source->look_up, source->context, &memory->from[k], err);
+        if (!read) error_context(err, "%s, its start", state->name);
+        TRY(read);
+    }
+    if (!all && !(source->rod_velocity > 0))
+        FAIL(err, ERROR_INPUT,
+             "a state needs its `start`: without a rod that moves nothing says what the contacts "
+             "remember");
+    if (!all) TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
+    *key = "state";
+    if (!all && !friction_find_steady(memory, source->rod_velocity))
+        FAIL(err, ERROR_INPUT,
+             "no state of steady slip is found at velocity %g: a `start` is needed",
+             source->rod_velocity);
+    if (source->rest > 0) rest_for(memory, source->rest);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Steady slip at all speeds that are looked at: its mu, NaN where none is found.
+static bool look_along(const FrictionSource *source, FrictionMemory *memory, double *steady,
+                       double *steepest, const char **key, Error *err)
+{
+    FrictionRates rates;
+    double lost = 0;
+    bool found = true;
+    for (int32_t k = 0; k <= DECADES * DECADE; k++) {
+        double speed = look_speed(source, k);
+        memcpy(memory->from, memory->start, sizeof memory->from);
+        TRY(look_at(source, memory, speed, &rates, key, err));
+        *steepest = fmax(*steepest, -rates.mu_speed);
+        double now = 0;
+        for (int32_t j = 0; j < memory->states; j++)
+            now += fabs(rates.mu_state[j] * rates.rate_speed[j]);
+        lost = fmax(lost, now);
+        steady[k] = k == 0 ? NAN : rates.mu;
+        if (memory->states == 0 || k == 0) continue;
+        found = friction_find_steady(memory, speed);
+        steady[k] = NAN;
+        if (!found) continue;
+        TRY(look_at(source, memory, speed, &rates, key, err));
+        steady[k] = rates.mu;
+        *steepest = fmax(*steepest, -rates.mu_speed);
+    }
+    memory->slip_distance = lost > 0 ? 1 / lost : 0;   // times the drop; 0: none is lost
+cleanup:
+    memcpy(memory->from, memory->start, sizeof memory->from);
+    return error_is_clean(err);
+}
+
+static void set_scales(const FrictionSource *source, FrictionMemory *memory, const double *steady)
+{
+    FrictionRates rates;
+    double lowest = INFINITY, highest = 0;
+    memory_rates(memory, 0, memory->start, &rates);
+    double rests = rates.mu, rises = rates.mu_speed;
+    memory_rates(memory, source->rod_velocity > 0 ? source->rod_velocity : source->end,
+                 memory->start, &rates);
+    memory->creeps = rests <= CALM * rates.mu && rises > 0;
+    memory->reference = rates.mu;
+    for (int32_t k = 1; k <= DECADES * DECADE; k++) {
+        lowest = fmin(lowest, steady[k]);   // fmin and fmax pass a NaN over
+        highest = fmax(highest, steady[k]);
+    }
+    if (!(memory->mu_static > 0)) memory->mu_static = memory->creeps ? highest : rests;
+    if (!(memory->mu_kinetic > 0)) memory->mu_kinetic = fmin(lowest, memory->mu_static);
+    double drop = memory->mu_static - memory->mu_kinetic;
+    int32_t last = DECADES * DECADE;
+    while (last > 1 && !(steady[last - 1] - memory->mu_kinetic > LEFT * drop)) last--;
+    if (!(memory->critical_velocity > 0)) memory->critical_velocity = look_speed(source, last);
+    memory->slip_distance *= drop;
+    if (source->slip_distance > 0) memory->slip_distance = source->slip_distance;
+}
+
+bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
+                    const char **key, Error *err)
+{
+    double steady[DECADES * DECADE + 1];
+    FrictionRates rates;
+    memory->pressure = source->pressure;
+    TRY(find_start(source, memory, key, err));
+    memcpy(memory->start, memory->from, sizeof memory->start);
+    TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
+    TRY(look_along(source, memory, steady, &law->steepest, key, err));
+    set_scales(source, memory, steady);
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A law of one's own that remembers, from what a scene gives to one that can be used: its states
+// when the rod begins to move, a look at it, its scales. Called by friction/friction_make, and for
+// steady slip by study/stability.
+#ifndef AMONTONS_FRICTION_FRICTION_START_H
+#define AMONTONS_FRICTION_FRICTION_START_H
+
+#include "friction/friction_law.h"
+#include "friction/friction_source.h"
+
+// memory: kind, states and functions are set. Completes it and the law:
+//
+//   start    given by the scene or the plug-in; else that of steady slip at the rod's velocity;
+//            then the contacts rest for source->rest, d state/dt = g(0, state)
+//   creeps   mu(0) is 0 at the start and in steady slip, and rises with v
+//   mu_S     mu(0) at the start; of a law that creeps the most of steady slip
+//   mu_K     the least mu of steady slip
+//   v_c      the speed at which steady slip has lost 1 - 1/e of that drop
+//   D_c      drop over the most that mu loses in a unit of slip by its states
+//
+// A mu_S, mu_K, v_c or D_c that the scene gives stays. ERROR_INPUT, with the velocity and the
+// states: not finite, negative; or no steady state is found. *key: of the map `friction`.
+bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
+                    const char **key, Error *err);
+
+// memory->from becomes that of steady slip. false: none is found from there; it is as it was.
+bool friction_find_steady(FrictionMemory *memory, double speed);
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a file holds, in text: the kind is told by the name's end; a folder is a result.
+#include "run/info/info.h"
+
+#include "amontons.h"
+#include "base/text.h"
+#include "model/model.h"
+#include "scene/keys.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+// The mesh that the scene names, with its parameters, and where the rod stands.
+static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
+{
+    MeshFile file = {0};
+    Mesh mesh = {0};
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
+                       err));
+    TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    info_write_mesh(&mesh, out);
+    double middle = 0, width = 0;
+    model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
+    double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
+    const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
+    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, options, err));
+cleanup:
+    mesh_file_destroy(&file);
+    mesh_destroy(&mesh);
+    return error_is_clean(err);
+}
+
+// Every key with its value after defaults; `-` where a key without a default was left out, which
+// the scene does not need then.
+static bool info_scene(const char *path, const InfoOptions *options, FILE *out, Error *err)
+{
+    Scene *scene = NULL;
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    TRY(amontons_scene_read(path, options->overrides, options->override_count, &scene, err));
+    fprintf(out, "scene %s\n  %s\n\n", path, *scene->title ? scene->title : "(no title)");
+    for (int32_t k = 0; k < count; k++) {
+        char value[2000];
+        scene_key_value(&keys[k], scene, value, sizeof value);
+        bool absent = !keys[k].standard && !scene->given[k];
+        if (scene_key_may_lack(&keys[k]) && absent) continue;
+        fprintf(out, "  %-28s %s%s\n", keys[k].name, absent ? "-" : value,
+                scene->given[k] ? "" : "   (default)");
+    }
+    if (friction_is_own(&scene->friction))
+        fprintf(out, "\nThe law's own mu at rest %.6g, lowest mu %.6g, v_c %.4g\n",
+                scene->friction.mu_static, scene->friction.mu_kinetic,
+                scene->friction.critical_velocity);
+    fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
+    if (options->picture) TRY(info_scene_mesh(scene, options, out, err));
+cleanup:
+    amontons_scene_destroy(scene);
+    return error_is_clean(err);
+}
+
+// A file of a result stands for the folder that it lies in.
+static bool is_of_result(const char *path, char folder[AMONTONS_PATH_SIZE])
+{
+    static const char *const names[] = {"run.json", "history.h5", "history.h5.part"};
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    int length = slash ? (int)(slash - path) : 0;
+    if (length >= AMONTONS_PATH_SIZE) return false;
+    snprintf(folder, AMONTONS_PATH_SIZE, "%.*s", length, path);
+    if (length == 0) snprintf(folder, AMONTONS_PATH_SIZE, slash ? "/" : ".");
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+        if (strcmp(name, names[k]) == 0) return true;
+    return false;
+}
+
+// Problems with the output (a full disk, a closed pipe) are errors too.
+bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
+{
+    struct stat status;
+    InfoOptions none = {0};
+    char folder[AMONTONS_PATH_SIZE];
+    if (!options) options = &none;
+    if (stat(path, &status) != 0) return REFUSE(err, "%s: %s", path, strerror(errno));
+    if (!S_ISDIR(status.st_mode) && is_of_result(path, folder))
+        return amontons_info(folder, options, out, err);
+    bool told;
+    if (S_ISDIR(status.st_mode)) {
+        if (options->picture || options->override_count > 0)
+            return REFUSE(err,
+                          "%s is a result folder: values are set and meshes drawn of meshes and "
+                          "scenes (`amontons render` draws a result)",
+                          path);
+        told = info_result(path, out, err);
+    } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
+        told = info_mesh(path, options, out, err);
+    else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
+        told = info_scene(path, options, out, err);
+    else
+        return REFUSE(err,
+                      "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, "
+                      ".yml), a result folder, or its run.json or history.h5",
+                      path);
+    if (told && (fflush(out) != 0 || ferror(out)))
+        return FAULT(err, ERROR_FILE, "cannot write: %s", strerror(errno));
+    return told;
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons info` on a mesh: read and checked as a run would do it, so that what is wrong with a
+// mesh is found before anything is computed.
+#include "run/info/info.h"
+
+#include "base/memory.h"
+#include "base/module.h"
+#include "base/text.h"
+#include "render/render.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *dimension_name(int32_t dimension)
+{
+    static const char *const names[] = {"point", "curve", "surface"};
+    return dimension >= 0 && dimension <= 2 ? names[dimension] : "volume";
+}
+
+static const char *size_name(const Mesh *mesh)
+{
+    return mesh->dim == 2 ? "area" : "volume";
+}
+
+// Between its end nodes: the arc of a curved edge is not followed.
+static double edge_length(const Mesh *mesh, const MeshGroup *group, int32_t edge)
+{
+    const int32_t *nodes = group->face_nodes + (int64_t)edge * group->nodes_per_face;
+    return mesh_distance(mesh, nodes[0], nodes[1]);
+}
+
+// How long the curve is, and its cells; of a surface its nodes.
+static void write_boundary(const Mesh *mesh, const MeshGroup *group, FILE *out)
+{
+    if (mesh->dim > 2) {
+        fprintf(out, "%6d faces %6d nodes", group->face_count, group->node_count);
+        return;
+    }
+    double length = 0, shortest = INFINITY, longest = 0;
+    for (int32_t i = 0; i < group->face_count; i++) {
+        double edge = edge_length(mesh, group, i);
+        length += edge;
+        shortest = fmin(shortest, edge);
+        longest = fmax(longest, edge);
+    }
+    fprintf(out, "%6d edges %6d nodes   length %.6g, edges %.4g to %.4g", group->face_count,
+            group->node_count, length, group->face_count ? shortest : 0, longest);
+}
+
+// Cells and area or volume: what `materials` of a scene may name.
+static void write_region(const Mesh *mesh, const MeshGroup *group, FILE *out)
+{
+    double area = 0;
+    for (int32_t k = 0; k < group->element_count; k++)
+        area += mesh_element_area(mesh, group->elements[k]);
+    fprintf(out, "%6d cells                %s %.6g", group->element_count, size_name(mesh), area);
+}
+
+static void write_groups(const Mesh *mesh, FILE *out)
+{
+    fprintf(out, "  groups\n");
+    for (int32_t g = 0; g < mesh->group_count; g++) {
+        const MeshGroup *group = &mesh->groups[g];
+        fprintf(out, "    %-16s %-7s", group->name, dimension_name(group->dimension));
+        if (group->dimension == mesh->dim)
+            write_region(mesh, group, out);
+        else if (group->dimension == mesh->dim - 1)
+            write_boundary(mesh, group, out);
+        else
+            fprintf(out, "%6d nodes", group->node_count);
+        fprintf(out, "\n");
+    }
+}
+
+// The aspect ratio is fem/mesh_summary's: longest over shortest edge of an element.
+void info_write_mesh(const Mesh *mesh, FILE *out)
+{
+    MeshSummary summary = mesh_summarise(mesh);
+    fprintf(out, "mesh %s\n  %d nodes, %d elements:", mesh->path, mesh->node_count,
+            mesh->element_count);
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+        if (summary.element_counts[kind])
+            fprintf(out, " %d %s", summary.element_counts[kind], element_name((ElementKind)kind));
+    fprintf(out, "\n  x from %.6g to %.6g", mesh->x_min, mesh->x_max);
+    if (mesh->dim > 2) fprintf(out, ", y from %.6g to %.6g", mesh->y_min, mesh->y_max);
+    fprintf(out, ", z from %.6g to %.6g, %s %.6g\n", mesh->z_min, mesh->z_max, size_name(mesh),
+            summary.area);
+    fprintf(out, "  element edges %.4g to %.4g, largest aspect ratio %.3g\n", summary.edge_min,
+            summary.edge_max, summary.aspect_max);
+    write_groups(mesh, out);
+}
+
+// "n=4" as a parameter of a .geo: what reads as a number is one.
+static bool read_parameter(const char *word, MeshParameter *parameter, Error *err)
+{
+    const char *equals = strchr(word, '=');
+    *parameter = (MeshParameter){0};
+    if (!equals || equals == word || !equals[1])
+        return REFUSE(err, "--set %s: a mesh takes name=value, as in --set n=4", word);
+    if (equals - word >= GROUP_NAME_SIZE || strlen(equals + 1) >= GROUP_NAME_SIZE)
+        return REFUSE(err, "--set %s: name and value have at most %d bytes each", word,
+                      GROUP_NAME_SIZE - 1);
+    memcpy(parameter->name, word, (size_t)(equals - word));
+    int32_t length = text_number(equals + 1, &parameter->value);
+    if (equals[1 + length]) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
+    return true;
+}
+
+bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err)
+{
+    MeshFile file = {0};
+    Mesh mesh = {0};
+    MeshParameter *parameters = NEW_ARRAY(MeshParameter, options->override_count, err);
+    if (!parameters) goto cleanup;
+    for (int32_t k = 0; k < options->override_count; k++)
+        TRY(read_parameter(options->overrides[k], &parameters[k], err));
+    TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
+    TRY(mesh_build(&file, path, &mesh, err));
+    info_write_mesh(&mesh, out);
+    if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
+cleanup:
+    mesh_file_destroy(&file);
+    mesh_destroy(&mesh);
+    memory_free(parameters);
+    return error_is_clean(err);
+}
+
+// strip: the rod's lowest and highest z, length, or NULL. Drawn by the module `render`.
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit,
+                    const InfoOptions *options, Error *err)
+{
+    char note[200];
+    const char *name = strrchr(mesh->path, '/');
+    MeshSummary summary = mesh_summarise(mesh);
+    bool in_metres = unit && strcmp(unit, "m") == 0;
+    double factor = in_metres ? 1000 : 1;
+    snprintf(note, sizeof note,
+             "%d nodes, %d elements, edges %.3g to %.3g%s%s, aspect ratio to %.3g",
+             mesh->node_count, mesh->element_count, factor * summary.edge_min,
+             factor * summary.edge_max, unit ? " " : "",
+             in_metres ? "mm"
+             : unit    ? unit
+                       : "",
+             summary.aspect_max);
+    RenderMesh request = {.title = name ? name + 1 : mesh->path,
+                          .note = note,
+                          .unit = unit,
+                          .node_count = mesh->node_count,
+                          .dim = mesh->dim,
+                          .position = mesh->position,
+                          .element_count = mesh->element_count,
+                          .kind = mesh->kind,
+                          .first_node = mesh->first_node,
+                          .element_nodes = mesh->element_nodes,
+                          .group_count = mesh->group_count,
+                          .groups = mesh->groups,
+                          .rod_low = strip ? strip[0] : NAN,
+                          .rod_high = strip ? strip[1] : NAN,
+                          .style = {.overwrite = options->overwrite}};
+    RenderMeshFunction render =
+        (RenderMeshFunction)module_function("render", "amontons_render_mesh", err);
+    return render && render(&request, options->picture, err);
+}

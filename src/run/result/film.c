@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A film of a stored result, by the render module; where it is asked for, of fields that its run is
+// computed once more for.
+#include "base/apart.h"
+#include "base/module.h"
+#include "render/render.h"
+#include "run/result/film_fields.h"
+#include "run/result/pictures.h"
+
+#include <string.h>
+
+enum { FILM_SECONDS_MAX = 36000 };   // of processor time
+
+typedef struct FilmWork {
+    const char *folder;
+    const FilmRequest *request;
+} FilmWork;
+
+static bool film_apart(void *context, FILE *reply, Error *err)
+{
+    const FilmWork *film = context;
+    RenderFilmFunction render =
+        (RenderFilmFunction)module_function("render", "amontons_render_film", err);
+    if (!render || !render(film->folder, film->request, err)) return false;
+    const double *still = film->request->still;   // this process's
+    if (reply && still) fwrite(still, sizeof *still, 1, reply);
+    return true;
+}
+
+bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
+{
+    FilmWork film = {folder, request};
+    ApartWork work = {.path = folder,
+                      .reader = "HDF5 or VTK",
+                      .seconds = FILM_SECONDS_MAX,
+                      .advice = "its history is damaged",
+                      .stop = request->stop,
+                      .read = film_apart,
+                      .context = &film};
+    FilmFields fields = {0};
+    ApartReply reply = {0};
+    TRY(pictures_check_folder(folder, err));
+    if (request->fields) {
+        TRY(film_fields_make(folder, request, &fields, err));
+        film.folder = fields.folder;
+    }
+    if (!request->still || !apart_is_wanted()) {
+        TRY(apart_do(&work, err));
+    } else {
+        TRY(apart_read(&work, &reply, err));
+        memcpy(request->still, reply.bytes, sizeof *request->still);
+    }
+cleanup:
+    apart_destroy(&reply);
+    film_fields_remove(&fields);
+    return error_is_clean(err);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pictures of a stored result, by the render module, which is opened on first use.
+#include "run/result/pictures.h"
+
+#include "base/apart.h"
+#include "base/module.h"
+#include "io/text/picture_options.h"
+#include "render/render.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+// Processor time. Some minutes: far above what the longest history takes.
+enum { SECONDS_MAX = 600 };
+
+bool pictures_draw(const char *folder, const PictureRequest *request, Error *err)
+{
+    RenderFunction render = (RenderFunction)module_function("render", "amontons_render", err);
+    return render && render(folder, request, err);
+}
+
+bool amontons_picture_option(PictureStyle *style, const char *name, const char *value, Error *err)
+{
+    return picture_option_set(style, name, value, err);
+}
+
+bool pictures_check_folder(const char *folder, Error *err)
+{
+    struct stat status;
+    if (stat(folder, &status) != 0)
+        return REFUSE(err, "cannot open the result %s: %s", folder, strerror(errno));
+    if (!S_ISDIR(status.st_mode)) return REFUSE(err, "%s is a file, not a result folder", folder);
+    return true;
+}
+
+typedef struct DrawRequest {
+    const char *folder;
+    const PictureRequest *request;
+} DrawRequest;
+
+static bool draw_apart(void *context, FILE *reply, Error *err)
+{
+    const DrawRequest *draw = context;
+    (void)reply;   // pictures are files
+    return pictures_draw(draw->folder, draw->request, err);
+}
+
+// A stranger's history may crash HDF5, or keep it busy for ever.
+bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err)
+{
+    static const PictureRequest all = {0};
+    DrawRequest draw = {folder, request ? request : &all};
+    ApartWork work = {.path = folder,
+                      .reader = "HDF5 or VTK",
+                      .seconds = SECONDS_MAX,
+                      .advice = "its history is damaged",
+                      .read = draw_apart,
+                      .context = &draw};
+    return pictures_check_folder(folder, err) && apart_do(&work, err);
+}
+
+bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
+                               Error *err)
+{
+    RenderPlotFunction render =
+        (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
+    return render && render(plot, picture, style, err);
+}

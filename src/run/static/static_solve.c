@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons static`: K u = f + G' r with unilateral contact and Coulomb friction by mu_static,
+// where slip is measured from the undeformed block. It is the contact problem of one stage
+// (contact/contact_problem) with displacements in the place of velocities: S of K alone, g
+// condensed from the load, and bounds that are lengths. Reactions are then found anew from element
+// stresses, r = int B' sigma - f, so that the balances printed owe nothing to the solver.
+#include "run/static/static_solve.h"
+
+#include "algebra/dense.h"
+#include "base/memory.h"
+#include "friction/friction_state.h"
+#include "fem/element_group.h"
+#include "contact/contact_check.h"
+#include "model/contact_laws.h"
+#include "model/gaps.h"
+#include "run/result/result_folder.h"
+
+#include <math.h>
+#include <string.h>
+
+// [dofs] and [interface->count] arrays, owned by *solution.
+static bool make_room(const Model *model, StaticSolution *solution, Error *err)
+{
+    int32_t dofs = model->bulk.dof_count;
+    const Interface *interface = &model->interface;
+    solution->displacement = NEW_ARRAY(double, dofs, err);
+    solution->load = NEW_ARRAY(double, dofs, err);
+    solution->reaction = NEW_ARRAY(double, dofs, err);
+    solution->work = NEW_ARRAY(double, dofs, err);
+    solution->contact_displacement = NEW_ARRAY(double, interface->count, err);
+    solution->contact_reaction = NEW_ARRAY(double, interface->count, err);
+    solution->status = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    solution->rod_touches = NEW_ARRAY(uint8_t, interface->rod_count, err);
+    return error_is_clean(err);
+}
+
+static void static_solution_destroy(StaticSolution *solution)
+{
+    memory_free_all(solution->displacement, solution->load, solution->reaction, solution->work);
+    rod_destroy(&solution->rod);
+    memory_free_all(solution->contact_displacement, solution->contact_reaction, solution->status,
+                    solution->node_laws, solution->rod_touches);
+    *solution = (StaticSolution){0};
+}
+
+// Where the nodes may go: as far as the rod, and down to the substrate (bound [count]).
+static void fill_bounds(const Model *model, const StaticSolution *solution, double *bound)
+{
+    const Interface *interface = &model->interface;
+    memset(bound, 0, (size_t)interface->count * sizeof(double));
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        bound[interface_normal(interface, i)] = -interface_gap(interface, i);
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        bound[interface_rod(interface, j)] = solution->rod_way;
+}
+
+// Bounds in [interface_count] `bound`, borrowed, like rod and law of the solution; S and g are the
+// caller's to add. rod_reach 1: at a soft node r_x = (bound - u)/softness, as nothing moves.
+static ContactProblem contact_problem(const Model *model, const StaticSolution *solution,
+                                      double *bound)
+{
+    fill_bounds(model, solution, bound);
+    return (ContactProblem){.interface = &model->interface,
+                            .law = &solution->law,
+                            .rod_kind = solution->rod.kind,
+                            .rod_softness = solution->rod.softness,
+                            .rod_reach = 1,
+                            .bound = bound};
+}
+
+// All nodes start sticking and the rod touching; bound: [interface_count] work.
+static bool solve_contact(const Model *model, InterfaceOperator *stiffness, const double *g,
+                          double *bound, StaticSolution *solution, Error *err)
+{
+    const Interface *interface = &model->interface;
+    ContactSolver solver = {0};
+    ContactMatrix matrix = {0};
+    for (int32_t j = 0; j < interface->rod_count; j++) solution->rod_touches[j] = 1;
+    for (int32_t i = 0; i < interface->contact_count; i++) solution->status[i] = CONTACT_STICK;
+    ContactProblem problem = contact_problem(model, solution, bound);
+    problem.matrix = &matrix;
+    problem.g = g;
+    ContactSolution contact = {.velocity = solution->contact_displacement,
+                               .reaction = solution->contact_reaction,
+                               .status = solution->status,
+                               .rod_touches = solution->rod_touches};
+    TRY(contact_matrix_create(interface_operator_schur(stiffness), interface->count, &matrix, err));
+    TRY(contact_solver_create(interface, contact_solver_def(), &solver, err));
+    if (!contact_solve(&solver, &problem, &contact))
+        FAIL(err, ERROR_COMPUTE,
+             "%s: no equilibrium was found in %d iterations: is the block held against sliding "
+             "and tipping (rod, friction, load.supports)?",
+             model->scene->path, (int)solver.iterations);
+    solution->iterations = solver.iterations;
+cleanup:
+    contact_solver_destroy(&solver);
+    contact_matrix_destroy(&matrix);
+    return error_is_clean(err);
+}
+
+// reaction = int B' sigma - f, element by element: owes nothing to the assembled matrices.
+static void find_reactions(const Model *model, StaticSolution *solution)
+{
+    const Mesh *mesh = &model->mesh;
+    int32_t dofs[ELEMENT_DOFS_MAX];
+    ElementGroup group;
+    ElementMatrices matrices;
+    for (int32_t dof = 0; dof < model->bulk.dof_count; dof++)
+        solution->reaction[dof] = -solution->load[dof];
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        if (!element_group_at(mesh, e, &group)) continue;
+        element_group_matrices(mesh, model->materials.list, &group, &matrices);
+        for (int32_t i = 0; i < matrices.dof_count; i++)
+            dofs[i] =
+                node_dof(mesh->dim, group.node[dof_node(mesh->dim, i)], dof_axis(mesh->dim, i));
+        for (int32_t row = 0; row < matrices.dof_count; row++) {
+            double force = 0;
+            for (int32_t column = 0; column < matrices.dof_count; column++)
+                force += matrices.stiffness[row][column] * solution->displacement[dofs[column]];
+            solution->reaction[dofs[row]] += force;
+        }
+    }
+}
+
+// model: mesh, bulk and interface are there; supports are held and the rod is built here. K
+// alone may be singular (a block that only stands): its interface is lifted for the factor, and S
+// lowered again (reduction/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in
+// the interior.
+static bool static_solve(Model *model, StaticSolution *solution, Error *err)
+{
+    *solution = (StaticSolution){0};
+    Bulk *bulk = &model->bulk;
+    const Interface *interface = &model->interface;
+    InterfaceOperator *stiffness = NULL;
+    BulkOperator system = {0};
+    double *g = NEW_ARRAY(double, interface->count, err);
+    double *bound = NEW_ARRAY(double, interface->count, err);
+    if (!g || !bound) goto cleanup;
+    TRY(make_room(model, solution, err));
+    const Scene *scene = model->scene;
+    RodKind kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES;
+    TRY(model_build_rod(model, kind, &solution->rod, err));
+    TRY(model_lay_laws(model, err));
+    TRY(model_lay_gaps(model, err));
+    TRY((solution->node_laws = NEW_ARRAY(FrictionLaw, interface->contact_count, err)));
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        solution->node_laws[i] = friction_constant(friction_at(&model->law, i)->mu_static);
+    solution->law = friction_spread(solution->node_laws, interface->contact_count);
+    memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
+    TRY(model_hold_supports(model, err));
+    TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,
+                             err));
+    system.machine = model_machine(model);
+    OperatorTerms terms = {.stiffness = 1, .lift = true};
+    TRY((stiffness = interface_operator_create(&system, terms, err)));
+    // A rod on a spring is found from the forces: displacements are against it until then.
+    bool rigid = scene->rod.stiffness == 0;
+    if (rigid) solution->rod_way = scene->rod.displacement;
+    interface_operator_pull(stiffness, scene->rod.stiffness * scene->rod.displacement);
+    TRY(interface_operator_condense(stiffness, bulk->load, g, err));
+    TRY(solve_contact(model, stiffness, g, bound, solution, err));
+    double way = interface_operator_release(stiffness, solution->contact_displacement);
+    if (!rigid) solution->rod_way = way;
+    TRY(interface_operator_expand(stiffness, solution->contact_displacement, solution->displacement,
+                                  err));
+    for (int32_t k = 0; k < interface->count; k++)
+        solution->displacement[interface->dofs[k]] = solution->contact_displacement[k];
+    find_reactions(model, solution);
+cleanup:
+    interface_operator_destroy(stiffness);
+    bulk_operator_destroy(&system);
+    memory_free_all(bound, g);
+    return error_is_clean(err);
+}
+
+// --- sums and balances --------------------------------------------------------------------------
+
+// Sums of what the plane does to the block, in its sense: upwards is positive. The rod's resultant
+// height is NaN without a force.
+static void sum_contact(const Model *model, const StaticSolution *solution, StaticSummary *summary)
+{
+    const Interface *interface = &model->interface;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double normal = solution->reaction[interface->dofs[interface_normal(interface, i)]];
+        summary->shear_force +=
+            solution->reaction[interface->dofs[interface_tangent(interface, i)]];
+        summary->normal_force += normal;
+        summary->pressure_moment += interface->x[i] * normal;
+        summary->open += solution->status[i] == CONTACT_OPEN;
+        summary->sticking += solution->status[i] == CONTACT_STICK;
+        summary->slipping += status_slips(solution->status[i]);
+    }
+    double moment = 0;
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        double force = solution->contact_reaction[interface_rod(interface, j)];
+        summary->rod_force += force;
+        moment += interface->rod_z[j] * force;
+    }
+    summary->rod_height = summary->rod_force != 0 ? moment / summary->rod_force : NAN;
+}
+
+// The largest nodal force that nothing gives, and that the interface gives otherwise than it says.
+static double find_residual(const Model *model, const StaticSolution *solution,
+                            double *interface_force)
+{
+    const Interface *interface = &model->interface;
+    const uint8_t *held = model->bulk.held;
+    int32_t dofs = model->bulk.dof_count;
+    memset(interface_force, 0, (size_t)dofs * sizeof(double));
+    for (int32_t k = 0; k < interface->count; k++)
+        interface_force[interface->dofs[k]] = solution->contact_reaction[k];
+    double worst = 0;
+    for (int32_t dof = 0; dof < dofs; dof++)
+        if (!held[dof]) worst = fmax(worst, fabs(solution->reaction[dof] - interface_force[dof]));
+    return worst;
+}
+
+static double contact_violation(const Model *model, const StaticSolution *solution, double *bound)
+{
+    const Interface *interface = &model->interface;
+    ContactProblem problem = contact_problem(model, solution, bound);
+    double force = dense_max_abs(solution->contact_reaction, interface->count);
+    double length = dense_max_abs(solution->displacement, model->bulk.dof_count);
+    ContactResidual residual = contact_residual(&problem, solution->contact_displacement,
+                                                solution->contact_reaction, force > 0 ? force : 1,
+                                                length > 0 ? length : 1);
+    return contact_residual_max(&residual);
+}
+
+static StaticSummary static_summarise(const Model *model, StaticSolution *solution)
+{
+    const Mesh *mesh = &model->mesh;
+    int32_t dofs = model->bulk.dof_count;
+    StaticSummary summary = {.dim = mesh->dim,
+                             .nodes = mesh->node_count,
+                             .contact_nodes = model->interface.contact_count,
+                             .rod_nodes = model->interface.rod_count,
+                             .iterations = solution->iterations};
+    sum_contact(model, solution, &summary);
+    MeshPlace force = {0};
+    int32_t up = mesh->dim - 1;
+    double moment = 0, moved = 0, internal_work = 0, reaction_work = 0, size = 0;
+    for (int32_t node = 0; node < mesh->node_count; node++) {
+        int32_t first = node_dof(mesh->dim, node, 0);
+        const double *load = solution->load + first, *r = solution->reaction + first;
+        const double *u = solution->displacement + first, *at = mesh_place(mesh, node);
+        for (int32_t d = 0; d < mesh->dim; d++) {
+            force[d] += load[d] + r[d];
+            moved += fabs(r[d]);
+            size = fmax(size, fabs(at[d]));
+            reaction_work += r[d] * u[d];
+            internal_work += (load[d] + r[d]) * u[d];
+            summary.load_work += load[d] * u[d];
+        }
+        moment += at[0] * (load[up] + r[up]) - at[up] * (load[0] + r[0]);
+    }
+    summary.elastic_energy = 0.5 * internal_work;
+    double scale = moved > 0 ? moved : 1;
+    double largest =
+        fmax(dense_max_abs(solution->reaction, dofs), dense_max_abs(solution->load, dofs));
+    summary.residual = find_residual(model, solution, solution->work) / (largest > 0 ? largest : 1);
+    summary.force_balance = dense_max_abs(force, mesh->dim) / scale;
+    summary.moment_balance = fabs(moment) / (scale * (size > 0 ? size : 1));
+    double applied = summary.load_work;
+    for (int32_t k = 0; k < model->interface.count; k++)
+        applied += solution->contact_reaction[k] * solution->contact_displacement[k];
+    summary.energy_balance = fabs(internal_work - applied) /
+                             fmax(fabs(internal_work), fabs(reaction_work) + 1e-300);
+    summary.complementarity = contact_violation(model, solution, solution->work);
+    return summary;
+}
+
+// mesh -> bulk -> equilibrium -> sums -> files. folder NULL: nothing is written.
+bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
+                     Error *err)
+{
+    Model model = model_of(scene);
+    StaticSolution solution = {0};
+    ResultFolder place = {0};
+    *summary = (StaticSummary){0};
+    dense_use_one_thread();
+    if (friction_remembers(&scene->friction, 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: friction.law: what holds at rest goes by what the contacts remember; `%s` is for "
+             "`amontons run`",
+             scene->path, friction_law_name(&scene->friction));
+    TRY(result_folder_claim(folder, overwrite, &place, err));
+    TRY(model_read_mesh(&model, err));
+    TRY(model_build_bulk(&model, err));
+    TRY(static_solve(&model, &solution, err));
+    *summary = static_summarise(&model, &solution);
+    TRY(result_folder_clear(&place, err));
+    if (folder) TRY(static_report_write(folder, &model, &solution, summary, err));
+    TRY(result_folder_settle(&place, err));
+cleanup:
+    static_solution_destroy(&solution);
+    model_destroy(&model);
+    result_folder_release(&place);
+    return error_is_clean(err);
+}

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// LAPACK and BLAS behind algebra/dense against linear algebra written out by hand, over random
+// matrices; only the lower triangle may be looked at.
+#include "algebra/dense.h"
+
+#include "dense_by_hand.h"
+#include "near.h"
+#include "random_numbers.h"
+
+#include <dirent.h>
+#include <dlfcn.h>
+#include <time.h>
+
+enum { SIZE_MAX_TRIED = 24 };
+
+// L L' with a random lower triangle that is far from singular.
+static void random_positive(Random *random, int32_t n, double *lower, double *a)
+{
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t i = 0; i < n; i++)
+            lower[j * n + i] =
+                i < j ? 0
+                      : (i == j ? random_between(random, 1, 2) : random_between(random, -0.5, 0.5));
+    for (int32_t j = 0; j < n; j++) {
+        for (int32_t i = 0; i < n; i++) {
+            a[j * n + i] = 0;
+            for (int32_t k = 0; k < n; k++) a[j * n + i] += lower[k * n + i] * lower[k * n + j];
+        }
+    }
+}
+
+static void spoil_upper(double *a, int32_t n)
+{
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t i = 0; i < j; i++) a[j * n + i] = NAN;
+}
+
+TEST(test_cholesky_and_triangles)
+{
+    dense_use_one_thread();
+    Random random = {.state = 1};
+    for (int32_t n = 0; n <= SIZE_MAX_TRIED; n++) {
+        double lower[SIZE_MAX_TRIED * SIZE_MAX_TRIED], a[SIZE_MAX_TRIED * SIZE_MAX_TRIED];
+        double square[SIZE_MAX_TRIED * SIZE_MAX_TRIED], x[SIZE_MAX_TRIED], y[SIZE_MAX_TRIED];
+        random_positive(&random, n, lower, a);
+        for (int32_t k = 0; k < n; k++) x[k] = random_between(&random, -1, 1);
+        double wanted[SIZE_MAX_TRIED];
+        hand_apply(a, n, n, x, wanted);
+        spoil_upper(a, n);
+        dense_symmetric_apply(a, n, x, y);
+        assert_all_near("A x", y, wanted, n, 1e-14);
+
+        double through[SIZE_MAX_TRIED];   // L (L' x) is A x
+        memcpy(through, x, sizeof through);
+        dense_lower_apply_transposed(lower, n, through);
+        dense_lower_apply(lower, n, through);
+        assert_all_near("L L' x", through, wanted, n, 1e-13);
+        dense_lower_square(lower, n, square);
+        hand_apply(square, n, n, x, y);
+        assert_all_near("square", y, wanted, n, 1e-13);
+        spoil_upper(lower, n);
+
+        double both[2 * SIZE_MAX_TRIED], back[2 * SIZE_MAX_TRIED];   // L'^-1 (L^-1 (A x)) is x
+        for (int32_t k = 0; k < 2 * n; k++) both[k] = (1 + k / n) * wanted[k % n];
+        dense_lower_divide(lower, n, 2, both);
+        memcpy(back, both, sizeof back);
+        dense_lower_divide_transposed(lower, n, 2, back);
+        for (int32_t k = 0; k < 2 * n; k++) assert_near("x", back[k], (1 + k / n) * x[k % n], 1e-9);
+        dense_lower_multiply(lower, n, 2, both);   // L (L^-1 (A x)) is A x
+        for (int32_t k = 0; k < 2 * n; k++)
+            assert_near("A x", both[k], (1 + k / n) * wanted[k % n], 1e-12);
+
+        assert_true(dense_cholesky(a, n));
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = j; i < n; i++) assert_near("L", a[j * n + i], lower[j * n + i], 1e-12);
+    }
+}
+
+// A matrix with one eigenvalue below zero is told from one with all above, however close.
+TEST(test_not_definite)
+{
+    for (double least = 1e-9; least > -2e-9; least -= 2e-9) {
+        double a[] = {1 + least, 1, 1, 1 + least};   // eigenvalues least and 2 + least
+        assert_int_equal(dense_cholesky(a, 2), least > 0);
+    }
+    double zero[] = {0}, negative[] = {-1}, none[] = {NAN};
+    assert_false(dense_cholesky(zero, 1));
+    assert_false(dense_cholesky(negative, 1));
+    assert_false(dense_cholesky(none, 1));
+}
+
+TEST(test_lu)
+{
+    Random random = {.state = 2};
+    for (int32_t n = 0; n <= SIZE_MAX_TRIED; n++) {
+        double a[SIZE_MAX_TRIED * SIZE_MAX_TRIED], copy[SIZE_MAX_TRIED * SIZE_MAX_TRIED];
+        double b[SIZE_MAX_TRIED], wanted[SIZE_MAX_TRIED];
+        int32_t pivots[SIZE_MAX_TRIED];
+        for (int32_t k = 0; k < n * n; k++) a[k] = random_between(&random, -1, 1);
+        if (n > 1) a[0] = 0;   // not solvable without exchanging rows
+        for (int32_t k = 0; k < n; k++) b[k] = wanted[k] = random_between(&random, -1, 1);
+        memcpy(copy, a, sizeof copy);
+        assert_true(hand_solve(copy, n, wanted, 1));
+        assert_true(dense_lu(a, n, pivots));
+        dense_lu_solve(a, n, pivots, b);
+        assert_all_near("x", b, wanted, n, 1e-9);
+    }
+    double singular[] = {1, 2, 2, 4};
+    int32_t pivots[2];
+    assert_false(dense_lu(singular, 2, pivots));
+}
+
+TEST(test_vectors)
+{
+    const double x[] = {1, -5, 2}, y[] = {3, 1, -1};
+    assert_near("dot", dense_dot(x, y, 3), -4, 0);
+    assert_near("dot of nothing", dense_dot(x, y, 0), 0, 0);
+    assert_near("largest", dense_max_abs(x, 3), 5, 0);
+    assert_near("largest of nothing", dense_max_abs(x, 0), 0, 0);
+}
+
+static int32_t thread_count(void)
+{
+    int32_t count = 0;
+    DIR *tasks = opendir("/proc/self/task");
+    assert_non_null(tasks);
+    for (struct dirent *entry; (entry = readdir(tasks));) count += entry->d_name[0] != '.';
+    closedir(tasks);
+#ifdef __SANITIZE_THREAD__
+    count--;   // its own
+#endif
+    return count;
+}
+
+// The kernel still lists a thread for a moment after it was joined.
+static void assert_alone(void)
+{
+    struct timespec moment = {.tv_nsec = 1000000};
+    for (int32_t look = 0; look < 1000 && thread_count() > 1; look++) nanosleep(&moment, NULL);
+    assert_int_equal(thread_count(), 1);
+}
+
+// OpenBLAS's own threads go, once and for all; a second call does not bring them back.
+TEST(test_one_thread)
+{
+    void *symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+    void (*set_threads)(int) = NULL;
+    assert_non_null(symbol);
+    memcpy(&set_threads, &symbol, sizeof set_threads);
+    set_threads(3);
+    if (thread_count() == 1) skip();   // an OpenBLAS built without threads
+    for (int32_t call = 0; call < 2; call++) {
+        dense_use_one_thread();
+        assert_alone();
+    }
+    double lower[4] = {2, 1, 0, 1}, square[4];
+    dense_lower_square(lower, 2, square);
+    assert_near("still computes", square[3], 2, 1e-15);
+    assert_alone();
+}
+
+// Against sums of single products.
+TEST(test_subtract_pair)
+{
+    enum { N = 11 };
+    double a[N * N], was[2 * N], over[2 * N], left[N * N];
+    for (int k = 0; k < N * N; k++) a[k] = left[k] = cos(k);
+    for (int k = 0; k < 2 * N; k++) {
+        was[k] = sin(k);
+        over[k] = sin(0.3 * k);
+    }
+    dense_subtract_pair(left, N, was, over);
+    for (int i = 0; i < N; i++) {
+        for (int j = 0; j < N; j++) {
+            double taken = was[i] * over[2 * j] + was[N + i] * over[2 * j + 1];
+            assert_near("less both", left[j * N + i], a[j * N + i] - taken, 1e-15);
+        }
+    }
+}
+
+// Long enough for several blocks of rows and a rest.
+TEST(test_two_vectors_at_once)
+{
+    enum { ROWS = 5003, COLUMNS = 37 };
+    static double a[ROWS * COLUMNS], x[2][COLUMNS], one[ROWS], y[2][ROWS];
+    dense_use_one_thread();   // as all of the program: two would share the rows otherwise
+    Random random = {.state = 8};
+    for (int32_t k = 0; k < ROWS * COLUMNS; k++) a[k] = random_between(&random, -1, 1);
+    for (int32_t k = 0; k < 2 * COLUMNS; k++)
+        x[k / COLUMNS][k % COLUMNS] = random_between(&random, -1, 1);
+    DenseView view = {a, ROWS, COLUMNS};
+    dense_apply_each(view, 2, (const double *[]){x[0], x[1]}, (double *[]){y[0], y[1]});
+    for (int k = 0; k < 2; k++) {
+        dense_apply(view, x[k], 1, 0, one);
+        assert_memory_equal(y[k], one, sizeof one);
+        for (int32_t i = 0; i < ROWS; i += 101) {
+            double sum = 0;
+            for (int32_t j = 0; j < COLUMNS; j++) sum += a[j * ROWS + i] * x[k][j];
+            assert_near("a x", one[i], sum, 1e-13);
+        }
+    }
+}
+
+// Every pattern of zeros in up to seven entries; what meets a 0 would spoil the sum.
+TEST(test_add_nonzero)
+{
+    enum { ROWS = 5, COLUMNS = 7 };
+    Random random = {.state = 21};
+    for (int32_t columns = 0; columns <= COLUMNS; columns++) {
+        for (uint32_t pattern = 0; pattern < 1U << columns; pattern++) {
+            double a[ROWS * COLUMNS], x[COLUMNS], y[ROWS], wanted[ROWS];
+            for (int32_t i = 0; i < ROWS; i++) wanted[i] = y[i] = random_between(&random, -1, 1);
+            for (int32_t j = 0; j < columns; j++) {
+                bool is_zero = (pattern >> j & 1) == 0;
+                x[j] = is_zero ? 0 : random_between(&random, 1, 2);
+                for (int32_t i = 0; i < ROWS; i++) {
+                    double entry = random_between(&random, -1, 1);
+                    a[j * ROWS + i] = is_zero ? NAN : entry;
+                    if (!is_zero) wanted[i] -= 0.5 * entry * x[j];
+                }
+            }
+            dense_add_nonzero((DenseView){a, ROWS, columns}, x, -0.5, y);
+            assert_all_near("y - a x/2", y, wanted, ROWS, 1e-15);
+        }
+    }
+    dense_add_nonzero((DenseView){NULL, 0, COLUMNS}, (double[COLUMNS]){1}, 1, NULL);
+}
+
+// Sizes of 0 are answered as sums over nothing are, and nothing is touched: BLAS refuses them, with
+// a sentence on standard error.
+TEST(test_nothing)
+{
+    double a[4] = {3, 5, 7, 9}, c[4] = {1, 2, 3, 4}, x[2] = {1, 1};
+    const double kept[4] = {1, 2, 3, 4};
+    const DenseView none = {a, 0, 2}, thin = {a, 2, 0}, full = {a, 2, 2};
+    int32_t pivots[1];
+    assert_true(dense_cholesky(c, 0) && dense_lu(c, 0, pivots) && dense_invert_factored(c, 0));
+    assert_true(dense_eigen_above(c, 0, 1, x, x));
+    assert_true(dense_eigen(c, 0, x, x) && dense_eigen_general(c, 0, x, x, x, x));
+    dense_lower_apply(a, 0, c);
+    dense_lower_apply_transposed(a, 0, c);
+    dense_lower_solve_transposed(a, 0, c);
+    dense_lower_square(a, 0, c);
+    dense_add_scaled(2, a, 0, c);
+    dense_lower_divide(a, 0, 2, c);
+    dense_lower_divide(a, 2, 0, c);
+    dense_divide_both_sides(a, 0, c);
+    dense_multiply_transposed(thin, full, 1, 0, c);
+    dense_multiply_transposed(full, thin, 1, 0, c);
+    dense_multiply(none, full, 1, 0, c);
+    dense_multiply(thin, none, 1, 0, c);
+    dense_multiply(full, thin, 1, 0, c);
+    dense_multiply_by_transposed(thin, thin, c);
+    dense_multiply_by_transposed(none, full, c);
+    dense_multiply_transposed_rows(thin, full, 1, 0, c, 2);
+    dense_multiply_transposed_rows(full, thin, 1, 0, c, 2);
+    dense_multiply_transposed_rows(none, none, 1, 0, c, 2);
+    dense_multiply_rows(thin, a, 2, 2, 1, c);
+    dense_multiply_rows(full, a, 2, 0, 1, c);
+    dense_multiply_rows(none, a, 2, 2, 1, c);
+    assert_true(dense_tridiagonalise(c, 0, x, x, x));
+    dense_apply(none, x, 1, 0, c);
+    dense_apply(thin, x, 1, 0, c);
+    dense_apply_transposed(thin, x, 1, 0, c);
+    assert_memory_equal(c, kept, sizeof kept);
+    dense_multiply_transposed(none, none, 1, 0.5, c);   // no rows: what was there alone
+    for (int k = 0; k < 4; k++) assert_true(c[k] == 0.5 * kept[k]);
+    dense_multiply_transposed(none, none, 1, 0, c);
+    for (int k = 0; k < 4; k++) assert_true(c[k] == 0);
+}

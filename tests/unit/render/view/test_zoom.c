@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which precursors are enlarged, for histories written down by hand.
+#include "render/view/zoom.h"
+
+#include "cases.h"
+
+#include <math.h>
+
+enum { STEPS = 401 };
+
+static double saw_U[STEPS], saw_mu[STEPS];
+
+// mu climbs to 0.3 and falls to 0.1 at U = 1, 2 and 3; the history ends at U = 4.
+static ResultView saw_tooth(void)
+{
+    for (int32_t k = 0; k < STEPS; ++k) {
+        saw_U[k] = k / 100.0;
+        saw_mu[k] = 0.1 + 0.2 * (saw_U[k] - floor(saw_U[k] - 1e-9));
+        if (k == 0) saw_mu[k] = 0;
+    }
+    return (ResultView){.rows = STEPS, .U = saw_U, .mu = saw_mu};
+}
+
+static const ViewEvent three_cycles[] = {
+    {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_QUASI_STATIC, 1.02, 1.9, 0},
+    {VIEW_BOUNDED, 1.7, 1.71, 0}, {VIEW_BOUNDED, 1.9, 1.91, 0}, {VIEW_LEADING, 2.0, 2.01, 0},
+    {VIEW_LEADING, 3.0, 3.01, 0}, {VIEW_BOUNDED, 3.5, 3.51, 0}};
+static const ViewPeak periodic[] = {{1.0, 0.3, false}, {2.0, 0.3, true}, {3.0, 0.3, true}};
+
+static ResultView with_events(int32_t events, int32_t peaks)
+{
+    ResultView view = saw_tooth();
+    view.event_count = events;
+    view.events = (ViewEvent *)three_cycles;
+    view.peak_count = peaks;
+    view.peaks = (ViewPeak *)periodic;
+    return view;
+}
+
+TEST(periodic_with_precursors_comes_first)
+{
+    ResultView view = with_events(8, 3);
+    Zoom zoom = zoom_choose(&view);
+    assert_true(zoom.found);
+    assert_float_equal(zoom.U_slide, 2.0, 1e-12);   // 3.0 counts too, but has no precursors
+    assert_true(zoom.U_low < 1.7 && zoom.U_low > 1.6);
+    assert_true(zoom.U_high > 2.0 && zoom.U_high < 2.1);
+}
+
+TEST(periodic_comes_before_precursors)
+{
+    const ViewEvent events[] = {
+        {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_LEADING, 3.0, 3.01, 0}};
+    ResultView view = with_events(3, 3);
+    view.events = (ViewEvent *)events;
+    assert_true(fabs(zoom_choose(&view).U_slide - 3.0) < 1e-12);   // the peak at 1.0 does not count
+}
+
+TEST(without_peaks_precursors_decide)
+{
+    ResultView view = with_events(8, 0);
+    assert_float_equal(zoom_choose(&view).U_slide, 2.0, 1e-12);
+    view = with_events(2, 0);
+    assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
+}
+
+TEST(without_precursors_the_last_of_the_cycle)
+{
+    ResultView view = with_events(2, 0);
+    view.events = (ViewEvent *)three_cycles + 5;   // the slidings at 2 and 3
+    Zoom zoom = zoom_choose(&view);
+    assert_float_equal(zoom.U_slide, 3.0, 1e-12);
+    assert_true(zoom.U_low > 2.8 && zoom.U_low < 2.9);
+}
+
+TEST(many_precursors_are_cut)
+{
+    ViewEvent events[41];
+    for (int32_t k = 0; k < 40; ++k) events[k] = (ViewEvent){VIEW_BOUNDED, 0.02 * k, 0.02 * k, 0};
+    events[40] = (ViewEvent){VIEW_LEADING, 0.8, 0.81, 0};
+    ResultView view = saw_tooth();
+    view.events = events;
+    view.event_count = 41;
+    Zoom zoom = zoom_choose(&view);
+    assert_true(zoom.U_low > 0.62 && zoom.U_low < 0.64);   // the last eight start at 0.64
+}
+
+TEST(without_tables_mu_tells)
+{
+    ResultView view = saw_tooth();
+    Zoom zoom = zoom_choose(&view);
+    assert_true(zoom.found);
+    assert_float_equal(zoom.U_slide, 3.0, 0.011);
+    assert_true(zoom.U_low > 2.8 && zoom.U_high < 3.1);
+    saw_mu[350] = saw_mu[351] = NAN;
+    assert_float_equal(zoom_choose(&view).U_slide, 3.0, 0.011);
+}
+
+TEST(no_sliding_no_zoom)
+{
+    ResultView view = saw_tooth();
+    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = 1e-3 * k - (k % 10 == 0 ? 0.01 : 0);
+    assert_false(zoom_choose(&view).found);   // small drops are no sliding
+    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = NAN;
+    assert_false(zoom_choose(&view).found);
+    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = 0.2;
+    assert_false(zoom_choose(&view).found);
+}
+
+TEST(bad_tables_do_no_harm)
+{
+    const ViewEvent events[] = {{-1, 0.5, 0.6, 0},
+                                {VIEW_LEADING, NAN, NAN, 0},
+                                {VIEW_BOUNDED, NAN, 0.9, 0},
+                                {VIEW_LEADING, 1.0, NAN, 0}};
+    const ViewPeak peaks[] = {{NAN, NAN, true}};
+    ResultView view = saw_tooth();
+    view.events = (ViewEvent *)events;
+    view.event_count = 4;
+    view.peaks = (ViewPeak *)peaks;
+    view.peak_count = 1;
+    Zoom zoom = zoom_choose(&view);
+    assert_true(zoom.found);
+    assert_float_equal(zoom.U_slide, 1.0, 1e-12);
+    assert_true(zoom.U_high > zoom.U_low);
+}

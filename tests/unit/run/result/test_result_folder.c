@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which folders a run may have, and what it takes away from an earlier one.
+#include "run/result/result_folder.h"
+
+#include "amontons.h"
+#include "base/text.h"
+
+#include "place_fixture.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+// A whole life of a folder, nothing computed in between.
+static bool prepare(const char *path, bool overwrite, Error *err)
+{
+    ResultFolder folder = {0};
+    bool done = result_folder_claim(path, overwrite, &folder, err) &&
+                result_folder_clear(&folder, err) && result_folder_settle(&folder, err);
+    result_folder_release(&folder);
+    return done;
+}
+
+static void expect_error(const char *folder, bool overwrite, ErrorCode code, const char *words)
+{
+    Error err = {0};
+    assert_false(prepare(folder, overwrite, &err));
+    assert_int_equal(err.code, code);
+    if (!strstr(err.message, words)) fail_msg("'%s' is not in: %s", words, err.message);
+}
+
+// What files of ours hold, by the end of their names: enough to be known.
+static const char *ours(const char *name)
+{
+    static const char *const held[][2] = {{".json", "{\n  \"status\": \"done\",\n"},
+                                          {"checkpoint.bin", "amontons-state 1\n"},
+                                          {".h5", "\x89HDF\r\n nodes series contact"},
+                                          {".pvd", "  <Collection>\n  </Collection>\n"},
+                                          {".vtu", "<DataArray Name=\"stress_elastic\"/>"},
+                                          {".vtp", "<DataArray Name=\"slip_rate\"/>"}};
+    if (strcmp(name, "figures/accuracy.json") == 0) return "{\"x\": {\"label\": \"contact nodes\"";
+    for (size_t k = 0; k < sizeof held / sizeof *held; k++)
+        if (text_ends_with(name, held[k][0])) return held[k][1];
+    if (text_ends_with(name, ".html")) return "<meta name='generator' content='amontons 0.2.0'>";
+    if (text_ends_with(name, ".svg")) return "<svg/><!-- amontons 0.2.0 -->";
+    return "/Creator (amontons 0.2.0)";
+}
+
+static void write_ours(const char *const *names, size_t count)
+{
+    mkdir(place_path(place, "fields"), 0777);
+    mkdir(place_path(place, "figures"), 0777);
+    for (size_t k = 0; k < count; k++) {
+        static const char png[] = "Software\0amontons 0.2.0";
+        place_write(place, names[k], ours(names[k]));
+        if (!text_ends_with(names[k], ".png")) continue;
+        FILE *file = fopen(place_path(place, names[k]), "wb");
+        assert_true(fwrite(png, sizeof png, 1, file) == 1 && fclose(file) == 0);
+    }
+}
+
+static void write_theirs(const char *const *names, size_t count)
+{
+    write_ours(names, count);
+    for (size_t k = 0; k < count; k++) place_write(place, names[k], "mine");
+}
+
+static void expect_all(const char *const *names, size_t count, bool there)
+{
+    for (size_t k = 0; k < count; k++)
+        if (place_has(place, names[k]) != there)
+            fail_msg("%s is %s", names[k], there ? "gone" : "still there");
+}
+
+TEST_BETWEEN(test_made_with_parents, begin, end)
+{
+    Error err = {0};
+    char folder[PLACE_SIZE + 32];
+    snprintf(folder, sizeof folder, "%s/a/b/c", place);
+    assert_true(prepare(folder, false, &err));
+    assert_true(place_has(place, "a/b/c"));
+    assert_true(prepare(folder, false, &err));   // empty: once more is fine
+    assert_false(place_has(place, "a/b/c/amontons.lock"));
+    snprintf(folder, sizeof folder, "%s/d/", place);
+    assert_true(prepare(folder, false, &err));
+    assert_true(place_has(place, "d"));
+}
+
+TEST_BETWEEN(test_refuses_an_earlier_result, begin, end)
+{
+    const char *const files[] = {"run.json", "history.h5", "history.h5.part", "fields.pvd"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        place_write(place, files[k], ours(files[k]));
+        expect_error(place, false, ERROR_INPUT, files[k]);
+        expect_error(place, false, ERROR_INPUT, "--overwrite");
+        assert_true(place_has(place, files[k]));
+        unlink(place_path(place, files[k]));
+    }
+}
+
+static const char *const OWN[] = {"run.json",
+                                  "history.h5",
+                                  "fields.pvd",
+                                  "fields/bulk_000000.vtu",
+                                  "fields/bulk_1000000.vtu.part",
+                                  "fields/interface_000003.vtp",
+                                  "figures/force.png",
+                                  "figures/force.svg",
+                                  "figures/panels.png",
+                                  "figures/field-stress_xz.png",
+                                  "figures/force.png.part"};
+static const char *const OTHERS[] = {"notes.txt",
+                                     "scene.yaml",
+                                     "history.h5.bak",
+                                     "fields/notes.txt",
+                                     "fields/bulk.vtu",
+                                     "fields/bulk_000001.vtu.old",
+                                     "fields/mine_000001.vtu",
+                                     "figures/mine.svg",
+                                     "figures/field-trip.png",
+                                     "figures/photograph.png",
+                                     "figures/readme"};
+enum { OWN_COUNT = sizeof OWN / sizeof *OWN, OTHER_COUNT = sizeof OTHERS / sizeof *OTHERS };
+
+// Refused, nothing is touched; overwritten, our files go and all others stay.
+TEST_BETWEEN(test_overwrites_only_its_own, begin, end)
+{
+    Error err = {0};
+    write_ours(OWN, OWN_COUNT);
+    write_theirs(OTHERS, OTHER_COUNT);
+    expect_error(place, false, ERROR_INPUT, "holds an earlier result");
+    expect_all(OWN, OWN_COUNT, true);
+    assert_true(prepare(place, true, &err));
+    expect_all(OWN, OWN_COUNT, false);
+    expect_all(OTHERS, OTHER_COUNT, true);
+}
+
+// A picture or a field that no run has written is somebody's: a run that would write over it, also
+// through a link, is refused, whatever else lies in the folder.
+TEST_BETWEEN(test_what_is_somebodys_is_not_written_over, begin, end)
+{
+    const char *const theirs[] = {"figures/force.png", "fields/bulk_000000.vtu"};
+    for (int k = 0; k < 2; k++) {
+        write_theirs(&theirs[k], 1);
+        for (int overwrite = 0; overwrite < 2; overwrite++)
+            expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
+        place_write(place, "run.json", ours("run.json"));   // which says nothing of a picture
+        expect_error(place, true, ERROR_INPUT, theirs[k]);
+        assert_true(place_has(place, "run.json"));
+        unlink(place_path(place, "run.json"));
+        expect_all(&theirs[k], 1, true);
+        unlink(place_path(place, theirs[k]));
+    }
+    char elsewhere[PLACE_SIZE];
+    place_make(elsewhere);
+    place_write(elsewhere, "force.png", "mine");
+    assert_int_equal(rmdir(place_path(place, "figures")), 0);
+    assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
+    expect_error(place, true, ERROR_INPUT, "figures/force.png");
+    place_remove(elsewhere);
+}
+
+// A user's own file may have the name of one of ours: it is not taken for an earlier result.
+TEST_BETWEEN(test_proofs_of_somebody, begin, end)
+{
+    Error err = {0};
+    const char *const theirs[] = {"run.json",    "history.h5", "report.html",
+                                  "static.json", "fields.pvd", "checkpoint.bin"};
+    for (size_t k = 0; k < sizeof theirs / sizeof *theirs; k++) {
+        write_theirs(&theirs[k], 1);
+        for (int overwrite = 0; overwrite < 2; overwrite++)
+            expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
+        assert_true(place_has(place, theirs[k]));
+        write_ours(&theirs[k], 1);
+        assert_true(prepare(place, true, &err));
+        assert_false(place_has(place, theirs[k]));
+    }
+}
+
+// Pictures of ours that lie there alone: replaced where the user said so, or where a run that was
+// killed has left its lock; a picture that the new run does not draw does not stay.
+TEST_BETWEEN(test_pictures_of_ours_alone, begin, end)
+{
+    Error err = {0};
+    const char *const drawn[] = {"figures/force.png", "figures/slip-map.pdf"};
+    for (int killed = 0; killed < 2; killed++) {
+        write_ours(drawn, 2);
+        expect_error(place, false, ERROR_INPUT, "figures/");
+        if (killed) place_write(place, "amontons.lock", "");
+        assert_true(prepare(place, !killed, &err));
+        expect_all(drawn, 2, false);
+    }
+}
+
+// An error bar that was stopped keeps what it has; the same command begins anew.
+TEST_BETWEEN(test_a_stopped_search_may_begin_anew, begin, end)
+{
+    Error err = {0};
+    const char *const kept[] = {"figures/accuracy.json"};
+    write_ours(kept, 1);
+    assert_true(prepare(place, false, &err));
+    expect_all(kept, 1, true);
+    write_theirs(kept, 1);
+    expect_error(place, true, ERROR_INPUT, "figures/accuracy.json");
+    expect_all(kept, 1, true);
+}
+
+// Until the input is accepted nothing goes, and then nothing behind a link.
+TEST_BETWEEN(test_cleared_late_and_not_through_links, begin, end)
+{
+    Error err = {0};
+    ResultFolder folder;
+    char elsewhere[PLACE_SIZE];
+    place_make(elsewhere);
+    place_write(elsewhere, "force.svg", ours("force.svg"));
+    place_write(place, "run.json", ours("run.json"));
+    assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
+    assert_true(result_folder_claim(place, true, &folder, &err));
+    assert_false(result_folder_is_ours(&folder));
+    assert_true(place_has(place, "run.json"));
+    assert_true(result_folder_clear(&folder, &err));
+    assert_true(result_folder_is_ours(&folder));
+    assert_false(place_has(place, "run.json"));
+    assert_true(place_has(elsewhere, "force.svg"));
+    result_folder_release(&folder);
+    place_remove(elsewhere);
+}
+
+// What was cleared is back where the new computation did not come to its first step, also where it
+// was killed: `moment` is the name that its folder has then.
+TEST_BETWEEN(test_back_until_settled, begin, end)
+{
+    Error err = {0};
+    ResultFolder folder;
+    static const char *const moments[] = {"amontons.aside", "amontons.earlier", "amontons.gone"};
+    for (size_t k = 0; k < 4; k++) {
+        write_ours(OWN, OWN_COUNT);
+        assert_true(result_folder_claim(place, true, &folder, &err));
+        assert_true(result_folder_clear(&folder, &err));
+        expect_all(OWN, OWN_COUNT, false);
+        assert_false(result_folder_is_settled(&folder));
+        place_write(place, "history.h5.journal", "new");
+        char now[PLACE_SIZE + 40];
+        snprintf(now, sizeof now, "%s", place_path(place, "amontons.earlier"));
+        if (k < 3) {
+            folder.aside = false;   // killed
+            assert_int_equal(rename(now, place_path(place, moments[k])), 0);
+        }
+        result_folder_release(&folder);
+        if (k < 3) expect_all(OWN, OWN_COUNT, false);
+        if (k < 3) assert_true(result_folder_claim(place, true, &folder, &err));
+        result_folder_release(&folder);
+        expect_all(OWN, OWN_COUNT, k != 2);
+        assert_int_equal(place_has(place, "history.h5.journal"), k == 0 || k == 2);
+        assert_false(place_has(place, "amontons.earlier") || place_has(place, "amontons.aside") ||
+                     place_has(place, "amontons.gone"));
+        assert_true(prepare(place, true, &err));
+        expect_all(OWN, OWN_COUNT, false);
+    }
+}
+
+// The second of two is told who holds the folder; when that has let go, it may.
+TEST_BETWEEN(test_one_computation_at_a_time, begin, end)
+{
+    Error err = {0};
+    ResultFolder first;
+    char holder[64];
+    snprintf(holder, sizeof holder, "process %ld on ", (long)getpid());
+    assert_true(result_folder_claim(place, true, &first, &err));
+    expect_error(place, true, ERROR_INPUT, "another computation");
+    expect_error(place, true, ERROR_INPUT, holder);
+    result_folder_release(&first);
+    assert_true(prepare(place, true, &err));
+}
+
+// Somebody holds it who has not said who that is; and a process that a signal is about to end takes
+// its own lock along.
+TEST_BETWEEN(test_locks, begin, end)
+{
+    Error err = {0};
+    ResultFolder own;
+    place_write(place, "amontons.lock", "");
+    int other = open(place_path(place, "amontons.lock"), O_RDWR);
+    assert_int_equal(flock(other, LOCK_EX), 0);
+    expect_error(place, true, ERROR_INPUT, "(its process is not known)");
+    close(other);
+    assert_true(result_folder_claim(place, true, &own, &err));
+    assert_true(place_has(place, "amontons.lock"));
+    amontons_let_go();
+    assert_false(place_has(place, "amontons.lock"));
+    result_folder_release(&own);
+}
+
+TEST_BETWEEN(test_impossible_folders, begin, end)
+{
+    char folder[PLACE_SIZE + 32];
+    place_write(place, "file", "x");
+    snprintf(folder, sizeof folder, "%s/file", place);
+    expect_error(folder, true, ERROR_INPUT, "is a file, not a folder");
+    snprintf(folder, sizeof folder, "%s/file/below", place);
+    expect_error(folder, true, ERROR_INPUT, "cannot make the folder");
+    char endless[9000];
+    memset(endless, 'x', sizeof endless);
+    endless[sizeof endless - 1] = 0;
+    expect_error(endless, true, ERROR_INPUT, "too long");
+    enum { NOBODY = 65534 };
+    bool root = geteuid() == 0;   // who writes anywhere
+    snprintf(folder, sizeof folder, "%s/locked", place);
+    assert_int_equal(mkdir(folder, 0555), 0);
+    if (root) assert_int_equal(chmod(place, 0755) || setresuid(NOBODY, NOBODY, 0), 0);
+    expect_error(folder, true, ERROR_FILE, "cannot write into");
+    if (root) assert_int_equal(setresuid(0, 0, 0), 0);
+}
