@@ -85,16 +85,16 @@ size_contact = size_contact / refine;
 size_bulk = size_bulk / refine;
 grade = refine * grade_contact > 1 ? refine * grade_contact : 1;
 If (floor > 0 && size_contact > floor)
-    Error("size_contact must be at most floor = %g (or floor = 0: pointed grooves), found %g", floor,
-          size_contact);
+    Error("size_contact / refine must be at most floor = %g (or floor = 0: pointed grooves), found %g",
+          floor, size_contact);
     Abort;
 EndIf
 
 // --- the outline, its underside from x = 0 to x = length ----------------------------------------
 contact_length = (length - grooves * width) / (grooves + 1);
 If (size_contact > contact_length / 2)
-    Error("size_contact must be at most half of a contact, which is %g long, found %g", contact_length,
-          size_contact);
+    Error("size_contact / refine must be at most half of a contact, which is %g long, found %g",
+          contact_length, size_contact);
     Abort;
 EndIf
 // The end cells of a contact of cells that follow a parabola (Bump) with a mean of size_contact.

@@ -89,7 +89,7 @@ size_bulk = size_bulk / refine;
 cells = refine * cells < 1 ? 1 : Floor(refine * cells + 0.5);
 contact_width = (span - grooves * width) / (grooves + 1);
 If (size_contact > contact_width / 2 || (floor > 0 && size_contact > floor))
-    Error("size_contact must be at most half of a contact (%g wide) and floor = %g, found %g",
+    Error("size_contact / refine must be at most half of a contact (%g wide) and floor = %g, found %g",
           contact_width, floor, size_contact);
     Abort;
 EndIf

@@ -188,8 +188,8 @@ For k In {0 : n - 1}
 EndFor
 shortest = touching / sum * (step < 1 ? step ^ (n - 1) : 1);
 If (size_contact > shortest / 2)
-    Error("size_contact must be at most half of the shortest pad, which is %g long, found %g", shortest,
-          size_contact);
+    Error("size_contact / refine must be at most half of the shortest pad, which is %g long, found %g",
+          shortest, size_contact);
     Abort;
 EndIf
 

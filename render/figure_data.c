@@ -2,14 +2,17 @@
 // What is written is what `--compare` reads: one run may be drawn beside another.
 #include "render/figure_data.h"
 
+#include "base/memory.h"
 #include "io/text/csv_writer.h"
+#include "render/figures/state_scale.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS_MAX = 6 };
+enum { COLUMNS_MAX = 6, OF_STATE = 3 };
 
 // Names may say " (m)" where the result is in SI.
 typedef struct DataColumn {
@@ -22,7 +25,7 @@ static bool write_columns(const char *path, const DataColumn *columns, int32_t c
                           bool si, Error *err)
 {
     CsvWriter *csv = csv_create(path, err);
-    char name[40];
+    char name[VIEW_STATE_SIZE + 20];
     if (!csv) return false;
     for (int32_t k = 0; k < count; ++k) {
         bool has_unit = si && columns[k].unit;
@@ -55,25 +58,73 @@ static bool write_front(const char *path, ResultView *view, Error *err)
 
 static bool write_lengths(const char *path, ResultView *view, Error *err)
 {
-    FigureCurve curve = {0};
-    bool done = precursors_curve(view, &curve, err);
-    const DataColumn columns[] = {{"F_T/F_N", NULL, curve.at, 1},
-                                  {"l/L", NULL, curve.value, 1 / view->number[NUMBER_LENGTH]}};
-    done = done && write_columns(path, columns, 2, curve.count, view->si, err);
-    figure_curve_destroy(&curve);
-    return done;
+    if (!precursors_compute(view, err)) return false;
+    const DataColumn columns[] = {
+        {"F_T/F_N", NULL, view->precursors.at, 1},
+        {"l/L", NULL, view->precursors.value, 1 / view->number[NUMBER_LENGTH]}};
+    return write_columns(path, columns, 2, view->precursors.count, view->si, err);
 }
 
 static bool write_speeds(const char *path, ResultView *view, Error *err)
 {
-    FigureCurve curve = {0};
-    bool done = front_speed_curve(view, &curve, err);
+    if (!front_speed_compute(view, err)) return false;
     const DataColumn columns[] = {
-        {"x/L", NULL, curve.at, 1 / view->number[NUMBER_LENGTH]},
-        {"v/c_R", NULL, curve.value, 1 / view->number[NUMBER_C_RAYLEIGH]}};
-    done = done && write_columns(path, columns, 2, curve.count, view->si, err);
-    figure_curve_destroy(&curve);
-    return done;
+        {"x/L", NULL, view->front_speed.at, 1 / view->number[NUMBER_LENGTH]},
+        {"v/c_R", NULL, view->front_speed.value, 1 / view->number[NUMBER_C_RAYLEIGH]}};
+    return write_columns(path, columns, 2, view->front_speed.count, view->si, err);
+}
+
+static int compare_numbers(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return a < b ? -1 : a > b;
+}
+
+// Least, median and largest over the nodes, of the state that the view stands for.
+static bool state_columns(ResultView *view, double *columns[OF_STATE], Error *err)
+{
+    double *states = NULL;
+    TRY(state_read(view, false, &states, err));
+    for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double *own = states + row * view->nodes;
+        qsort(own, (size_t)view->nodes, sizeof *own, compare_numbers);
+        for (int32_t k = 0; k < OF_STATE; ++k)
+            columns[k][row] = own[k * (view->nodes - 1) / (OF_STATE - 1)];
+    }
+cleanup:
+    memory_free(states);
+    return error_is_clean(err);
+}
+
+static bool write_states(const char *path, ResultView *view, Error *err)
+{
+    static const char *const what[OF_STATE] = {"least", "median", "largest"};
+    int32_t count = 2;
+    DataColumn *columns = NEW_ARRAY(DataColumn, 2 + OF_STATE * view->states, err);
+    char(*names)[VIEW_STATE_SIZE + 12] = memory_array(OF_STATE * view->states, sizeof *names, err);
+    double **values = NEW_ARRAY(double *, OF_STATE * view->states, err);
+    TRY(columns && names && values);
+    columns[0] = (DataColumn){"U", "m", view->U, 1};
+    columns[1] = (DataColumn){"t", "s", view->t, 1};
+    for (view->state = 0; view->state < view->states; ++view->state) {
+        char name[VIEW_STATE_SIZE];
+        ValueWords words = state_words(view, name);
+        TRY(state_columns(view, values + OF_STATE * view->state, err));
+        for (int32_t k = 0; k < OF_STATE; ++k, ++count) {
+            snprintf(names[count - 2], sizeof *names, "%s %s", what[k], name);
+            columns[count] =
+                (DataColumn){names[count - 2], words.si[0] ? words.si : NULL, values[count - 2], 1};
+        }
+    }
+    TRY(write_columns(path, columns, count, view->rows, view->si, err));
+cleanup:
+    view->state = 0;
+    for (int32_t k = 0; values && k < OF_STATE * view->states; ++k) memory_free(values[k]);
+    memory_free(columns);
+    memory_free(names);
+    memory_free(values);
+    return error_is_clean(err);
 }
 
 static const struct FigureData {
@@ -85,6 +136,7 @@ static const struct FigureData {
     {"force", write_force, figure_force_measured, MEASURED_MU},
     {"slip-map", write_front, figure_slip_map_measured, MEASURED_FRONT},
     {"contact-density", NULL, figure_contact_density_measured, MEASURED_AREA},
+    {"state-map", write_states, NULL, MEASURED_KINDS},
     {"precursors", write_lengths, figure_precursors_measured, MEASURED_LENGTH},
     {"front-speed", write_speeds, figure_front_speed_measured, MEASURED_SPEED},
 };
@@ -136,7 +188,7 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view, c
     if (!data) return true;
     TRY(data_path(folder, name, "", path, err));
     if (data->write) TRY(data->write(path, view, err));
-    if (!compare) return true;
+    if (!compare || !data->measured) return true;
     TRY(data->measured(view, compare, &measured, err));
     TRY(data_path(folder, name, "-compared", path, err));
     if (measured.count > 0) TRY(write_compared(path, &measured, view->si, err));
@@ -150,5 +202,6 @@ bool figure_data_measured(const char *name, const char *compare, ResultView *vie
 {
     const struct FigureData *data = find_data(name);
     *shows = false;
-    return !data || !compare || measured_has(compare, data->kind, view, shows, err);
+    return !data || !data->measured || !compare ||
+           measured_has(compare, data->kind, view, shows, err);
 }

@@ -51,6 +51,7 @@ static bool draw_all(const Page *page, const Panels *panels, ResultView *view, B
         part.frame = &frame[k];
         part.zoom_name = panels->zoom_name[0] ? panels->zoom_name : NULL;
         part.bare_x = k + 1 < panels->count && !enlarges(panels, k) && !enlarges(panels, k + 1);
+        view->state = panels->figures[k].state;
         TRY(panels->figures[k].draw(&part, view, err));
         snprintf(letter, sizeof letter, "(%c)", 'a' + k);
         text_draw(page->text, &style, (Point){LETTER_LEFT * point, top + LETTER_DROP * point},

@@ -5,12 +5,13 @@
 
 #include "render/figures/figures.h"
 
-enum { PANELS_MAX = 6 };
+enum { PANELS_MAX = 12 };
 
 typedef struct PanelFigure {
     const char *name;
     double shape;   // height over the page's width
     FigureFunction draw;
+    int32_t state;   // which the view stands for while it is drawn
 } PanelFigure;
 
 // On a page begun here. figures: [count], at most PANELS_MAX; def: but its height.

@@ -55,6 +55,10 @@ static Figure figure_get(FigureId id)
         figure.height_over_width = 0.62;
         figure.draw = figure_contact_density;
         break;
+    case FIGURE_STATE_MAP:
+        figure.height_over_width = 0.62;
+        figure.draw = figure_state_map;
+        break;
     case FIGURE_CONTACT_PLANE:
         figure.draw_whole = figure_contact_plane;
         break;
@@ -124,9 +128,27 @@ static bool panels_find(const char *names, PanelFigure list[PANELS_MAX], int32_t
         if (!figure.draw || figure.own_axes)
             FAIL(err, ERROR_INPUT, "panels are figures over U: %s cannot be one", name);
         if (*count == PANELS_MAX) FAIL(err, ERROR_INPUT, "a page takes %d panels", PANELS_MAX);
-        list[(*count)++] = (PanelFigure){figure.name, figure.height_over_width, figure.draw};
+        list[(*count)++] = (PanelFigure){figure.name, figure.height_over_width, figure.draw, 0};
     }
     if (*count == 0) FAIL(err, ERROR_INPUT, "no panel is named");
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of several states each is a panel.
+static bool spread_states(const ResultView *view, PanelFigure list[PANELS_MAX], int32_t *count,
+                          Error *err)
+{
+    int32_t more = view->states - 1;
+    for (int32_t k = *count - 1; k >= 0 && more > 0; --k) {
+        if (list[k].draw != figure_state_map) continue;
+        if (*count + more > PANELS_MAX)
+            FAIL(err, ERROR_INPUT, "a page takes %d panels", PANELS_MAX);
+        memmove(list + k + 1 + more, list + k + 1, (size_t)(*count - k - 1) * sizeof *list);
+        for (int32_t i = 1; i <= more; ++i) list[k + i] = list[k];
+        for (int32_t i = 1; i <= more; ++i) list[k + i].state = i;
+        *count += more;
+    }
 cleanup:
     return error_is_clean(err);
 }
@@ -144,8 +166,9 @@ static bool draw(const char *folder, const PictureRequest *request, const Figure
     PanelFigure panels[PANELS_MAX];
     Figure known;
     int32_t count = 0;
-    if (!figure) {
-        TRY(panels_find(request->panels, panels, &count, err));
+    if (!figure || (figure->draw == figure_state_map && view->states > 1)) {
+        TRY(panels_find(figure ? figure->name : request->panels, panels, &count, err));
+        TRY(spread_states(view, panels, &count, err));
         for (int32_t k = 0; k < count; ++k) {
             TRY(figure_find(panels[k].name, &known, err));
             panels[k].shape = figure_shape(&known, view, style);
@@ -238,13 +261,13 @@ static bool has_fields(const char *folder)
 // Who asks for all figures gets those that there are. field-strip needs a sliding with several
 // times: for who asks. Likewise contact-plane without an event.
 static bool is_there(FigureId id, const char *folder, const PictureRequest *request,
-                     const ResultView *view)
+                     ResultView *view)
 {
     const char *of = request->field.of;
     if (id == FIGURE_FIELD)
         return has_fields(folder) &&
-               (!of || figure_field_shows(of) || !figure_contact_plane_shows(of));
-    if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(of))) return false;
+               (!of || figure_field_shows(of) || !figure_contact_plane_shows(view, of));
+    if (id != FIGURE_CONTACT_PLANE || (of && !figure_contact_plane_shows(view, of))) return false;
     return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
 }
 
@@ -257,6 +280,7 @@ static bool is_drawn(const char *folder, FigureId id, const PictureRequest *requ
     bool measured = false;
     TRY(figure_data_measured(figure.name, request->style.compare, view, &measured, err));
     *drawn = figure.draw_whole ? is_there(id, folder, request, view) : measured || !figure.own_axes;
+    if (id == FIGURE_STATE_MAP) *drawn = view->states > 0;
 cleanup:
     return error_is_clean(err);
 }

@@ -29,7 +29,7 @@
     X(BLOCK_ENERGY, "strain_energy", "strain energy density", "J/m^{3}", "~{E}")                   \
     X(BLOCK_DISSIPATION, "dissipation", "dissipation rate", "W/m^{3}", "(~{E} / ~{t}_{0})")
 
-// What `contact-plane` may show, in the same way.
+// What `contact-plane` may show, in the same way; a state also by its own name.
 #define CONTACT_QUANTITIES(X)                                                                      \
     X(CONTACT_SLIP_RATE, "slip_rate", "slip rate", "m/s", "(~{L}_{0} / ~{t}_{0})")                 \
     X(CONTACT_DENSITY, "contact_density", "contact density ~{\u03c6}", "", "")                     \
@@ -37,6 +37,7 @@
     X(CONTACT_SHEAR, "shear", "shear stress |~{\u03c4}|", "Pa", "~{E}")                            \
     X(CONTACT_RATIO, "shear_over_pressure", "|~{\u03c4}| / ~{p}", "", "")                          \
     X(CONTACT_SLIP, "slip", "slip since (a)", "m", "~{L}_{0}")                                     \
+    X(CONTACT_STATE, "state", "", "", "")                                                          \
     X(CONTACT_ARRIVAL, "arrival", "arrival of rapid slip", "s", "~{t}_{0}")
 
 // X(symbol, name, title)
@@ -44,6 +45,7 @@
     X(FIGURE_FORCE, "force", "F_T/F_N against U, with an inset of the precursors")                 \
     X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
     X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")    \
+    X(FIGURE_STATE_MAP, "state-map", "what friction remembers, against U and x")                   \
     X(FIGURE_CONTACT_PLANE, "contact-plane", "the contact of a block in space at chosen moments")  \
     X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
     X(FIGURE_FRONT_SPEED, "front-speed", "how fast the front of a sliding runs, against x")        \

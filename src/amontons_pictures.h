@@ -36,10 +36,11 @@ extern "C" {
       "outside or below")                                                                          \
     X(limits, RANGE, 0, 0, "", "LOW,HIGH",                                                         \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
-    X(from, TEXT, 0, 0, "", "U=U", "Of force and slip-map: where they begin; or t=TIME")           \
+    X(from, TEXT, 0, 0, "", "U=U", "Of force, slip-map, state-map: where they begin; or t=TIME")   \
     X(to, TEXT, 0, 0, "", "U=U", "Where they end; or t=TIME")                                      \
     X(pixels, WORD, 0, 0, "largest mean", "WHAT",                                                  \
-      "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean")   \
+      "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean; "  \
+      "of states state-map shows the smallest, or the largest where that is asked for")            \
     X(line, TEXT, 0, 0, "", "y=Y",                                                                 \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \

@@ -23,8 +23,8 @@ class History(Mapping):
     history["series/mu"] or history.mu, [steps]; history.U, history.t: displacement of the rod, length, and time,
     [steps]; history.slip_rate, .slip, .pressure, .shear, .status: [steps, nodes]; history.x: [nodes]. In space
     slip_rate, slip, shear are [steps, nodes, 2], along x and y; history.y, and history.line: 1 for the nodes along the
-    middle of the contact, off which fronts are read. Row 0 is the
-    start. history.numbers: the attributes of the file (length, normal_force, mu_static, ...).
+    middle of the contact, off which fronts are read. history.state: of friction that remembers, [steps, nodes], of
+    several states [steps, nodes, states]. Row 0 is the start. history.numbers: the attributes of the file (length, normal_force, mu_static, ...).
     """
 
     def __init__(self, path: Path) -> None:

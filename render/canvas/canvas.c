@@ -200,8 +200,29 @@ static bool is_opaque(const GlImageDef *def)
     return true;
 }
 
+// Rows of a map that are shown several times are drawn once, and copied; transparent: nothing.
+static bool rows_draw(const GlImageDef *def, const HeatMap *map, uint32_t *pixels, Error *err)
+{
+    GlImageDef once = *def;
+    once.height = map->rows;
+    once.stride = def->width;
+    uint32_t *drawn = NEW_ARRAY(uint32_t, (int64_t)once.height * once.width, err);
+    TRY(drawn && gl_image_draw(GL_OSMESA, &once, drawn, err));
+    for (int32_t row = 0; row < def->height; ++row) {
+        int64_t shown = (int64_t)row * map->shown_count / def->height;
+        const uint32_t *from = drawn + (int64_t)map->row_shown[shown] * def->width;
+        uint32_t *to = pixels + (int64_t)row * def->stride;
+        for (int32_t k = 0; k < def->width; ++k) to[k] = from[k] ? from[k] : to[k];
+    }
+cleanup:
+    memory_free(drawn);
+    return error_is_clean(err);
+}
+
 // OpenGL draws on the page itself, or, in PDF and SVG, an image of its own which Cairo places.
-static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
+// map: whose rows are listed; NULL: none are.
+static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted,
+                        const HeatMap *map)
 {
     GlImageDef def = *wanted;
     Error *err = &canvas->failure;
@@ -209,22 +230,20 @@ static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted
     def.colors = canvas->map;
     def.color_count = MAP_SIZE;
     def.below = canvas->below;
-    uint32_t *page = pixels_of_box(canvas, box, &def);
-    if (page) {
-        gl_image_draw(GL_OSMESA, &def, page, err);
-        cairo_surface_mark_dirty(canvas->surface);
-        return;
+    uint32_t *pixels = pixels_of_box(canvas, box, &def);
+    bool on_page = pixels != NULL;
+    if (!on_page) {
+        image = cairo_image_surface_create(
+            is_opaque(&def) ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32, def.width, def.height);
+        if (cairo_surface_status(image))
+            FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
+                 cairo_status_to_string(cairo_surface_status(image)));
+        def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+        pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
     }
-    image = cairo_image_surface_create(is_opaque(&def) ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32,
-                                       def.width, def.height);
-    if (cairo_surface_status(image))
-        FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
-             cairo_status_to_string(cairo_surface_status(image)));
-    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
-    TRY(gl_image_draw(GL_OSMESA, &def, (uint32_t *)(void *)cairo_image_surface_get_data(image),
-                      err));
-    cairo_surface_mark_dirty(image);
-    canvas_image(canvas, box, image);
+    TRY(map ? rows_draw(&def, map, pixels, err) : gl_image_draw(GL_OSMESA, &def, pixels, err));
+    cairo_surface_mark_dirty(on_page ? canvas->surface : image);
+    if (!on_page) canvas_image(canvas, box, image);
 cleanup:
     cairo_surface_destroy(image);
 }
@@ -237,9 +256,8 @@ void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map)
                               .height = map->row_shown ? map->shown_count : map->rows,
                               .values = map->values,
                               .columns = map->columns,
-                              .rows = map->rows,
-                              .row_shown = map->row_shown,
-                              .shown_count = map->shown_count});
+                              .rows = map->rows},
+                map->row_shown ? map : NULL);
 }
 
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count)
@@ -248,7 +266,8 @@ void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corne
                 &(GlImageDef){.width = (int32_t)lround(box->right - box->left),
                               .height = (int32_t)lround(box->bottom - box->top),
                               .corners = corners,
-                              .corner_count = count});
+                              .corner_count = count},
+                NULL);
 }
 
 bool canvas_is_vector(const Canvas *canvas)

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { TICKS_MAX = 6, LABEL_LENGTH = TICK_LABEL_SIZE + 8 };
+enum { TICKS_MAX = 6, POWERS_MOST = 10, LABEL_LENGTH = TICK_LABEL_SIZE + 8 };
 
 static const double NAME_MARGIN = 2;   // points: of the page above and below the name, at least
 static const double SLACK = 1e-9;   // of a step: a range that ends at a number is not widened
@@ -21,6 +21,11 @@ static const double PATCH_HEIGHT = 7;   // points
 void colorbar_fit(Colorbar *bar, const double range[2])
 {
     double low = range[0], high = range[1];
+    if (bar->powers) {
+        bar->low = floor(low + SLACK);
+        bar->high = fmax(ceil(high - SLACK), bar->low + 1);
+        return;
+    }
     if (!(high > low)) high = low + fmax(fabs(low), 1) * 1e-3;
     double step = ticks_choose(low, high, TICKS_MAX).step;
     if (!(step > 0)) step = high - low;   // a range too small for handy numbers
@@ -28,12 +33,25 @@ void colorbar_fit(Colorbar *bar, const double range[2])
     bar->high = ceil(high / step - SLACK) * step;
 }
 
+float colorbar_level(const Colorbar *bar, double value)
+{
+    double number = bar->factor * value;
+    if (isnan(number)) return HEAT_MISSING;
+    if (bar->powers)
+        number = number != 0 ? log10(fabs(number)) : -INFINITY;   // 0 is of most pixels
+    double part = (number - bar->low) / (bar->high - bar->low);
+    if (part < 0 && bar->powers && bar->neutral) return HEAT_BELOW;
+    part = fmin(fmax(part, 0), 1);
+    return (float)(bar->falling ? 1 - part : part);
+}
+
 // Whole powers of ten, or a linear scale's ticks.
 Ticks colorbar_ticks(const Colorbar *bar)
 {
     if (!bar->powers) return ticks_choose(bar->low, bar->high, TICKS_MAX);
-    Ticks ticks = {.step = 1, .minor = 1, .first = (int64_t)ceil(bar->low - 1e-9)};
-    ticks.count = (int32_t)(floor(bar->high + 1e-9) - (double)ticks.first) + 1;
+    double step = bar->high - bar->low > POWERS_MOST ? ceil((bar->high - bar->low) / TICKS_MAX) : 1;
+    Ticks ticks = {.step = step, .minor = 1, .first = (int64_t)ceil(bar->low / step - 1e-9)};
+    ticks.count = (int32_t)(floor(bar->high / step + 1e-9) - (double)ticks.first) + 1;
     return ticks;
 }
 
@@ -44,10 +62,8 @@ static void bar_label(const Colorbar *bar, const Ticks *ticks, int32_t k, char *
     char number[TICK_LABEL_SIZE];
     bool below = bar->clipped && k == 0, above = bar->clipped_above && k == ticks->count - 1;
     tick_label(ticks, k, number);
-    if (bar->powers)
-        snprintf(label, LABEL_LENGTH, "10^{%.0f}", tick_value(ticks, k));
-    else
-        snprintf(label, LABEL_LENGTH, "%s%s", below ? "≤" : above ? "≥" : "", number);
+    if (bar->powers) snprintf(number, sizeof number, "10^{%.0f}", tick_value(ticks, k));
+    snprintf(label, LABEL_LENGTH, "%s%s", below ? "≤" : above ? "≥" : "", number);
 }
 
 // Points that the widest number takes, the neutral colour's name included.

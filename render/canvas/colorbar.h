@@ -6,20 +6,25 @@
 #include "render/canvas/axes.h"
 
 typedef struct Colorbar {
-    double low, high;   // shown at the bottom and the top of the bar
+    double low, high;   // numbers shown at the bottom and the top of the bar
+    double factor;   // numbers are the values times this
     bool falling;   // the colour map's value 0 stands at the top, not at the bottom
     bool clipped,
         clipped_above;   // what is below `low`, above `high`, is shown as that: its number
     // says so
     bool powers;   // low and high are decimal logarithms: ticks are powers of ten
-    const char *label;   // text.h's marks
+    char label[AXIS_LABEL_SIZE];   // text.h's marks
     const char *neutral;   // name of the neutral colour, shown in a patch below; NULL: no patch
     Color neutral_color;
 } Colorbar;
 
-// Ends at handy numbers around `range`, which may be empty.
+// Ends at handy numbers around `range`, which may be empty; of powers at whole ones.
 void colorbar_fit(Colorbar *bar, const double range[2]);
 Ticks colorbar_ticks(const Colorbar *bar);
+
+// Place of a value in the colour map, 0 to 1, or a HeatLevel: NaN is no data; of powers, which are
+// of its size, what is below a bar with a neutral colour has that.
+float colorbar_level(const Colorbar *bar, double value);
 
 // Points to the right of the bar's left edge that it takes.
 double colorbar_width(const Page *page, const Colorbar *bar);

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 enum { TOKEN_SIZE = 16 };   // pixels a side of the buffer OSMesa insists on, never drawn into
-enum { UNIT_COLORS, UNIT_VALUES, UNIT_ROWS, UNIT_TARGET, UNITS };   // textures
+enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
 
 // clang-format off
 // All of OpenGL that is used: return type, name, arguments.
@@ -197,13 +197,9 @@ static const char *const VALUE_SOURCE[PROGRAMS] = {
     [BY_CORNERS] = "in float at;\n"
                    "float value_here() { return max(at, 0.0); }\n",
     [BY_VALUES] = "uniform vec2 scale;\n"   // values over pixels
-                  "uniform int listed;\n"
                   "uniform sampler2D values;\n"
-                  "uniform isampler2D rows;\n"
                   "float value_here() {\n"
-                  "    ivec2 place = ivec2(gl_FragCoord.xy * scale);\n"
-                  "    if (listed != 0) place.y = texelFetch(rows, ivec2(place.y, 0), 0).r;\n"
-                  "    float value = texelFetch(values, place, 0).r;\n"
+                  "    float value = texelFetch(values, ivec2(gl_FragCoord.xy * scale), 0).r;\n"
                   "    if (!(value >= -1.5)) discard;\n"
                   "    return value;\n"
                   "}\n"};
@@ -303,8 +299,7 @@ static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pix
 {
     GLint most = 0, columns = def->values ? def->columns : 1, rows = def->values ? def->rows : 1;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (def->width > most || def->height > most || columns > most || rows > most ||
-        def->shown_count > most)
+    if (def->width > most || def->height > most || columns > most || rows > most)
         FAIL(err, ERROR_LIBRARY,
              "OpenGL draws at most %d by %d pixels or values, not %d by %d of %d by %d", most, most,
              def->width, def->height, columns, rows);
@@ -338,18 +333,12 @@ static GLint uniform(const Gl *gl, GlKind kind, const char *name)
 
 static void values_load(const Gl *gl, const GlImageDef *def)
 {
-    int32_t shown = def->row_shown ? def->shown_count : def->rows;
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->columns, def->rows, 0, GL_RED, GL_FLOAT,
                    def->values);
-    gl->ActiveTexture(GL_TEXTURE0 + UNIT_ROWS);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32I, def->row_shown ? shown : 1, 1, 0, GL_RED_INTEGER,
-                   GL_INT, def->row_shown);
     gl->Uniform1i(uniform(gl, BY_VALUES, "values"), UNIT_VALUES);
-    gl->Uniform1i(uniform(gl, BY_VALUES, "rows"), UNIT_ROWS);
-    gl->Uniform1i(uniform(gl, BY_VALUES, "listed"), def->row_shown != NULL);
     gl->Uniform2f(uniform(gl, BY_VALUES, "scale"), (float)def->columns / (float)def->width,
-                  (float)shown / (float)def->height);
+                  (float)def->rows / (float)def->height);
 }
 
 // Values that are a texture fill the image by one triangle that is larger than it.

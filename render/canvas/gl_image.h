@@ -24,8 +24,6 @@ typedef struct GlImageDef {
     // have the colour `below`, lower ones none: the pixel stays what it is.
     const float *values;
     int32_t columns, rows;
-    const int32_t *row_shown;   // [shown_count] which rows, from the top; NULL: each once
-    int32_t shown_count;
     uint32_t below;
     const GlCorner *corners;   // [corner_count] three a triangle
     int64_t corner_count;

@@ -89,11 +89,19 @@ double tick_value(const Ticks *ticks, int32_t k)
     return (double)(ticks->first + k) * ticks->step;
 }
 
-// A number that stands for itself, or with its own power of ten where it would be long.
-static void label_alone(double value, char label[TICK_LABEL_SIZE])
+static int32_t power_of(double value)
 {
-    int32_t power = (int32_t)floor(log10(value) + END_SLACK);
-    if (power >= EXPONENT_LOW && power <= EXPONENT_HIGH)
+    return (int32_t)floor(log10(value) + END_SLACK);
+}
+
+// Numbers that stand for themselves, or all with a power of ten where one would be long.
+static void label_third(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
+{
+    double value = tick_value(ticks, k);
+    int32_t power = power_of(value), last = power_of(tick_value(ticks, ticks->count - 1));
+    bool short_all = power_of(tick_value(ticks, 0)) >= EXPONENT_LOW - 1 &&
+                     last <= EXPONENT_HIGH + 1;
+    if (short_all)
         snprintf(label, TICK_LABEL_SIZE, "%.*f", power < 0 ? -power : 0, value);
     else
         snprintf(label, TICK_LABEL_SIZE, "%.0f\u00d710^{%d}", value / pow(10, power), power);
@@ -103,7 +111,7 @@ static void label_alone(double value, char label[TICK_LABEL_SIZE])
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 {
     if (ticks->thirds) {
-        label_alone(tick_value(ticks, k), label);
+        label_third(ticks, k, label);
         return;
     }
     if (ticks->is_log) {

@@ -96,9 +96,8 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
 {
     int64_t total = 0;
     WeighedValue *nodes = NULL;
-    ValueBar fitted;
     BlockWords words = block_words(quantity);
-    ValueWords shown = {words.words, words.si, words.normalised, map->view->si};
+    ValueWords shown = {words.words, words.si, words.normalised, map->view->si, false};
     if (quantity == BLOCK_PRESSURE && map->view->line) shown.words = PRESSURE_IN_SPACE;
     for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
     TRY(nodes = NEW_ARRAY(WeighedValue, total, err));
@@ -107,11 +106,7 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
         for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
             nodes[start + i].value = blocks[k].value[i];
     }
-    TRY(value_bar_fit(nodes, total, &shown, map->style, &fitted, err));
-    map->factor = fitted.factor;
-    snprintf(map->label, sizeof map->label, "%s", fitted.label);
-    map->bar = fitted.bar;
-    map->bar.label = map->label;
+    TRY(value_bar_fit(nodes, total, &shown, map->style, &map->bar, err));
 cleanup:
     memory_free(nodes);
     return error_is_clean(err);
@@ -137,7 +132,7 @@ static bool draw_contours(const Page *page, const BlockPage *map, const Block *b
     for (int32_t k = 0; k < ticks.count; ++k) {
         double level = tick_value(&ticks, k);
         if (level > map->bar.low && level < map->bar.high)
-            TRY(block_contour_draw(page, block, axes, level / map->factor, &stroke, err));
+            TRY(block_contour_draw(page, block, axes, level / map->bar.factor, &stroke, err));
     }
 cleanup:
     return error_is_clean(err);
@@ -151,8 +146,7 @@ static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *ax
                        .edges = map->edges,
                        .unit = map->share * page->point,
                        .axes = *axes,
-                       .bar = &map->bar,
-                       .factor = map->factor};
+                       .bar = &map->bar};
     for (int32_t k = 0; k < STATUSES; ++k) space.status[k] = STATUS[k].color;
     return space;
 }
@@ -261,8 +255,8 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
     Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
     Stroke ground = {.color = INK, .width = OUTLINE_WIDTH * unit};
-    TRY(block_colors_draw(page->canvas, block, axes, map->bar.low / map->factor,
-                          map->bar.high / map->factor, err));
+    TRY(block_colors_draw(page->canvas, block, axes, map->bar.low / map->bar.factor,
+                          map->bar.high / map->bar.factor, err));
     if (map->edges) block_edges_draw(page, block, axes, &edge);
     TRY(draw_contours(page, map, block, axes, err));
     TRY(block_outline_draw(page, block, axes, &outline, err));

@@ -14,9 +14,7 @@ typedef struct BlockPage {
     const SpaceCut *cut;   // of a block in space; NULL: none
     double share;   // of the sizes of marks: 1, or less on a small picture
     const PictureStyle *style;   // whose limits the colours have; NULL: those that fit
-    Colorbar bar;   // block_page_fit sets it, and what follows
-    char label[AXIS_LABEL_SIZE];   // of the bar
-    double factor;   // the bar's numbers are the block's values times this
+    Colorbar bar;   // block_page_fit sets it
 } BlockPage;
 
 // As space_cut_read. ERROR_INPUT also where the block is in the plane.

@@ -4,7 +4,6 @@
 // is 0 for another reason, which has its own colour.
 #include "render/figures/figures.h"
 
-#include "render/canvas/key.h"
 #include "render/figures/map_page.h"
 #include "render/view/zoom.h"
 
@@ -63,9 +62,7 @@ static void grid_to_levels(PixelGrid *grid, double critical, double low)
 static void key_of_map(Page *page, const ResultView *view, const Measured *measured)
 {
     KeyEntry entries[3] = {{KEY_LINE, INK, "front of slip"}};
-    int32_t count = 1;
-    if (view->pad[view->nodes - 1] > 0)
-        entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
+    int32_t count = 1 + map_page_key(view, NULL, entries + 1);
     if (measured->count > 0) entries[count++] = (KeyEntry){KEY_RING, INK, measured->words};
     key_draw(page, entries, count);
 }

@@ -8,7 +8,7 @@
 #include "render/figures/contact_map.h"
 #include "render/view/contact_moments.h"
 #include "render/figures/slip_scale.h"
-#include "render/figures/value_range.h"
+#include "render/figures/state_scale.h"
 #include "render/render.h"
 
 #include <math.h>
@@ -47,27 +47,31 @@ typedef struct Maps {
     double *rate;   // [rows * nodes]
     double *values;   // [count * nodes] of the maps, in the bar's numbers
     int32_t count, columns, lines;   // maps
-    ValueBar bar;
+    Colorbar bar;
     float *level;   // [nodes] of the map that is drawn
     double scale, width, height;   // points a length; of a map, points
 } Maps;
 
-bool figure_contact_plane_shows(const char *name)
+// By name, a state's own included, which the view then stands for; CONTACT_QUANTITY_COUNT: none.
+static ContactQuantity quantity_of(ResultView *view, const char *name)
 {
-    for (int32_t k = 0; k < CONTACT_QUANTITY_COUNT; ++k)
-        if (strcmp(quantities[k].name, name) == 0) return true;
-    return false;
+    int32_t k = 0;
+    while (k < CONTACT_QUANTITY_COUNT && strcmp(quantities[k].name, name) != 0) ++k;
+    bool state = result_view_choose_state(view, name) && k == CONTACT_QUANTITY_COUNT;
+    return state ? CONTACT_STATE : (ContactQuantity)k;
 }
 
-static bool find_quantity(const char *name, ContactQuantity *quantity, Error *err)
+bool figure_contact_plane_shows(ResultView *view, const char *name)
+{
+    return quantity_of(view, name) != CONTACT_QUANTITY_COUNT;
+}
+
+static bool find_quantity(ResultView *view, const char *name, ContactQuantity *quantity, Error *err)
 {
     char names[NAMES_SIZE] = "";
-    *quantity = CONTACT_SLIP_RATE;
+    *quantity = name ? quantity_of(view, name) : CONTACT_SLIP_RATE;
+    if (*quantity != CONTACT_QUANTITY_COUNT) return true;
     for (int32_t k = 0; k < CONTACT_QUANTITY_COUNT; ++k) {
-        if (!name || strcmp(quantities[k].name, name) == 0) {
-            *quantity = (ContactQuantity)k;
-            return true;
-        }
         size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", quantities[k].name);
     }
@@ -84,7 +88,10 @@ static bool take_series(Maps *maps, ResultSeries series, double *values, Error *
 {
     double *all = NULL;
     int32_t nodes = maps->view->plane.nodes;
-    TRY(result_view_read_contact(maps->view, series, &all, err));
+    if (series == SERIES_STATE)
+        TRY(state_read(maps->view, true, &all, err));
+    else
+        TRY(result_view_read_contact(maps->view, series, &all, err));
     for (int32_t k = 0; k < maps->count; ++k)
         memcpy(values + (int64_t)k * nodes, all + maps->moments.row[k] * nodes,
                (size_t)nodes * sizeof *values);
@@ -151,6 +158,8 @@ static bool take_values(Maps *maps, Error *err)
         return take_series(maps, SERIES_PRESSURE, maps->values, err);
     case CONTACT_SHEAR:
         return take_series(maps, SERIES_SHEAR, maps->values, err);
+    case CONTACT_STATE:
+        return take_series(maps, SERIES_STATE, maps->values, err);
     case CONTACT_SLIP:
         TRY(take_series(maps, SERIES_SLIP, maps->values, err));
         take_from_first(maps);
@@ -167,7 +176,10 @@ cleanup:
 static bool fit_linear(Maps *maps, const PictureStyle *style, Error *err)
 {
     const QuantityWords *own = &quantities[maps->quantity];
-    ValueWords words = {own->words, own->si, own->normalised, maps->view->si};
+    char name[VIEW_STATE_SIZE];
+    ValueWords words = {own->words, own->si, own->normalised, maps->view->si, false};
+    if (maps->quantity == CONTACT_STATE) words = state_words(maps->view, name);
+    if (maps->quantity == CONTACT_SLIP && maps->count == 1) words.words = "slip";
     int32_t nodes = maps->view->plane.nodes;
     int64_t count = (int64_t)maps->count * nodes;
     WeighedValue *weighed = NEW_ARRAY(WeighedValue, count, err);
@@ -175,9 +187,6 @@ static bool fit_linear(Maps *maps, const PictureStyle *style, Error *err)
     for (int64_t k = 0; k < count; ++k)
         weighed[k] = (WeighedValue){maps->values[k], maps->view->plane.weight[k % nodes]};
     TRY(value_bar_fit(weighed, count, &words, style, &maps->bar, err));
-    if (own->si[0] == '\0') snprintf(maps->bar.label, sizeof maps->bar.label, "%s", own->words);
-    if (maps->quantity == CONTACT_SLIP && maps->count == 1)
-        memcpy(maps->bar.label, "slip      ", strlen("slip      "));
 cleanup:
     memory_free(weighed);
     return error_is_clean(err);
@@ -190,15 +199,14 @@ static bool fit_rates(Maps *maps, Error *err)
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
     for (int64_t k = 0; k < (int64_t)maps->count * maps->view->plane.nodes; ++k)
         most = fmax(most, maps->values[k]);
-    maps->bar.bar = slip_scale_up_to(most, V);
-    maps->bar.factor = 1;
+    maps->bar = slip_scale_up_to(most, V);
 cleanup:
     return error_is_clean(err);
 }
 
 static bool fit_colors(Maps *maps, const PictureStyle *style, Error *err)
 {
-    Colorbar *bar = &maps->bar.bar;
+    Colorbar *bar = &maps->bar;
     if (maps->quantity == CONTACT_SLIP_RATE) return fit_rates(maps, err);
     TRY(fit_linear(maps, style, err));
     bar->neutral_color = NOTHING;
@@ -215,17 +223,6 @@ static bool fit_colors(Maps *maps, const PictureStyle *style, Error *err)
     }
 cleanup:
     return error_is_clean(err);
-}
-
-static float level_of(const Maps *maps, double value)
-{
-    const Colorbar *bar = &maps->bar.bar;
-    double V = fabs(maps->view->number[NUMBER_ROD_VELOCITY]);
-    if (maps->quantity == CONTACT_SLIP_RATE) return slip_scale_level(bar, V, value);
-    double part = (value * maps->bar.factor - bar->low) / (bar->high - bar->low);
-    if (isnan(part)) return HEAT_BELOW;
-    part = fmin(fmax(part, 0), 1);
-    return (float)(bar->falling ? 1 - part : part);
 }
 
 // --- words ---------------------------------------------------------------------------------------
@@ -303,8 +300,9 @@ static bool draw_map(const Page *page, const Maps *maps, int32_t k, const Axes *
 {
     const ContactPlane *plane = &maps->view->plane;
     const double *values = maps->values + (int64_t)k * plane->nodes;
-    for (int32_t i = 0; i < plane->nodes; ++i) maps->level[i] = level_of(maps, values[i]);
-    return contact_map_draw(page, plane, maps->level, maps->bar.bar.neutral_color, axes, err);
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        maps->level[i] = colorbar_level(&maps->bar, values[i]);
+    return contact_map_draw(page, plane, maps->level, maps->bar.neutral_color, axes, err);
 }
 
 static bool draw_maps(const Page *page, const Maps *maps, double left, Error *err)
@@ -335,7 +333,7 @@ static bool draw_maps(const Page *page, const Maps *maps, double left, Error *er
         all.bottom = fmax(all.bottom, axes.box.bottom);
     }
     Box beside = {.left = round(all.right + BAR_GAP * point), .top = all.top, .bottom = all.bottom};
-    colorbar_draw(page, &maps->bar.bar, &beside);
+    colorbar_draw(page, &maps->bar, &beside);
 cleanup:
     return error_is_clean(err);
 }
@@ -353,14 +351,14 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         page_destroy(page);
         TRY(page_begin(page, &def, err));
         left = axes_left_margin(page, &axes);
-        double room = width - left - BAR_GAP - colorbar_width(page, &maps->bar.bar);
+        double room = width - left - BAR_GAP - colorbar_width(page, &maps->bar);
         double height = lay_out(maps, room) + axes_bottom_margin(&axes) + key_line_height();
         double used = maps->columns * (maps->width + GAP) - GAP;
         left += (room - used) / 2;
         def.height = height / width;
     }
     color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, maps->bar.bar.neutral_color);
+    canvas_set_map(page->canvas, colors, maps->bar.neutral_color);
     write_note(maps, note);
     TRY(draw_maps(page, maps, round(left * page->point), err));
     Page same = *page;   // what is warned of stands below all of its room
@@ -373,7 +371,7 @@ bool figure_contact_plane(Page *page, const FigureInput *input, Error *err)
 {
     Maps maps = {.view = input->view};
     const FieldChoice *field = input->field;
-    TRY(find_quantity(field->of, &maps.quantity, err));
+    TRY(find_quantity(input->view, field->of, &maps.quantity, err));
     bool arrival = maps.quantity == CONTACT_ARRIVAL;
     TRY(result_view_read_plane(input->view, err));
     TRY(result_view_read_contact(input->view, SERIES_SLIP_RATE, &maps.rate, err));

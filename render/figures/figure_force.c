@@ -264,7 +264,7 @@ static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarge
 
 bool figure_force_measured(ResultView *view, const char *path, Measured *measured, Error *err)
 {
-    const ComputedCurve curve = {view->rows, view->U, view->mu};
+    const ViewCurve curve = {view->rows, view->U, view->mu};
     if (!measured_read(path, MEASURED_MU, view, measured, err)) return false;
     measured_compare(measured, view, computed_on_curve, &curve);
     return true;

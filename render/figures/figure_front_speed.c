@@ -56,13 +56,13 @@ static void event_rows(const ResultView *view, const Zoom *zoom, int64_t *first,
     }
 }
 
-bool front_speed_curve(ResultView *view, FigureCurve *curve, Error *err)
+bool front_speed_compute(ResultView *view, Error *err)
 {
+    ViewCurve *curve = &view->front_speed;
     double *times = NULL, V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     int64_t first = 0, end = 0;
     Zoom zoom = zoom_choose(view);
-    *curve = (FigureCurve){0};
-    if (!zoom.found) return true;
+    if (curve->at || !zoom.found) return true;
     TRY(result_view_read_slip_rate(view, err));
     TRY(times = NEW_ARRAY(double, view->nodes, err));
     TRY(curve->at = NEW_ARRAY(double, STATIONS, err));
@@ -84,12 +84,16 @@ cleanup:
 
 bool figure_front_speed_measured(ResultView *view, const char *path, Measured *measured, Error *err)
 {
-    return figure_curve_measured(view, path, MEASURED_SPEED, front_speed_curve, measured, err);
+    TRY(measured_read(path, MEASURED_SPEED, view, measured, err));
+    if (measured->count > 0) TRY(front_speed_compute(view, err));
+    measured_compare(measured, view, computed_on_curve, &view->front_speed);
+cleanup:
+    return error_is_clean(err);
 }
 
-static Axes axes_layout(const Page *page, const ResultView *view, const FigureCurve *curve,
-                        const Measured *measured)
+static Axes axes_layout(const Page *page, const ResultView *view, const Measured *measured)
 {
+    const ViewCurve *curve = &view->front_speed;
     double length = view->number[NUMBER_LENGTH], rayleigh = view->number[NUMBER_C_RAYLEIGH];
     double fastest = view->number[NUMBER_C_LONGITUDINAL], high = fastest, point = page->point;
     Axes axes = {.number_size = NUMBER_SIZE, .color = INK};
@@ -134,7 +138,7 @@ static void slow_slip_draw(const Page *page, const Axes *axes, double x)
                  axes_place(axes, x, axes->y.high));
 }
 
-static void curve_draw(const Page *page, const Axes *axes, const FigureCurve *curve)
+static void curve_draw(const Page *page, const Axes *axes, const ViewCurve *curve)
 {
     Stroke stroke = {.color = CURVE_COLOR, .width = CURVE_WIDTH * page->point};
     Point line[STATIONS];
@@ -151,31 +155,29 @@ bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
     Measured measured = {0};
-    FigureCurve curve = {0};
     if (!(view->number[NUMBER_LENGTH] > 0 && view->number[NUMBER_C_RAYLEIGH] > 0 &&
           view->number[NUMBER_C_LONGITUDINAL] > 0))
         FAIL(err, ERROR_INPUT, "the result does not say how fast waves are");
-    TRY(front_speed_curve(view, &curve, err));
+    TRY(front_speed_compute(view, err));
     TRY(result_view_read_front(view, err));
     TRY(figure_front_speed_measured(view, page.style.compare, &measured, err));
     KeyEntry entries[3] = {{.words = "no front of a sliding that the steps resolve"}};
     int32_t count = 1;
-    if (curve.count > 0) {
+    if (view->front_speed.count > 0) {
         entries[0] = (KeyEntry){KEY_LINE, CURVE_COLOR, "front of the sliding"};
         entries[count++] = (KeyEntry){KEY_DASHED, INK, "slow slip ended here"};
     }
     if (measured.count > 0) entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured.words};
     key_draw(&page, entries, count);
-    Axes axes = axes_layout(&page, view, &curve, &measured);
-    const ComputedCurve front = {view->rows, view->U, view->front};
+    Axes axes = axes_layout(&page, view, &measured);
+    const ViewCurve front = {view->rows, view->U, view->front};
     waves_draw(&page, view, &axes);
-    if (curve.count > 0)
+    if (view->front_speed.count > 0)
         slow_slip_draw(&page, &axes, curve_value(&front, zoom_choose(view).U_slide));
-    curve_draw(&page, &axes, &curve);
+    curve_draw(&page, &axes, &view->front_speed);
     measured_draw(&page, &measured, &axes);
     axes_draw(&page, &axes);
 cleanup:
-    figure_curve_destroy(&curve);
     measured_destroy(&measured);
     return error_is_clean(err);
 }

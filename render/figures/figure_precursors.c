@@ -33,12 +33,13 @@ static void cycle_rows(const ResultView *view, const Zoom *zoom, int64_t *first,
     }
 }
 
-bool precursors_curve(ResultView *view, FigureCurve *curve, Error *err)
+bool precursors_compute(ResultView *view, Error *err)
 {
+    ViewCurve *curve = &view->precursors;
     int64_t first = 0, end = 0;
     double mu = -INFINITY, length = 0;
     Zoom zoom = zoom_choose(view);
-    *curve = (FigureCurve){0};
+    if (curve->at) return true;
     TRY(result_view_read_front(view, err));
     cycle_rows(view, &zoom, &first, &end);
     TRY(curve->at = NEW_ARRAY(double, view->rows, err));
@@ -56,13 +57,17 @@ cleanup:
 
 bool figure_precursors_measured(ResultView *view, const char *path, Measured *measured, Error *err)
 {
-    return figure_curve_measured(view, path, MEASURED_LENGTH, precursors_curve, measured, err);
+    TRY(measured_read(path, MEASURED_LENGTH, view, measured, err));
+    if (measured->count > 0) TRY(precursors_compute(view, err));
+    measured_compare(measured, view, computed_on_curve, &view->precursors);
+cleanup:
+    return error_is_clean(err);
 }
 
 // F_T/F_N when the rod was at U.
 static double mu_at(const ResultView *view, double U)
 {
-    const ComputedCurve mu = {view->rows, view->U, view->mu};
+    const ViewCurve mu = {view->rows, view->U, view->mu};
     return curve_value(&mu, U);
 }
 
@@ -94,9 +99,9 @@ static void key_of(Page *page, bool precursors, const Measured *measured)
     key_draw(page, entries, count);
 }
 
-static Axes axes_layout(const Page *page, const ResultView *view, const FigureCurve *curve,
-                        const Measured *measured)
+static Axes axes_layout(const Page *page, const ResultView *view, const Measured *measured)
 {
+    const ViewCurve *curve = &view->precursors;
     double high = curve->count > 0 ? curve->at[curve->count - 1] : 1, point = page->point;
     double length = view->number[NUMBER_LENGTH];
     Axes axes = {.number_size = NUMBER_SIZE, .color = INK};
@@ -123,7 +128,7 @@ static void critical_length_draw(const Page *page, const Axes *axes, double leng
     text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
 }
 
-static bool line_draw(const Page *page, const Axes *axes, const FigureCurve *curve, Error *err)
+static bool line_draw(const Page *page, const Axes *axes, const ViewCurve *curve, Error *err)
 {
     Stroke stroke = {.color = CURVE_COLOR, .width = CURVE_WIDTH * page->point};
     Point *line = NEW_ARRAY(Point, curve->count, err);
@@ -141,21 +146,19 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
     Measured measured = {0};
-    FigureCurve curve = {0};
     Zoom zoom = zoom_choose(view);
     if (!(view->number[NUMBER_LENGTH] > 0))
         FAIL(err, ERROR_INPUT, "the result does not say how long the block is");
-    TRY(precursors_curve(view, &curve, err));
+    TRY(precursors_compute(view, err));
     TRY(figure_precursors_measured(view, page.style.compare, &measured, err));
     key_of(&page, precursors_draw(NULL, view, &zoom, NULL) > 0, &measured);
-    Axes axes = axes_layout(&page, view, &curve, &measured);
+    Axes axes = axes_layout(&page, view, &measured);
     critical_length_draw(&page, &axes, view->number[NUMBER_L_C]);
-    TRY(line_draw(&page, &axes, &curve, err));
+    TRY(line_draw(&page, &axes, &view->precursors, err));
     precursors_draw(&page, view, &zoom, &axes);
     measured_draw(&page, &measured, &axes);
     axes_draw(&page, &axes);
 cleanup:
-    figure_curve_destroy(&curve);
     measured_destroy(&measured);
     return error_is_clean(err);
 }

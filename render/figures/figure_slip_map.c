@@ -3,14 +3,13 @@
 // range shows is neutral: stick.
 #include "render/figures/figures.h"
 
-#include "render/canvas/key.h"
 #include "render/figures/map_page.h"
 #include "render/figures/measured.h"
 #include "render/figures/slip_scale.h"
-#include "render/view/window.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double MARK_WIDTH = 9;   // points: room for the name l_c
@@ -63,10 +62,7 @@ static void key_of_map(Page *page, const ResultView *view, const Window *window,
                        const Measured *measured)
 {
     KeyEntry entries[3];
-    int32_t count = 0;
-    if (view->pad[view->nodes - 1] > 0)
-        entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
-    if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    int32_t count = map_page_key(view, window, entries);
     if (measured->count > 0)
         entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured->words};
     key_draw(page, entries, count);
@@ -76,7 +72,7 @@ bool figure_slip_map_measured(ResultView *view, const char *path, Measured *meas
 {
     TRY(measured_read(path, MEASURED_FRONT, view, measured, err));
     if (measured->count > 0) TRY(result_view_read_front(view, err));
-    const ComputedCurve curve = {view->rows, view->U, view->front};
+    const ViewCurve curve = {view->rows, view->U, view->front};
     if (measured->count > 0) measured_compare(measured, view, computed_on_curve, &curve);
 cleanup:
     return error_is_clean(err);
@@ -97,13 +93,14 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
     TRY(result_view_read_slip_rate(view, err));
     if (map.mean) TRY(result_view_read_slip(view, err));
     map.bar = slip_scale(view, V);
-    map.bar.label = map.mean ? "mean slip rate / ~{V}" : "largest slip rate / ~{V}";
+    snprintf(map.bar.label, sizeof map.bar.label, "%s slip rate / ~{V}",
+             map.mean ? "mean" : "largest");
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
     TRY(figure_slip_map_measured(view, page.style.compare, &measured, err));
     key_of_map(&page, view, &window, &measured);
     map_page_layout(&page, view, window.low, window.high, &map);
     TRY(map_page_fill(view, NULL, &map, err));
-    slip_scale_levels(&map.bar, V, &map.grid);
+    map_page_levels(&map);
     map_page_draw_field(&page, view, &map);
     if (marked) zoom_draw(&page, &zoom, &map.axes);
     if (isfinite(length)) critical_length_draw(&page, &map, figure_trailing_end(view) + length);

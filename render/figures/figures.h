@@ -28,7 +28,7 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err);
 // The contact of a block in space: slip rates, or what is named, at moments of one sliding or those
 // that are asked for; or when slip arrived.
 bool figure_contact_plane(Page *page, const FigureInput *input, Error *err);
-bool figure_contact_plane_shows(const char *quantity);
+bool figure_contact_plane_shows(ResultView *view, const char *quantity);
 
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and above it an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);
@@ -36,6 +36,8 @@ bool figure_force(const Page *page, ResultView *view, Error *err);
 bool figure_force_enlarges(const ResultView *view, const PictureStyle *style);
 // Slip rate over V, logarithmic, against U and x.
 bool figure_slip_map(const Page *page, ResultView *view, Error *err);
+// The state view->state of friction that remembers, against U and x.
+bool figure_state_map(const Page *page, ResultView *view, Error *err);
 // Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.
 bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 
@@ -55,17 +57,10 @@ bool figure_precursors_measured(ResultView *view, const char *path, Measured *me
 bool figure_front_speed_measured(ResultView *view, const char *path, Measured *measured,
                                  Error *err);
 
-// The curve of each of the last two: owned by the caller; columns "F_T/F_N, l/L" and "x/L, v/c_R".
-typedef struct FigureCurve {
-    int64_t count;
-    double *at, *value;   // [count] owned
-} FigureCurve;
-typedef bool (*CurveFunction)(ResultView *view, FigureCurve *curve, Error *err);
-void figure_curve_destroy(FigureCurve *curve);   // zeroed is fine
-bool figure_curve_measured(ResultView *view, const char *path, MeasuredKind kind,
-                           CurveFunction compute, Measured *measured, Error *err);
-bool precursors_curve(ResultView *view, FigureCurve *curve, Error *err);
-bool front_speed_curve(ResultView *view, FigureCurve *curve, Error *err);
+// The curves of the last two, view->precursors and view->front_speed: length over F_T/F_N, velocity
+// over x.
+bool precursors_compute(ResultView *view, Error *err);
+bool front_speed_compute(ResultView *view, Error *err);
 
 // The figure called `name`, one of the history alone, on a fresh page. In render.c.
 bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,

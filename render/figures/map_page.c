@@ -117,7 +117,7 @@ static SpaceTime view_space_time(const ResultView *view)
                        .nodes = view->nodes,
                        .x = view->x,
                        .pad = view->pad,
-                       .slip_rate = view->slip_rate,
+                       .value = view->slip_rate,
                        .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
                        .event_count = view->rapid_count,
                        .events = (const double(*)[2])view->rapid};
@@ -128,11 +128,31 @@ bool map_page_fill(const ResultView *view, const double *status, MapPage *map, E
     SpaceTime data = view_space_time(view);
     data.status = status;
     if (map->mean) data.slip = view->slip;
+    if (map->states) {
+        data.value = map->states;
+        data.sign = map->sign;
+    }
     if (map->grid.columns < 2 || map->grid.rows < 2)
         FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
     TRY(space_time_to_pixels(&data, &map->grid, err));
 cleanup:
     return error_is_clean(err);
+}
+
+void map_page_levels(MapPage *map)
+{
+    int64_t count = (int64_t)map->grid.bands * map->grid.columns;
+    for (int64_t k = 0; k < count; ++k)
+        map->grid.values[k] = colorbar_level(&map->bar, (double)map->grid.values[k]);
+}
+
+int32_t map_page_key(const ResultView *view, const Window *window, KeyEntry entries[2])
+{
+    int32_t count = 0;
+    if (view->pad[view->nodes - 1] > 0)
+        entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
+    if (window && window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    return count;
 }
 
 // Hatches [low, high] of x over all U.
@@ -172,6 +192,15 @@ static double pad_front(const ResultView *view, int64_t row, int32_t first, int3
     return front;
 }
 
+// Whether it, or a line to a row beside it, lies in what is shown.
+static bool row_is_shown(const ResultView *view, int64_t row, const Axis *shown)
+{
+    double before = view->U[row > 0 ? row - 1 : row], here = view->U[row];
+    double after = view->U[row + 1 < view->rows ? row + 1 : row];
+    return fmax(fmax(before, here), after) >= shown->low &&
+           fmin(fmin(before, here), after) <= shown->high;
+}
+
 // A front a pad: one line over all of them would leap over gaps, and would not see what goes on
 // ahead of the first node that sticks.
 bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err)
@@ -183,7 +212,10 @@ bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage
     for (int32_t first = 0, last = 0; first < view->nodes; first = ++last) {
         while (last + 1 < view->nodes && view->pad[last + 1] == view->pad[first]) ++last;
         for (int64_t row = 0; row < view->rows; ++row)
-            line[row] = axes_place(&map->axes, view->U[row], pad_front(view, row, first, last));
+            line[row] =
+                row_is_shown(view, row, &map->axes.x)
+                    ? axes_place(&map->axes, view->U[row], pad_front(view, row, first, last))
+                    : (Point){NAN, NAN};
         draw_line(page->canvas, &stroke, line, view->rows);
     }
     canvas_clip(page->canvas, NULL);

@@ -175,7 +175,7 @@ static double read_cell(const CsvTable *table, int32_t row, const Column *column
     return column->under < 0 ? value : value / csv_value(table, row, column->under);
 }
 
-double curve_value(const ComputedCurve *curve, double at)
+double curve_value(const ViewCurve *curve, double at)
 {
     int64_t low = 0, high = curve->count - 1;
     if (curve->count < 2 || !(at >= curve->at[0] && at <= curve->at[high])) return NAN;
@@ -200,7 +200,7 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
                       Measured *measured, Error *err)
 {
     Column at, value, error = found->error;
-    const ComputedCurve way = {view->rows, view->t, view->U};
+    const ViewCurve way = {view->rows, view->t, view->U};
     if (!choose(found, measured->kind, &at, &value)) return true;
     double **lists[] = {&measured->at, &measured->x, &measured->value, &measured->error,
                         &measured->computed};

@@ -58,13 +58,9 @@ bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, b
 void measured_compare(Measured *measured, const ResultView *view, ComputedFunction computed,
                       const void *context);
 
-// What a ComputedFunction of curves needs: linear between points whose `at` does not fall.
-typedef struct ComputedCurve {
-    int64_t count;
-    const double *at, *value;   // [count]
-} ComputedCurve;
+// A ComputedFunction of a ViewCurve: linear between its points.
 double computed_on_curve(const void *curve, const Measured *measured, int32_t k);
-double curve_value(const ComputedCurve *curve, double at);   // NaN: beyond its ends
+double curve_value(const ViewCurve *curve, double at);   // NaN: beyond its ends
 
 // Discs with bars as long as the errors on both sides, in a colour of their own.
 void measured_draw(const Page *page, const Measured *measured, const Axes *axes);

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { REGIONS = 6 };
+enum { REGIONS = 6, CONTACTS = 6 };
 
 static const double MARGIN = 0.09;   // of the mesh's larger extent, kept around it for names
 static const double EDGE_WIDTH = 0.22;   // points: edges of elements
@@ -28,7 +28,9 @@ static const Color REGION[REGIONS] = {{0.93f, 0.94f, 0.96f, 1}, {0.95f, 0.80f, 0
                                       {0.60f, 0.80f, 0.86f, 1}, {0.80f, 0.66f, 0.80f, 1},
                                       {0.98f, 0.93f, 0.68f, 1}, {0.62f, 0.62f, 0.60f, 1}};
 static const Color TOP = {0.10f, 0.32f, 0.66f, 1};
-static const Color CONTACT[2] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f, 0.10f, 1}};
+static const Color CONTACT[CONTACTS] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f, 0.10f, 1},
+                                        {0.00f, 0.55f, 0.62f, 1}, {0.48f, 0.36f, 0.10f, 1},
+                                        {0.20f, 0.75f, 0.50f, 1}, {0.72f, 0.60f, 0.15f, 1}};
 static const Color OTHER = {0.45f, 0.25f, 0.55f, 1};
 
 typedef struct MeshPage {
@@ -183,10 +185,10 @@ static bool is_contact(const MeshGroup *group)
     return strncmp(group->name, "contact", 7) == 0;
 }
 
-// Neighbouring pads differ, so that their ends are seen.
+// Neighbouring pads differ, so that their ends are seen; each is named where it is.
 static Color group_color(const MeshGroup *group, int32_t contact)
 {
-    if (is_contact(group)) return CONTACT[contact % 2];
+    if (is_contact(group)) return CONTACT[contact % CONTACTS];
     if (strcmp(group->name, "top") == 0) return TOP;
     if (strcmp(group->name, "rod") == 0) return ROD_COLOR;
     return OTHER;
@@ -335,7 +337,8 @@ static void draw_page(const RenderMesh *mesh, Page *page)
     axes_draw(page, &map.axes);
 }
 
-// Groups of surfaces in colours, which a key names; in the middle of what is left.
+// Groups of surfaces in colours, which a key names unless they have their names on them; in the
+// middle of what is left.
 static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
 {
     enum { NAMES = 12 };
@@ -350,7 +353,8 @@ static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
                      strcmp(group->name, "rod") == 0;
         color[g] = known ? group_color(group, contact) : REGION[1 + count % (REGIONS - 1)];
         contact += is_contact(group);
-        if (count < NAMES) entries[count++] = (KeyEntry){KEY_PATCH, color[g], group->name};
+        if (count < NAMES && !is_contact(group))
+            entries[count++] = (KeyEntry){KEY_PATCH, color[g], group->name};
     }
     key_draw(page, entries, count);
     MeshPage map = {.mesh = mesh, .page = page};

@@ -15,6 +15,7 @@ enum { GROUPS_MAX = 64 };   // more are drawn as if they had no name
 
 static const double ROUNDING = 1e-6;   // of heights, over the block's
 static const double EDGE_WIDTH = 0.22;   // points
+static const double NAME_MARGIN = 1.5;   // points of paper around a contact's name
 static const Color EDGE = {0.40f, 0.43f, 0.48f, 1};
 static const Color PLAIN = {0.93f, 0.94f, 0.96f, 1};
 static const Color SHADE = {0.86f, 0.88f, 0.92f, 1};   // faces without a name that stand upright
@@ -138,6 +139,28 @@ static void draw_faces(const Page *page, SeenFace *faces, int32_t count)
     }
 }
 
+// In its middle on the floor: colours repeat.
+static void draw_contact_name(const Page *page, const MeshView *view, const Axes *axes,
+                              const MeshGroup *group)
+{
+    int32_t nodes = group->nodes_per_face * group->face_count;
+    Point middle = {0, 0};
+    for (int32_t k = 0; k < nodes; ++k) {
+        double seen[3];
+        see(view, group->face_nodes[k], true, seen);
+        Point at = axes_place(axes, seen[0], seen[1]);
+        middle = (Point){middle.x + at.x / nodes, middle.y + at.y / nodes};
+    }
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK, .across = 0.5, .up = 0.5};
+    const char *number = strncmp(group->name, "contact_", 8) == 0 ? group->name + 8 : "";
+    const char *name = number[0] ? number : group->name;
+    double half = text_width(page->text, style.size, name) / 2 + NAME_MARGIN * page->point;
+    double up = style.size / 2 + NAME_MARGIN * page->point / 2;
+    draw_fill(page->canvas, PAPER,
+              &(Box){middle.x - half, middle.y - up, middle.x + half, middle.y + up});
+    text_draw(page->text, &style, middle, name);
+}
+
 bool mesh_space_draw(const RenderMesh *mesh, const Page *page, const Box *box, const Color *color,
                      Error *err)
 {
@@ -163,6 +186,9 @@ bool mesh_space_draw(const RenderMesh *mesh, const Page *page, const Box *box, c
             seen += see_face(&view, &axes, nodes, corners, true, &faces[seen]);
     }
     draw_faces(page, faces, seen);
+    for (int32_t g = 0; g < mesh->group_count; ++g)
+        if (is_contact(&mesh->groups[g]) && mesh->groups[g].face_count > 0)
+            draw_contact_name(page, &view, &axes, &mesh->groups[g]);
 cleanup:
     memory_free_all(outer, faces, view.groups);
     return error_is_clean(err);

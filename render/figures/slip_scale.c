@@ -30,23 +30,9 @@ Colorbar slip_scale_up_to(double largest, double V)
 {
     return (Colorbar){.low = DECADE_LOW,
                       .high = decade_high(largest, V),
+                      .factor = 1 / V,
                       .powers = true,
                       .label = "slip rate / ~{V}",
                       .neutral = "stick",
                       .neutral_color = STICK};
-}
-
-float slip_scale_level(const Colorbar *bar, double V, double rate)
-{
-    if (isnan(rate)) return HEAT_MISSING;
-    if (!(rate > 0)) return HEAT_BELOW;   // of most pixels; the logarithm of 0 takes long
-    double level = (log10(rate / V) - bar->low) / (bar->high - bar->low);
-    return level < 0 ? HEAT_BELOW : (float)fmin(level, 1);
-}
-
-void slip_scale_levels(const Colorbar *bar, double V, PixelGrid *grid)
-{
-    int64_t count = (int64_t)grid->bands * grid->columns;
-    for (int64_t k = 0; k < count; ++k)
-        grid->values[k] = slip_scale_level(bar, V, (double)grid->values[k]);
 }

@@ -78,13 +78,6 @@ void space_page_extent(const Block *block, double extent[4])
 
 // --- the block -----------------------------------------------------------------------------------
 
-// 0 to 1 of the colours.
-static double level_of(const SpacePage *space, double value)
-{
-    const Colorbar *bar = space->bar;
-    return fmin(fmax((value * space->factor - bar->low) / (bar->high - bar->low), 0), 1);
-}
-
 static bool draw_colors(const Page *page, const SpacePage *space, const Block *block,
                         const Surface *surface, DepthImage *image, Error *err)
 {
@@ -100,9 +93,7 @@ static bool draw_colors(const Page *page, const SpacePage *space, const Block *b
         depth_image_add(image, corner);
     }
     for (int64_t k = 0; k < (int64_t)image->rows * image->columns; ++k)
-        image->values[k] = isnan(image->values[k])
-                               ? HEAT_MISSING
-                               : (float)level_of(space, (double)image->values[k]);
+        image->values[k] = colorbar_level(space->bar, (double)image->values[k]);
     canvas_heat(page->canvas, box, &(HeatMap){image->columns, image->rows, image->values, NULL, 0});
 cleanup:
     return error_is_clean(err);
@@ -149,7 +140,7 @@ static void draw_contours(const Page *page, const SpacePage *space, const Block 
         if (!(number > space->bar->low && number < space->bar->high)) continue;
         for (int64_t t = 0; t < surface->triangles.count; ++t)
             draw_contour(page, space, block, surface->triangles.points + 3 * t,
-                         number / space->factor, image);
+                         number / space->bar->factor, image);
     }
 }
 

@@ -14,7 +14,6 @@ typedef struct SpacePage {
     double unit;   // pixels: a point times the size of marks
     Axes axes;   // of what the camera sees: lengths across and up
     const Colorbar *bar;
-    double factor;   // the bar's numbers are the values times this
     Color status[4];   // of the contact, by its numbers in the history
 } SpacePage;
 

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 
 static const double LEFT_OUT = 0.01;   // of what is shown, at each end of the range: corners
+static const double DECADES_FROM = 30;   // largest over least from which on powers are shown
+static const double LEAST_SHOWN = 1e-15;   // of the largest: powers begin there at the least
 
 static int compare_values(const void *left, const void *right)
 {
@@ -48,30 +50,61 @@ static double range_end(const WeighedValue *sorted, int64_t count, double weight
     return isfinite(limit) && !is_part ? limit / factor : value_at(sorted, count, weight, part);
 }
 
+// What is above 0 spans decades, and nothing is below: *zeros of the values stand before it.
+static bool spans_decades(const WeighedValue *sorted, int64_t count, int64_t *zeros)
+{
+    double weight = 0;
+    *zeros = 0;
+    while (*zeros < count && sorted[*zeros].value == 0) ++*zeros;
+    if (*zeros == count || sorted[0].value < 0) return false;
+    for (int64_t k = *zeros; k < count; ++k) weight += sorted[k].weight;
+    const WeighedValue *above = sorted + *zeros;
+    return value_at(above, count - *zeros, weight, 1 - LEFT_OUT) >
+           DECADES_FROM * value_at(above, count - *zeros, weight, LEFT_OUT);
+}
+
+// Name and unit; the factor makes the numbers short, but of powers.
+static Axis name_of(const ValueWords *words, const double range[2], bool powers)
+{
+    Axis axis = {.low = range[0], .high = range[1], .factor = 1};
+    if (!words->normalised[0])
+        snprintf(axis.label, sizeof axis.label, "%s", words->words);
+    else if (!words->in_si)
+        snprintf(axis.label, sizeof axis.label, "%s / %s", words->words, words->normalised);
+    else if (powers)
+        snprintf(axis.label, sizeof axis.label, "%s (%s)", words->words, words->si);
+    else
+        axis_set_unit(&axis, words->words, words->si);
+    return axis;
+}
+
 bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
-                   const PictureStyle *style, ValueBar *bar, Error *err)
+                   const PictureStyle *style, Colorbar *bar, Error *err)
 {
     const PictureStyle none = {0};
     double weight = 0, range[2];
-    int64_t kept = sort_values(values, count, &weight);
+    int64_t kept = sort_values(values, count, &weight), zeros = 0;
     if (kept == 0) FAIL(err, ERROR_FILE, "the field holds no number");
+    bool powers = words->decades && spans_decades(values, kept, &zeros);
+    for (int64_t k = 0; powers && k < zeros; ++k) weight -= values[k].weight;
+    const WeighedValue *shown = powers ? values + zeros : values, *last = values + kept - 1;
+    kept = last + 1 - shown;
     for (int32_t end = 0; end < 2; ++end)
-        range[end] = range_end(values, kept, weight, &none, end, 1);
-    Axis axis = {.low = range[0], .high = range[1], .factor = 1};
-    if (words->in_si)
-        axis_set_unit(&axis, words->words, words->si);
-    else
-        snprintf(axis.label, sizeof axis.label, "%s / %s", words->words, words->normalised);
-    for (int32_t end = 0; end < 2; ++end)
-        range[end] = axis.factor * range_end(values, kept, weight,
+        range[end] = range_end(shown, kept, weight, &none, end, 1);
+    Axis axis = name_of(words, range, powers);
+    *bar = (Colorbar){.factor = axis.factor, .powers = powers};
+    snprintf(bar->label, sizeof bar->label, "%s", axis.label);
+    for (int32_t end = 0; end < 2; ++end) {
+        range[end] = axis.factor * range_end(shown, kept, weight,
                                              style && style->limits ? style : &none, end,
                                              axis.factor);
-    bar->factor = axis.factor;
-    bar->bar = (Colorbar){.label = bar->label};
-    colorbar_fit(&bar->bar, range);
-    bar->bar.clipped = values[0].value * axis.factor < bar->bar.low;
-    bar->bar.clipped_above = values[kept - 1].value * axis.factor > bar->bar.high;
-    snprintf(bar->label, sizeof bar->label, "%s", axis.label);
+        if (powers) range[end] = log10(fmax(range[end], LEAST_SHOWN * last->value));
+    }
+    colorbar_fit(bar, range);
+    double low = powers ? pow(10, bar->low) : bar->low;
+    double high = powers ? pow(10, bar->high) : bar->high;
+    bar->clipped = values[0].value * axis.factor < low;
+    bar->clipped_above = last->value * axis.factor > high;
 cleanup:
     return error_is_clean(err);
 }

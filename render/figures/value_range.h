@@ -13,19 +13,15 @@ typedef struct WeighedValue {
 } WeighedValue;
 
 typedef struct ValueWords {
-    const char *words, *si, *normalised;   // name, its unit in SI and in normalised scenes
+    const char *words, *si,
+        *normalised;   // name, its unit in SI and in normalised scenes; "": none
     bool in_si;
+    bool decades;   // powers of ten where no value is below 0 and they span some of them
 } ValueWords;
-
-typedef struct ValueBar {
-    Colorbar bar;   // its label is `label`: it must not be moved
-    char label[AXIS_LABEL_SIZE];
-    double factor;   // the bar's numbers are the values times this
-} ValueBar;
 
 // values [count] are put in order. style: whose limits the bar has; NULL: those that fit.
 // ERROR_FILE: there is no number.
 bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
-                   const PictureStyle *style, ValueBar *bar, Error *err);
+                   const PictureStyle *style, Colorbar *bar, Error *err);
 
 #endif

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "render/figures/figures.h"
-#include "render/figures/slip_scale.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +80,6 @@ static bool fill_map(FilmBand *band, Error *err)
 {
     const ResultView *view = band->view;
     MapPage *map = &band->map;
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     double *seconds = NEW_ARRAY(double, view->rows, err);
     TRY(seconds);
     for (int64_t row = 0; row < view->rows; ++row) {
@@ -97,7 +95,8 @@ static bool fill_map(FilmBand *band, Error *err)
                       .nodes = view->nodes,
                       .x = view->x,
                       .pad = view->pad,
-                      .slip_rate = view->slip_rate};
+                      .value = map->states ? map->states : view->slip_rate,
+                      .sign = map->sign};
     map->grid = (PixelGrid){.U_high = map->axes.x.high,
                             .x_low = map->axes.y.low,
                             .x_high = map->axes.y.high,
@@ -106,7 +105,7 @@ static bool fill_map(FilmBand *band, Error *err)
     if (map->grid.columns < 2 || map->grid.rows < 2)
         FAIL(err, ERROR_INPUT, "the film is too small for its axes");
     TRY(space_time_to_pixels(&data, &map->grid, err));
-    slip_scale_levels(&map->bar, V, &map->grid);
+    map_page_levels(map);
 cleanup:
     memory_free(seconds);
     return error_is_clean(err);

@@ -12,7 +12,7 @@
 typedef struct FilmBand {
     const ResultView *view;   // slip rates have been read
     const FilmClock *clock;
-    MapPage map;   // its axes: x is seconds of film; the caller sets the bar; owned
+    MapPage map;   // its axes: x is seconds of film; the caller sets bar, states and sign; owned
     Box strip;
     double speed_low, speed_high;   // of the clock
 } FilmBand;

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "render/figures/figures.h"
-#include "render/figures/slip_scale.h"
 #include "render/view/space_time.h"
 
 #include <math.h>
@@ -116,7 +115,7 @@ void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *
     draw_disc(page->canvas, DOT_COLOR, place, DOT * point);
 }
 
-// --- slip rate -----------------------------------------------------------------------------------
+// --- slip rate, or a state -----------------------------------------------------------------------
 
 void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
 {
@@ -125,11 +124,12 @@ void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
     double low = 0, high = 0;
     figure_x_extent(view, &low, &high);
     axes->x = figure_length_axis(view, "x", low, high);
-    axes->y = (Axis){.low = pow(10, profile->bar.low),
-                     .high = pow(10, profile->bar.high),
+    const Colorbar *bar = &profile->bar;
+    axes->y = (Axis){.low = bar->powers ? pow(10, bar->low) : bar->low,
+                     .high = bar->powers ? pow(10, bar->high) : bar->high,
                      .factor = 1,
-                     .is_log = true};
-    snprintf(axes->y.label, sizeof axes->y.label, "%s", profile->bar.label);
+                     .is_log = bar->powers};
+    snprintf(axes->y.label, sizeof axes->y.label, "%s", bar->label);
     place_in(page, cell, axes);
 }
 
@@ -146,18 +146,19 @@ void film_profile_now(const Page *page, const FilmProfile *profile, const FilmMo
     const Axes *axes = &profile->axes;
     const Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
     SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]), height = axes->box.bottom - axes->box.top;
+    double height = axes->box.bottom - axes->box.top;
     uint8_t colors[3 * MAP_SIZE];
     color_map_fill(colors);
     canvas_set_map(page->canvas, colors, profile->bar.neutral_color);
     for (int32_t i = 0; i < view->nodes; ++i) {
         double from = 0, to = 0;
         node_extent(&data, i, &from, &to);
-        float level = slip_scale_level(&profile->bar, V, fabs(film_slip_rate(view, now, i)));
+        float level =
+            colorbar_level(&profile->bar, film_value(now, profile->values, view->nodes, i));
         if (level <= (float)HEAT_MISSING) continue;
         Box bar = axes->box;
-        bar.left = round(axes_place(axes, from, 1).x);
-        bar.right = round(fmax(axes_place(axes, to, 1).x, bar.left + 1));
+        bar.left = round(axes_place(axes, from, axes->y.low).x);
+        bar.right = round(fmax(axes_place(axes, to, axes->y.low).x, bar.left + 1));
         bar.top = bar.bottom - round(fmax((double)level, STICK_SHARE) * height);
         canvas_heat_cell(page->canvas, &bar, level);
     }

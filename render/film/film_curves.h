@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two parts of a film's page: F_T/F_N against U with a dot that runs along, and the slip rate along
-// the contact as it is now. Called by film_page.
+// Two parts of a film's page: F_T/F_N against U with a dot that runs along, and the slip rate, or a
+// state, along the contact as it is now. Called by film_page.
 #ifndef AMONTONS_RENDER_FILM_FILM_CURVES_H
 #define AMONTONS_RENDER_FILM_FILM_CURVES_H
 
@@ -23,8 +23,9 @@ void film_force_pass(const Page *page, FilmForce *force, const FilmMoment *now);
 void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *now);
 
 typedef struct FilmProfile {
-    const ResultView *view;   // slip rates have been read
-    Colorbar bar;   // slip_scale
+    const ResultView *view;
+    const double *values;   // [rows * nodes] slip rates, or states; not owned
+    Colorbar bar;   // of them
     Axes axes;
 } FilmProfile;
 

@@ -5,6 +5,7 @@
 #include "render/film/film_block.h"
 #include "render/film/film_plane.h"
 #include "render/figures/slip_scale.h"
+#include "render/figures/state_scale.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,6 +31,7 @@ struct FilmPage {
     FilmProfile profile;
     bool in_space;   // the contact as a plane, in the place of its profile
     FilmPlane plane;
+    double *states;   // [rows * nodes] shown of the contact in the place of slip rates; NULL: none
     FilmBlock block;   // where fields are stored
     int32_t U_decimals, t_decimals;
 };
@@ -171,11 +173,34 @@ int32_t film_page_still(const FilmPage *page)
     return page->block.still_most;
 }
 
+// Of the contact: the state that def->of names, or slip rates; of the block the field.
+static bool choose_values(FilmPage *page, Error *err)
+{
+    const FilmPageDef *def = &page->def;
+    ResultView *view = def->view;
+    const FilmClock *clock = def->clock;
+    Colorbar bar = slip_scale(view, fabs(view->number[NUMBER_ROD_VELOCITY]));
+    bool state = def->of && result_view_choose_state(view, def->of);
+    TRY(block_quantity_find(state ? NULL : def->of, &page->block.quantity, err));
+    if (state) {
+        const double range[2] = {film_moment(view, clock->t[0]).U,
+                                 film_moment(view, clock->t[clock->frames - 1]).U};
+        TRY(state_read(view, false, &page->states, err));
+        TRY(state_scale(view, range, page->states, NULL, &bar, err));
+    }
+    page->band.map.bar = page->profile.bar = page->plane.bar = bar;
+    page->band.map.states = page->states;
+    page->band.map.sign = state ? -1 : 0;
+    page->plane.state = state;
+    page->profile.values = state ? page->states : view->slip_rate;
+cleanup:
+    return error_is_clean(err);
+}
+
 // --- begin and end -------------------------------------------------------------------------------
 
 FilmPage *film_page_create(const FilmPageDef *def, Error *err)
 {
-    double V = fabs(def->view->number[NUMBER_ROD_VELOCITY]);
     FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
     TRY(page);
     page->def = *def;
@@ -186,8 +211,7 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;
-    page->band.map.bar = page->profile.bar = page->plane.bar = slip_scale(def->view, V);
-    TRY(block_quantity_find(def->of, &page->block.quantity, err));
+    TRY(choose_values(page, err));
     TRY(page_open(page, &page->base, err));
     TRY(page_open(page, &page->frame, err));
     TRY(film_block_open(&page->block, err));
@@ -209,5 +233,6 @@ void film_page_destroy(FilmPage *page)
     film_band_destroy(&page->band);
     film_block_close(&page->block);
     film_plane_destroy(&page->plane);
+    memory_free(page->states);
     memory_free(page);
 }

@@ -14,7 +14,7 @@ typedef struct FilmPageDef {
     ResultView *view;   // slip rates and statuses have been read
     const FilmClock *clock;
     int32_t width, height;   // pixels
-    const char *of;   // field; NULL: von_mises
+    const char *of;   // field, or a state; NULL: von_mises
     double magnification;   // 0: chosen
     bool dark;
     const char *title;   // "": none

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "render/figures/contact_map.h"
-#include "render/figures/slip_scale.h"
+#include "render/figures/state_scale.h"
 
 #include <math.h>
 
@@ -14,7 +14,10 @@ bool film_plane_create(const Page *page, const Box *cell, FilmPlane *plane, Erro
 {
     double point = page->point;
     TRY(result_view_read_plane(plane->view, err));
-    TRY(result_view_read_contact(plane->view, SERIES_SLIP_RATE, &plane->rate, err));
+    if (plane->state)
+        TRY(state_read(plane->view, true, &plane->values, err));
+    else
+        TRY(result_view_read_contact(plane->view, SERIES_SLIP_RATE, &plane->values, err));
     TRY(plane->level = NEW_ARRAY(float, plane->view->all_nodes, err));
     Axes *axes = &plane->axes;
     *axes = contact_map_axes(plane->view);
@@ -36,9 +39,9 @@ cleanup:
 
 void film_plane_destroy(FilmPlane *plane)
 {
-    memory_free(plane->rate);
+    memory_free(plane->values);
     memory_free(plane->level);
-    plane->rate = NULL;
+    plane->values = NULL;
     plane->level = NULL;
 }
 
@@ -57,12 +60,10 @@ void film_plane_draw(const Page *page, const FilmPlane *plane)
 bool film_plane_now(const Page *page, const FilmPlane *plane, const FilmMoment *now, Error *err)
 {
     const ResultView *view = plane->view;
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     uint8_t colors[3 * MAP_SIZE];
-    for (int32_t i = 0; i < view->all_nodes; ++i) {
-        double rate = film_value(now, plane->rate, view->all_nodes, i);
-        plane->level[i] = slip_scale_level(&plane->bar, V, rate);
-    }
+    for (int32_t i = 0; i < view->all_nodes; ++i)
+        plane->level[i] =
+            colorbar_level(&plane->bar, film_value(now, plane->values, view->all_nodes, i));
     color_map_fill(colors);
     canvas_set_map(page->canvas, colors, plane->bar.neutral_color);
     return contact_map_draw(page, &view->plane, plane->level, plane->bar.neutral_color,

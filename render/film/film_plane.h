@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Part of the page of a film of a block in space: the slip rate over its contact as it is now.
-// Called by film_page.
+// Part of the page of a film of a block in space: the slip rate, or a state, over its contact as it
+// is now. Called by film_page.
 #ifndef AMONTONS_RENDER_FILM_FILM_PLANE_H
 #define AMONTONS_RENDER_FILM_FILM_PLANE_H
 
@@ -9,9 +9,10 @@
 
 typedef struct FilmPlane {
     ResultView *view;   // in space, with faces
-    Colorbar bar;   // slip_scale
+    bool state;   // the view's is shown in the place of slip rates
+    Colorbar bar;   // of what is shown
     Axes axes;
-    double *rate;   // [rows * all_nodes]; owned, like the next
+    double *values;   // [rows * all_nodes]; owned, like the next
     float *level;   // [all_nodes] work
 } FilmPlane;
 

@@ -32,11 +32,6 @@ double film_value(const FilmMoment *moment, const double *values, int32_t width,
     return before[0] + moment->part * (before[width] - before[0]);
 }
 
-double film_slip_rate(const ResultView *view, const FilmMoment *moment, int32_t node)
-{
-    return film_value(moment, view->slip_rate, view->nodes, node);
-}
-
 int64_t film_nearest_row(const FilmMoment *moment)
 {
     return moment->part < 0.5 ? moment->row : moment->row + 1;

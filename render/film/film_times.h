@@ -13,8 +13,7 @@ typedef struct FilmMoment {
 } FilmMoment;
 
 FilmMoment film_moment(const ResultView *view, double t);
-double film_slip_rate(const ResultView *view, const FilmMoment *moment, int32_t node);
-// The same of values [rows * width], column k.
+// Then, of values [rows * width], column k.
 double film_value(const FilmMoment *moment, const double *values, int32_t width, int32_t k);
 int64_t film_nearest_row(const FilmMoment *moment);
 

@@ -37,16 +37,21 @@ static const struct {
      "the rod.",
      "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
      "before a sliding. Black line: the front of slip."},
+    {"state-map", "png",
+     "Map: what friction remembers, along the contact and against the displacement of the rod.",
+     "What friction remembers at each place of the contact, against <i>U</i>: the smallest in a "
+     "pixel. Slip takes it away, rest brings it back."},
     {"contact-plane", "png", "Maps: slip rate over the contact at moments before and in a sliding.",
      "Slip rate over the rod\u2019s velocity, over the contact, while slow slip grows and as slip "
      "turns rapid. Where there is no colour: stick."},
 };
 
 // The last one is of a block in space whose slip turned rapid.
-static int32_t figure_count(const ResultView *view)
+static bool is_shown(const ResultView *view, const char *name)
 {
     bool plane = view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
-    return (int32_t)(sizeof FIGURES / sizeof *FIGURES) - !plane;
+    if (strcmp(name, "state-map") == 0) return view->states > 0;
+    return plane || strcmp(name, "contact-plane") != 0;
 }
 
 // --- pictures ------------------------------------------------------------------------------------
@@ -105,7 +110,8 @@ __attribute__((visibility("default"))) bool amontons_render_figures(const char *
     ResultView view = {0};
     TRY(result_view_open(folder, &view, err));
     view.title[0] = view.warnings[0] = '\0';
-    for (int32_t k = 0; k < figure_count(&view); ++k) {
+    for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
+        if (!is_shown(&view, FIGURES[k].name)) continue;
         HistoryFigure figure = {&view, FIGURES[k].name};
         const Drawing drawing = {draw_history, &figure, FIGURES[k].format, FIGURES[k].alt,
                                  FIGURES[k].caption};

@@ -45,12 +45,12 @@ typedef struct MapDrawing {
 
 MapScale map_scale_fit(const Plot *plot)
 {
-    MapScale scale = {.factor = plot->color.factor, .contours = plot->contours};
-    double range[2] = {plot->color.low * scale.factor, plot->color.high * scale.factor};
+    MapScale scale = {.bar.factor = plot->color.factor, .contours = plot->contours};
+    double range[2] = {plot->color.low * scale.bar.factor, plot->color.high * scale.bar.factor};
     colorbar_fit(&scale.bar, range);
-    scale.bar.clipped = plot->found[0] * scale.factor < scale.bar.low;
-    scale.bar.clipped_above = plot->found[1] * scale.factor > scale.bar.high;
-    scale.bar.label = plot->color.label;
+    scale.bar.clipped = plot->found[0] * scale.bar.factor < scale.bar.low;
+    scale.bar.clipped_above = plot->found[1] * scale.bar.factor > scale.bar.high;
+    snprintf(scale.bar.label, sizeof scale.bar.label, "%s", plot->color.label);
     return scale;
 }
 
@@ -73,9 +73,7 @@ void map_bar_draw(const Page *page, const MapScale *scale, const Box *frame)
 
 static float color_value(const MapDrawing *drawing, int32_t point)
 {
-    const Colorbar *bar = &drawing->scale->bar;
-    double value = drawing->map->value[point] * drawing->scale->factor;
-    return (float)fmin(fmax((value - bar->low) / (bar->high - bar->low), 0), 1);
+    return colorbar_level(&drawing->scale->bar, drawing->map->value[point]);
 }
 
 // The edges of the cells in pixels of the frame: [count] of them from `edges` on.

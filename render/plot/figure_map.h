@@ -11,7 +11,6 @@
 // The same for all panels.
 typedef struct MapScale {
     Colorbar bar;
-    double factor;   // from values to numbers of the bar
     Axis contours;
 } MapScale;
 

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,11 +61,13 @@ static double vector_value(ResultSeries series, const double *vector)
     return series == SERIES_SLIP ? vector[0] : hypot(vector[0], vector[1]);
 }
 
-// In place: of each vector one value.
-static void take_values(ResultSeries series, double *values, int64_t count)
+// In place: of each vector one value, of several states one.
+static void take_values(const ResultView *view, ResultSeries series, int32_t components,
+                        double *values, int64_t count)
 {
     for (int64_t k = 0; k < count; ++k)
-        values[k] = vector_value(series, values + SLIP_COMPONENTS * k);
+        values[k] = series == SERIES_STATE ? values[components * k + view->state]
+                                           : vector_value(series, values + components * k);
 }
 
 static void take_line(const ResultView *view, double *values, int64_t rows)
@@ -80,11 +83,13 @@ static bool nodes_series_read(ResultView *view, ResultSeries series, double **va
     int64_t rows = 0;
     int32_t width = 0, nodes = view->all_nodes;
     TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
-    bool vectors = view->line && width == SLIP_COMPONENTS * nodes;
-    if (width != nodes && !vectors)
+    int32_t components = series == SERIES_STATE         ? view->states
+                         : view->line && width != nodes ? SLIP_COMPONENTS
+                                                        : 1;
+    if (width != components * nodes)
         FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
              result_series_name(series), width, nodes);
-    if (vectors) take_values(series, *values, rows * nodes);
+    if (components > 1) take_values(view, series, components, *values, rows * nodes);
     if (rows < view->rows) view->rows = rows;
 cleanup:
     return error_is_clean(err);
@@ -205,6 +210,37 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Older histories name the states of one's own formulas alone.
+static bool states_read(ResultView *view, Error *err)
+{
+    TRY(lines_read(view, "states", &view->state_names, err));
+    TRY(lines_read(view, "state_unit", &view->state_unit, err));
+    if (!result_file_remembers(view->file)) return true;
+    view->states = 1;
+    for (const char *at = view->state_names; *at; ++at) view->states += *at == '\n';
+cleanup:
+    return error_is_clean(err);
+}
+
+void result_view_state_name(const ResultView *view, char name[VIEW_STATE_SIZE])
+{
+    const char *at = view->state_names;
+    for (int32_t k = 0; k < view->state && *at; ++k) at += strcspn(at, "\n") + 1;
+    snprintf(name, VIEW_STATE_SIZE, "%.*s", (int)strcspn(at, "\n"), at);
+    if (!name[0]) snprintf(name, VIEW_STATE_SIZE, "state");
+}
+
+bool result_view_choose_state(ResultView *view, const char *name)
+{
+    char own[VIEW_STATE_SIZE];
+    for (view->state = 0; view->state < view->states; ++view->state) {
+        result_view_state_name(view, own);
+        if (strcmp(own, name) == 0) return true;
+    }
+    view->state = 0;
+    return view->states > 0 && strcmp(name, "state") == 0;
+}
+
 // Series of one number a step are read at once, those over the nodes on demand: they are the most
 // of the file.
 bool result_view_open(const char *folder, ResultView *view, Error *err)
@@ -222,6 +258,7 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(lines_read(view, "title", &view->title, err));
     TRY(lines_read(view, "pads", &view->pad_names, err));
     TRY(lines_read(view, "warnings", &view->warnings, err));
+    TRY(states_read(view, err));
     TRY(events_read(view, err));
     TRY(peaks_read(view, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
@@ -333,10 +370,14 @@ void result_view_close(ResultView *view)
     memory_free(view->title);
     memory_free(view->pad_names);
     memory_free(view->warnings);
+    memory_free(view->state_names);
+    memory_free(view->state_unit);
     memory_free(view->slip_rate);
     memory_free(view->slip);
     memory_free(view->front);
     memory_free(view->status);
+    memory_free_all(view->precursors.at, view->precursors.value);
+    memory_free_all(view->front_speed.at, view->front_speed.value);
     memory_free(view->contact_status);
     contact_plane_destroy(&view->plane);
     memory_free(view->events);

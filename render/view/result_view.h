@@ -19,6 +19,12 @@ typedef struct ViewPeak {
     bool counts;   // for mu_M
 } ViewPeak;
 
+// Values over something whose numbers do not fall: of the whole history, or of a figure.
+typedef struct ViewCurve {
+    int64_t count;
+    double *at, *value;   // [count]
+} ViewCurve;
+
 typedef struct ResultView {
     ArrayFile *file;   // owned
     char *title;   // of the scene; may be empty; owned
@@ -38,8 +44,13 @@ typedef struct ResultView {
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
     double *front;   // [rows] x, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
+    ViewCurve precursors;   // of that figure; `at` NULL: not computed yet; owned
+    ViewCurve front_speed;   // likewise
     ContactPlane plane;   // in space; patch_count 0: not read yet; owned
     double *contact_status;   // [rows * all_nodes] in space, or NULL: not read yet; owned
+    int32_t states;   // of friction that remembers; 0: it does not
+    int32_t state;   // which of them SERIES_STATE is read as
+    char *state_names, *state_unit;   // a line each; "time", "1", ...; owned
     double number[RESULT_NUMBERS_COUNT];   // NaN: not known
     int32_t event_count, peak_count;   // 0 in a run that did not end
     ViewEvent *events;   // [event_count] owned
@@ -63,6 +74,14 @@ bool result_view_read_front(ResultView *view, Error *err);
 // *values [rows * nodes], the caller's; in space |v| of slip rates, their size of shear. `rows` may
 // shrink.
 bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err);
+
+// The name of the state that is chosen.
+enum { VIEW_STATE_SIZE = 64 };
+void result_view_state_name(const ResultView *view, char name[VIEW_STATE_SIZE]);
+
+// The state called `name`, "state" the first, is the one that SERIES_STATE stands for from now on.
+// False: there is none such.
+bool result_view_choose_state(ResultView *view, const char *name);
 
 // The same of all nodes of the contact: *values [rows * all_nodes].
 bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err);

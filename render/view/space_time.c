@@ -41,7 +41,9 @@ static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, dou
                                int32_t *count)
 {
     double width = (grid->U_high - grid->U_low) / grid->columns;
+    int32_t column = column_of(grid, U);
     *count = 1;
+    if (column < 0 || column == grid->columns) return column;   // of most steps of a long run
     for (int32_t k = 0; k < data->event_count; ++k) {
         const double *event = data->events[k];
         double room = (grid->event_columns + ROUND_DOWN) * width;
@@ -51,18 +53,19 @@ static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, dou
         *count = grid->event_columns;
         return middle - *count / 2 < 0 ? 0 : middle - *count / 2;
     }
-    return column_of(grid, U);
+    return column;
 }
 
-// by_column: [columns * nodes]; an open node counts as more than any rate.
+// by_column: [columns * nodes], times the sign; an open node counts as more than any rate.
 static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
 {
-    const double *rate = data->slip_rate + row * data->nodes;
+    const double *value = data->value + row * data->nodes;
     const double *status = data->status ? data->status + row * data->nodes : NULL;
     float *cell = by_column + (int64_t)column * data->nodes;
     for (int32_t i = 0; i < data->nodes; ++i) {
         bool open = status && status[i] == 0;
-        cell[i] = larger(cell[i], open ? INFINITY : (float)fabs(rate[i]));
+        double counts = data->sign ? data->sign * value[i] : fabs(value[i]);
+        cell[i] = larger(cell[i], open ? INFINITY : (float)counts);
     }
 }
 
@@ -175,7 +178,7 @@ static void bands_fill(const SpaceTime *data, PixelGrid *grid, const NodeRange *
             float most = NAN;
             for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
                 most = larger(most, value[i]);
-            grid->values[(int64_t)band * grid->columns + column] = most;
+            grid->values[(int64_t)band * grid->columns + column] = data->sign < 0 ? -most : most;
         }
     }
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From slip rates at accepted steps and contact nodes to slip rates at pixels of U against x.
-// Numbers only; called by map_page.
+// From slip rates, or states, at accepted steps and contact nodes to those at pixels of U against
+// x. Numbers only; called by map_page.
 //
 // Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
 // for many pixels while nothing happens. A column of pixels takes the fastest of the steps
 // inside it, so no event is lost; one without a step takes the step that ends behind it, as an
 // implicit step holds its end's value. A rapid event shorter than `event_columns` is so many
 // columns wide, around its middle. With `slip` a pixel shows the mean rate over its U instead: how
-// far slip went over how far the rod went, times V. A node stands for the part of its pad that is
-// nearest.
+// far slip went over how far the rod went, times V. Of states a pixel shows the largest or, as slip
+// makes contacts young, the smallest. A node stands for the part of its pad that is nearest.
 #ifndef AMONTONS_RENDER_VIEW_SPACE_TIME_H
 #define AMONTONS_RENDER_VIEW_SPACE_TIME_H
 
@@ -21,12 +21,13 @@ typedef struct SpaceTime {
     int32_t nodes;
     const double *x;   // [nodes] ascending
     const double *pad;   // [nodes] between nodes of different pads is a gap
-    const double *slip_rate;   // [rows * nodes] velocity; NaN: none
+    const double *value;   // [rows * nodes] slip rates, velocity, or states; NaN: none
     const double *status;   // [rows * nodes] 0: open, counts as infinitely fast; NULL: not asked
     const double *slip;   // [rows * nodes] length; NULL: the fastest is wanted, not the mean
     double V;   // velocity of the rod; for the mean
     int32_t event_count;
     const double (*events)[2];   // [event_count] U from and to, of rapid events
+    int32_t sign;   // of what a pixel shows: 0 the largest |value|, 1 the largest, -1 the smallest
 } SpaceTime;
 
 typedef struct PixelGrid {
@@ -36,7 +37,7 @@ typedef struct PixelGrid {
     int32_t event_columns;   // of a short rapid event, at least 1
     int32_t bands;   // rows that show the same nodes are one band
     int32_t *band;   // [rows] which, the first at the top; owned
-    float *values;   // [bands * columns] |slip rate|; NaN: none; owned
+    float *values;   // [bands * columns] of |value|, or value; NaN: none; owned
 } PixelGrid;
 
 // Fills bands, band and values; the other members are given.

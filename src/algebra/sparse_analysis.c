@@ -62,9 +62,9 @@ static bool analyse_in_order(SparseAnalysis *analysis, cholmod_sparse *pattern, 
     common->postorder = postorder;
     analysis->symbolic = cholmod_analyze_p(pattern, order, NULL, 0, common);
     if (!analysis->symbolic)
-        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)", common->status);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)",
+                     common->status);
+    return true;
 }
 
 // The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the

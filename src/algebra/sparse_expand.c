@@ -125,9 +125,9 @@ bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t co
             *rows = cholmod_zeros((size_t)analysis->size, PASSAGE_COLUMNS, CHOLMOD_REAL,
                                   &analysis->common);
         if (!*rows)
-            FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", PASSAGE_COLUMNS);
+            return FAULT(err, ERROR_MEMORY, "no memory for %d answers of a factor",
+                         PASSAGE_COLUMNS);
     }
     parallel_for(all.passes, expand_pass, &all);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

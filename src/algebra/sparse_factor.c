@@ -112,12 +112,11 @@ bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *
     for (int32_t k = 0; k < size; k++) permuted[k] = rhs[permutation[k]];
     if (!cholmod_solve2(CHOLMOD_L, factor->numeric, analysis->permuted, NULL, &analysis->forward,
                         NULL, &analysis->work_y, &analysis->work_e, &analysis->common))
-        FAIL(err, ERROR_MEMORY, "CHOLMOD: the forward substitution failed (status %d)",
-             analysis->common.status);
+        return FAULT(err, ERROR_MEMORY, "CHOLMOD: the forward substitution failed (status %d)",
+                     analysis->common.status);
     memcpy(g, (double *)analysis->forward->x + (size - count), (size_t)count * sizeof *g);
     dense_lower_apply(factor->border_factor, count, g);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // With x_b known, L_bb' x_b takes the place of y_b, and L' x = y gives the interior. CHOLMOD keeps
@@ -133,11 +132,10 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     cholmod_dense *solution = analysis->permuted;
     if (!cholmod_solve2(CHOLMOD_Lt, factor->numeric, analysis->forward, NULL, &solution, NULL,
                         &analysis->work_y, &analysis->work_e, &analysis->common))
-        FAIL(err, ERROR_MEMORY, "CHOLMOD: the backward substitution failed (status %d)",
-             analysis->common.status);
+        return FAULT(err, ERROR_MEMORY, "CHOLMOD: the backward substitution failed (status %d)",
+                     analysis->common.status);
     analysis->permuted = solution;
     const double *permuted = solution->x;
     for (int32_t k = 0; k < size; k++) x[permutation[k]] = permuted[k];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

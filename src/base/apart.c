@@ -87,14 +87,14 @@ static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *r
     int64_t room = FIRST_BYTES;
     bool told = !work->stop;   // Ctrl-C comes to both; kill to one
     struct pollfd ready = {.fd = pipe, .events = POLLIN};
-    TRY((reply->bytes = memory_bytes(room, err)));
+    if (!(reply->bytes = memory_bytes(room, err))) return false;
     for (;;) {
         if (!told && *work->stop) told = kill(child, SIGTERM) == 0;
         // A signal that came before it waited does not interrupt it.
         if (poll(&ready, 1, told ? -1 : WAKE_MS) <= 0) continue;
         if (reply->size == room) {
             char *longer = memory_resize(reply->bytes, room, 2 * room, 1, err);
-            TRY(longer);
+            if (!longer) return false;
             reply->bytes = longer;
             room *= 2;
         }
@@ -103,7 +103,6 @@ static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *r
         if (count <= 0) break;
         reply->size += count;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -180,18 +179,6 @@ bool apart_do(const ApartWork *work, Error *err)
                                   : work->read(work->context, NULL, err);
     apart_destroy(&reply);
     return done;
-}
-
-void *apart_take(ApartReply *reply, int64_t count, size_t size, Error *err)
-{
-    void *array = NULL;
-    if (count < 0 || count > (reply->size - reply->taken) / (int64_t)size)
-        FAIL(err, ERROR_FILE, "the answer of another process is cut off");
-    TRY((array = memory_array(count, size, err)));
-    memcpy(array, reply->bytes + reply->taken, (size_t)count * size);
-    reply->taken += count * (int64_t)size;
-cleanup:
-    return array;
 }
 
 void apart_destroy(ApartReply *reply)

@@ -31,7 +31,7 @@ typedef struct ApartWork {
 
 typedef struct ApartReply {
     char *bytes;   // [size]; owned
-    int64_t size, taken;
+    int64_t size;
 } ApartReply;
 
 bool apart_is_wanted(void);
@@ -47,9 +47,6 @@ bool apart_read(const ApartWork *work, ApartReply *reply, Error *err);
 // called here, its `reply` NULL.
 bool apart_do(const ApartWork *work, Error *err);
 
-// The next `count` items of the reply, `size` bytes each, in a new array (memory_free).
-// NULL: the reply is too short (ERROR_FILE), or memory is.
-void *apart_take(ApartReply *reply, int64_t count, size_t size, Error *err);
 void apart_destroy(ApartReply *reply);
 
 #endif

@@ -87,6 +87,16 @@ void archive_count(Archive *archive, int64_t *count)
     if (archive_reads(archive) && (*count < 0 || *count > COUNT_MAX)) archive->failed = true;
 }
 
+void archive_number_list(Archive *archive, double *const *numbers, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) archive_number(archive, numbers[k]);
+}
+
+void archive_count_list(Archive *archive, int64_t *const *counts, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) archive_count(archive, counts[k]);
+}
+
 void archive_flag(Archive *archive, bool *flag)
 {
     uint8_t octet = *flag;
@@ -233,10 +243,9 @@ bool archive_list(Archive *archive, void **list, int32_t *count, int32_t *room, 
 bool archive_check(const Archive *archive, bool whole, Error *err)
 {
     if (archive->failed)
-        FAIL(err, ERROR_FILE, "the saved state does not fit what it is read into (%s)",
-             archive->section);
+        return FAULT(err, ERROR_FILE, "the saved state does not fit what it is read into (%s)",
+                     archive->section);
     if (whole && archive->at != archive->size)
-        FAIL(err, ERROR_FILE, "the saved state is longer than what it is read into");
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "the saved state is longer than what it is read into");
+    return true;
 }

@@ -55,6 +55,15 @@ void archive_number(Archive *archive, double *number);
 void archive_integer(Archive *archive, int32_t *integer);
 void archive_count(Archive *archive, int64_t *count);   // from 0 to 2^53: others are a fault
 void archive_flag(Archive *archive, bool *flag);
+// Several, by their addresses.
+#define archive_numbers_of(archive, ...)                                                           \
+    archive_number_list((archive), (double *const[]){__VA_ARGS__},                                 \
+                        (int32_t)(sizeof((double *[]){__VA_ARGS__}) / sizeof(double *)))
+#define archive_counts_of(archive, ...)                                                            \
+    archive_count_list((archive), (int64_t *const[]){__VA_ARGS__},                                 \
+                       (int32_t)(sizeof((int64_t *[]){__VA_ARGS__}) / sizeof(int64_t *)))
+void archive_number_list(Archive *archive, double *const *numbers, int32_t count);
+void archive_count_list(Archive *archive, int64_t *const *counts, int32_t count);
 void archive_numbers(Archive *archive, double *numbers, int64_t count);
 // Integers from `low` to below `high`: others are a fault, as what they count might not be there.
 void archive_indices(Archive *archive, int32_t *indices, int64_t count, int32_t low, int32_t high);

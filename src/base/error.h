@@ -3,9 +3,11 @@
 // as its last argument. This is the one place that states the convention:
 //
 //   * The caller owns the Error and hands it in clean (`Error err = {0};`).
-//   * The function that finds the fault sets it once, with FAIL; everybody above passes it on
-//     with TRY. Both jump to the label `cleanup:` of the enclosing function, which frees what
-//     is local and ends with `return error_is_clean(err);`.
+//   * The function that finds the fault sets it once, everybody above passes it on. Who has nothing
+//     to free returns at once: `return REFUSE(err, "...");` for what the user gave, `return
+//     FAULT(err, CODE, "...");` for the rest, `if (!call) return false;`, `return a && b;`.
+//   * Who has something to free does it with FAIL and TRY: both jump to the label `cleanup:` of the
+//     enclosing function, which frees what is local and ends with `return error_is_clean(err);`.
 //   * On the way up a caller may say what it was doing with error_context().
 //   * Constructors start with `*out = (T){0};`; every destroy accepts zeroed and half-built
 //     objects, so `cleanup:` may always destroy.
@@ -42,6 +44,10 @@ static inline bool error_is_clean(const Error *err)
 #else
 #define ERROR_IS_SET(err) ((void)0)
 #endif
+
+// Sets the error; false.
+#define FAULT(err, code, ...) (error_set((err), (code), __FILE__, __LINE__, __VA_ARGS__), false)
+#define REFUSE(err, ...) FAULT((err), ERROR_INPUT, __VA_ARGS__)
 
 #define FAIL(err, code, ...)                                                                       \
     do {                                                                                           \

@@ -363,9 +363,8 @@ bool formula_value(const char *text, FormulaLookUp look_up, const void *context,
     FormulaNames names = {
         .look_up = look_up, .context = context, .unknown = "is no number that the scene has"};
     double slope;
-    TRY(formula_read(text, &names, &formula, err));
+    if (!formula_read(text, &names, &formula, err)) return false;
     *value = formula_at(&formula, 0, &slope);
-    if (!isfinite(*value)) FAIL(err, ERROR_INPUT, "the value of the formula is not finite");
-cleanup:
-    return error_is_clean(err);
+    if (!isfinite(*value)) return REFUSE(err, "the value of the formula is not finite");
+    return true;
 }

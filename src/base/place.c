@@ -20,10 +20,9 @@ bool place_folder(char *folder, size_t size, Error *err)
     if (is_library)
         snprintf(path, sizeof path, "%s", ((const struct link_map *)map)->l_name);
     else if (readlink("/proc/self/exe", path, sizeof path - 1) < 0)
-        FAIL(err, ERROR_LIBRARY, "cannot tell where the program stands (/proc/self/exe)");
+        return FAULT(err, ERROR_LIBRARY, "cannot tell where the program stands (/proc/self/exe)");
     snprintf(folder, size, "%s", dirname(path));
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool place_find(const char *const *names, int32_t count, char *path, size_t size)

@@ -60,12 +60,12 @@ bool program_run(const char *const *words, char *output, size_t size, int *statu
     pid_t process = 0;
     *output = 0;
     if (pipe2(ends, O_CLOEXEC) != 0)
-        FAIL(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
+        return FAULT(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
     int cause = spawn(words, ends, &process);
     close(ends[1]);
     if (cause != 0) {
         close(ends[0]);
-        FAIL(err, ERROR_LIBRARY, "cannot run `%s`: %s", words[0], strerror(cause));
+        return FAULT(err, ERROR_LIBRARY, "cannot run `%s`: %s", words[0], strerror(cause));
     }
     take_output(ends[0], output, size);
     close(ends[0]);
@@ -73,9 +73,8 @@ bool program_run(const char *const *words, char *output, size_t size, int *statu
     if (ending == PROCESS_LOST) {
         char words_of[200];
         process_describe(ending, words_of, sizeof words_of);
-        FAIL(err, ERROR_LIBRARY, "`%s` ended %s", words[0], words_of);
+        return FAULT(err, ERROR_LIBRARY, "`%s` ended %s", words[0], words_of);
     }
     *status = WIFSIGNALED(ending) ? 128 + WTERMSIG(ending) : WEXITSTATUS(ending);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -57,12 +57,12 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
 {
     *out = NULL;
     Worker *worker = NEW_ARRAY(Worker, 1, err);
-    if (!worker) goto cleanup;
+    if (!worker) return false;
     worker->def = *def;
     worker->locale = duplocale(uselocale((locale_t)0));
     if (!worker->locale) {
         memory_free(worker);
-        FAIL(err, ERROR_MEMORY, "no memory for a thread");
+        return FAULT(err, ERROR_MEMORY, "no memory for a thread");
     }
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->changed, NULL);
@@ -70,10 +70,9 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     if (cause != 0) {
         freelocale(worker->locale);
         memory_free(worker);
-        FAIL(err, ERROR_MEMORY, "no thread for work beside: %s", strerror(cause));
+        return FAULT(err, ERROR_MEMORY, "no thread for work beside: %s", strerror(cause));
     }
     *out = worker;
-cleanup:
     return error_is_clean(err);
 }
 

@@ -99,7 +99,8 @@ int command_film(int argc, char **argv)
          .flag = &film.last_cycle},
         {"of", 0, "FIELD",
          "What is shown of the block: von_mises (default), stress_xx, stress_zz, stress_xz, "
-         "pressure, velocity, displacement, strain_energy or dissipation",
+         "pressure, velocity, displacement, strain_energy or dissipation; or of the contact: a "
+         "state of friction that remembers, as in theta",
          .word = &film.of},
         {"magnification", 0, "N", "Of the block's deformation; chosen by default",
          .word = &magnification},

@@ -88,13 +88,14 @@ int command_render(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density, contact-plane (of a block in "
-         "space), precursors (length of slip over F_T/F_N), front-speed, field or field-strip (up "
-         "to six frames of one sliding). May be given several times; without it those that the "
-         "result has fields and events for, and those that --compare has data for",
+         "Draw only this picture: force, slip-map, contact-density, state-map (of friction that "
+         "remembers), contact-plane (of a block in space), precursors (slip over F_T/F_N), "
+         "front-speed, field or field-strip (up to six frames of one sliding). May be given often; "
+         "without it those that the result has fields, events, states or --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
-         "Draw these of force, slip-map and contact-density below each other, as panels.png",
+         "Draw these of force, slip-map, contact-density and state-map below each other, as "
+         "panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
 #define X(name, kind, low, high, allowed, argument, meaning)                                       \
@@ -105,10 +106,10 @@ int command_render(int argc, char **argv)
         {"plot", 0, "PLOT", "Of a sweep: draw this, as in '{x: load.pressure, y: mu_M}'",
          .word = &plot},
         {"of", 0, "FIELD",
-         "What `field` shows: von_mises (default), stress_xx, stress_zz, "
-         "stress_xz, pressure, velocity, displacement, strain_energy or "
-         "dissipation; `contact-plane`: slip_rate (default), contact_density, pressure, shear, "
-         "shear_over_pressure, slip or arrival",
+         "What `field` shows: von_mises (default), stress_xx, stress_zz, stress_xz, pressure, "
+         "velocity, displacement, strain_energy or dissipation; "
+         "`contact-plane`: slip_rate (default), contact_density, pressure, shear, "
+         "shear_over_pressure, slip, arrival or a state by its name, as in theta",
          .word = &request.field.of},
         {"at", 0, "U=U",
          "When: the stored time nearest to it; or t=TIME. Of contact-plane several, as in "

@@ -233,25 +233,32 @@ static void add_pull(const Settling *settling)
     }
 }
 
+// The residual in newton->step becomes the step that takes it away.
+static void find_step(const Settling *settling)
+{
+    ContactNewton *newton = settling->newton;
+    int32_t size = newton->equations.free_count;
+    for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
+    if (newton->open_count > 0) add_pull(settling);
+    if (!settling->in_double && settling->discs->factors.rows > 0)
+        disc_factors_solve(&settling->discs->factors, newton, newton->step);
+    else
+        dense_lu_solve(newton->factors.lu, size, newton->factors.pivots, newton->step);
+}
+
 // One step from rows, lists and reactions as they are. false: the derivative is singular, or a
 // number is not finite.
 static bool take_step(Settling *settling)
 {
     ContactNewton *newton = settling->newton;
-    const ContactEquations *equations = &newton->equations;
     newton->reused = may_reuse(settling);
     if (!newton->reused && !factor(settling)) return false;
     double before = find_residual(settling, newton->reused);
     if (!isfinite(before)) return false;
-    for (int32_t a = 0; a < equations->free_count; a++) newton->step[a] = -newton->step[a];
-    if (newton->open_count > 0) add_pull(settling);
-    if (settling->discs->factors.rows > 0)
-        disc_factors_solve(&settling->discs->factors, newton, newton->step);
-    else
-        dense_lu_solve(newton->factors.lu, equations->free_count, newton->factors.pivots,
-                       newton->step);
+    find_step(settling);
     contact_newton_creep(newton);
-    memcpy(settling->discs->taken, newton->step, (size_t)equations->free_count * sizeof(double));
+    size_t bytes = (size_t)newton->equations.free_count * sizeof(double);
+    memcpy(settling->discs->taken, newton->step, bytes);
     contact_newton_take(newton);
     settling->discs->iterations++;
     return true;
@@ -392,17 +399,15 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
 bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
                           ContactSolution *solution)
 {
-    Settling settling = {.discs = discs, .newton = newton, .problem = problem, .at = solution};
+    Settling settling = {
+        .discs = discs, .newton = newton, .problem = problem, .at = solution, .in_double = true};
     memset(solution->velocity, 0, (size_t)problem->interface->count * sizeof(double));
     contact_newton_begin(newton, problem, solution, 0);
     newton->reused = false;
     if (!contact_newton_close(newton)) return false;
-    int32_t size = newton->equations.free_count;
     if (!factor_double(&settling)) return false;
     find_residual(&settling, false);
-    for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
-    if (newton->open_count > 0) add_pull(&settling);
-    dense_lu_solve(newton->factors.lu, size, newton->factors.pivots, newton->step);
+    find_step(&settling);
     contact_newton_take(newton);
     contact_newton_react(newton);
     release_open(&settling);
@@ -413,16 +418,12 @@ bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const Cont
 void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive)
 {
     archive_section(archive, "contact discs");
-    archive_count(archive, &discs->iterations);
-    archive_count(archive, &discs->sweeps);
-    archive_count(archive, &discs->swept);
+    archive_counts_of(archive, &discs->iterations, &discs->sweeps, &discs->swept);
     disc_factors_archive(&discs->factors, discs->newton->factors.count, archive);
     for (int32_t i = 0; i < contact_count; i++) {
         DiscRow *row = &discs->kept[i];
         archive_numbers(archive, row->d, TANGENTS_MAX);
-        archive_number(archive, &row->mu);
-        archive_number(archive, &row->theta);
-        archive_number(archive, &row->rho);
+        archive_numbers_of(archive, &row->mu, &row->theta, &row->rho);
         archive_numbers(archive, row->along, TANGENTS_MAX);
     }
 }

@@ -193,8 +193,7 @@ void contact_factors_archive(ContactFactors *factors, Archive *archive)
     archive_indices(archive, factors->free, rows, 0, count);
     for (int32_t k = 0; k < count; k++) {
         archive_index(archive, &factors->row[k].normal, -1, count);
-        archive_number(archive, &factors->row[k].mu);
-        archive_number(archive, &factors->row[k].beside);
+        archive_numbers_of(archive, &factors->row[k].mu, &factors->row[k].beside);
     }
     for (int32_t a = 0; !archive->failed && a < rows; a++)
         archive_require(archive, factors->row[factors->free[a]].normal >= 0);

@@ -141,8 +141,7 @@ void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archiv
     archive_index(archive, &swept, -1, SWEEPS_LIMIT * matrix->count + 1);
     if (archive->failed) return;
     if (swept > 0) archive_indices(archive, matrix->order, swept, -matrix->count, matrix->count);
-    archive_count(archive, &sweeps);
-    archive_count(archive, &factored);
+    archive_counts_of(archive, &sweeps, &factored);
     if (!archive_reads(archive)) return;
     matrix->factored = factored;
     matrix->swept = -1;

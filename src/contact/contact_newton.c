@@ -262,6 +262,5 @@ void contact_newton_archive(ContactNewton *newton, Archive *archive)
 {
     contact_factors_archive(&newton->factors, archive);
     archive_flag(archive, &newton->factors_gain);
-    archive_count(archive, &newton->factorisations);
-    archive_count(archive, &newton->updates);
+    archive_counts_of(archive, &newton->factorisations, &newton->updates);
 }

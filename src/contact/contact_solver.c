@@ -315,11 +315,7 @@ void contact_solver_archive(ContactSolver *solver, int32_t contact_count, Archiv
 {
     archive_section(archive, "contact solver");
     contact_newton_archive(&solver->newton, archive);
-    archive_count(archive, &solver->solves);
-    archive_count(archive, &solver->iterations);
-    archive_count(archive, &solver->fallbacks);
-    archive_count(archive, &solver->rescued);
-    archive_count(archive, &solver->unsolved);
-    archive_count(archive, &solver->path.steps);
+    archive_counts_of(archive, &solver->solves, &solver->iterations, &solver->fallbacks,
+                      &solver->rescued, &solver->unsolved, &solver->path.steps);
     if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
 }

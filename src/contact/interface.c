@@ -329,10 +329,10 @@ cleanup:
 bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     *interface = (Interface){.dim = mesh->dim};
-    TRY(build_contact(mesh, def, interface, err));
-    TRY(build_rod(mesh, def, interface, err));
+    if (!build_contact(mesh, def, interface, err)) return false;
+    if (!build_rod(mesh, def, interface, err)) return false;
     interface->count = interface_rod(interface, interface->rod_count);
-    TRY((interface->dofs = NEW_ARRAY(int32_t, interface->count, err)));
+    if (!(interface->dofs = NEW_ARRAY(int32_t, interface->count, err))) return false;
     for (int32_t i = 0; i < interface->contact_count; i++)
         for (int32_t d = 0; d < mesh->dim; d++)
             interface->dofs[interface_unknown(interface, i, d)] =
@@ -340,8 +340,7 @@ bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *inter
     for (int32_t j = 0; j < interface->rod_count; j++)
         interface->dofs[interface_rod(interface, j)] =
             node_dof(mesh->dim, interface->rod_node[j], 0);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // In space as many as the root of its mean cell would go along the contact.

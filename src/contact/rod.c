@@ -99,8 +99,6 @@ void rod_archive(Rod *rod, Archive *archive)
     archive_section(archive, "rod");
     archive_index(archive, &kind, ROD_AWAY, ROD_IS_BONDED + 1);
     rod->kind = (RodKind)kind;
-    archive_number(archive, &rod->velocity);
-    archive_number(archive, &rod->since);
-    archive_number(archive, &rod->way);
+    archive_numbers_of(archive, &rod->velocity, &rod->since, &rod->way);
     archive_numbers(archive, rod->origin, rod->count);
 }

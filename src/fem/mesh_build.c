@@ -104,11 +104,10 @@ static bool check_repeats(const Mesh *mesh, Error *err)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
             for (int32_t b = mesh->first_node[e]; b < a; b++)
                 if (mesh->element_nodes[a] == mesh->element_nodes[b])
-                    FAIL(err, ERROR_INPUT, "%s: element %lld (%s) has node %lld twice", mesh->path,
-                         (long long)mesh->element_number[e], element_name(mesh->kind[e]),
-                         (long long)mesh->node_number[mesh->element_nodes[a]]);
-cleanup:
-    return error_is_clean(err);
+                    return REFUSE(err, "%s: element %lld (%s) has node %lld twice", mesh->path,
+                                  (long long)mesh->element_number[e], element_name(mesh->kind[e]),
+                                  (long long)mesh->node_number[mesh->element_nodes[a]]);
+    return true;
 }
 
 // Positions of the nodes of element e, and their mean; returns the longest distance from node 0 to
@@ -346,13 +345,12 @@ bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
 {
     take_over(file, path, mesh);
     find_extent(mesh);
-    TRY(check_nodes(mesh, err));
-    TRY(check_repeats(mesh, err));
-    TRY(check_orientation(mesh, err));
-    TRY(check_boundaries(mesh, err));
-    TRY(check_one_part(mesh, err));
+    if (!check_nodes(mesh, err)) return false;
+    if (!check_repeats(mesh, err)) return false;
+    if (!check_orientation(mesh, err)) return false;
+    if (!check_boundaries(mesh, err)) return false;
+    if (!check_one_part(mesh, err)) return false;
     for (int32_t g = 0; g < mesh->group_count; g++)
         mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -55,10 +55,10 @@ bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, E
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
     *boundary = (MeshBoundary){0};
     const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim - 1, err);
-    if (!group) goto cleanup;
+    if (!group) return false;
     if (group->face_count == 0)
-        FAIL(err, ERROR_INPUT, "%s: group '%s' is empty: its %s in the mesh", mesh->path, name,
-             mesh->dim == 2 ? "curve has no edges" : "surface has no faces");
+        return REFUSE(err, "%s: group '%s' is empty: its %s in the mesh", mesh->path, name,
+                      mesh->dim == 2 ? "curve has no edges" : "surface has no faces");
     *boundary = (MeshBoundary){.name = group->name,
                                .dim = mesh->dim,
                                .face_count = group->face_count,
@@ -66,7 +66,6 @@ bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, E
                                .face_nodes = group->face_nodes,
                                .node_count = group->node_count,
                                .nodes = group->nodes};
-cleanup:
     return error_is_clean(err);
 }
 
@@ -96,10 +95,8 @@ static int compare_starts(const void *a, const void *b, void *context)
 static bool add_group(const Mesh *mesh, const char *name, MeshContact *contact, Error *err)
 {
     MeshBoundary whole;
-    TRY(mesh_boundary(mesh, name, &whole, err));
-    TRY(mesh_pieces_find(mesh, &whole, &contact->groups[contact->group_count++], err));
-cleanup:
-    return error_is_clean(err);
+    return mesh_boundary(mesh, name, &whole, err) &&
+           mesh_pieces_find(mesh, &whole, &contact->groups[contact->group_count++], err);
 }
 
 // Fills contact->pads from the names, or from every boundary that is called a contact.
@@ -107,15 +104,18 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
                       MeshContact *contact, Error *err)
 {
     int32_t most = count > 0 ? count : mesh->group_count + 1;
-    if (!(contact->groups = memory_array(most, sizeof *contact->groups, err))) goto cleanup;
-    for (int32_t k = 0; k < count; k++) TRY(add_group(mesh, names[k], contact, err));
+    if (!(contact->groups = memory_array(most, sizeof *contact->groups, err)))
+        return false;
+    for (int32_t k = 0; k < count; k++)
+        if (!add_group(mesh, names[k], contact, err)) return false;
     for (int32_t g = 0; g < mesh->group_count && count == 0; g++)
-        if (mesh->groups[g].dimension == mesh->dim - 1 && is_contact_name(mesh->groups[g].name))
-            TRY(add_group(mesh, mesh->groups[g].name, contact, err));
-    if (contact->group_count == 0) TRY(add_group(mesh, "contact", contact, err));
+        if (mesh->groups[g].dimension == mesh->dim - 1 && is_contact_name(mesh->groups[g].name) &&
+            !add_group(mesh, mesh->groups[g].name, contact, err))
+            return false;
+    if (contact->group_count == 0 && !add_group(mesh, "contact", contact, err)) return false;
     for (int32_t g = 0; g < contact->group_count; g++)
         contact->pad_count += contact->groups[g].count;
-    if (!(contact->pads = NEW_ARRAY(MeshBoundary, contact->pad_count, err))) goto cleanup;
+    if (!(contact->pads = NEW_ARRAY(MeshBoundary, contact->pad_count, err))) return false;
     MeshBoundary *pad = contact->pads;
     for (int32_t g = 0; g < contact->group_count; g++)
         for (int32_t p = 0; p < contact->groups[g].count; p++) *pad++ = contact->groups[g].piece[p];
@@ -123,7 +123,6 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
     if (count == 0)
         qsort_r(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads, compare_starts,
                 &order);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -230,28 +229,27 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);
     if (mesh->z_min < -tolerance)
-        FAIL(err, ERROR_INPUT,
-             "%s: the block reaches down to z = %g, below the substrate at z = 0 that group '%s' "
-             "touches",
-             mesh->path, mesh->z_min, contact->pads[0].name);
+        return REFUSE(err,
+                      "%s: the block reaches down to z = %g, below the substrate at z = 0 that "
+                      "group '%s' touches",
+                      mesh->path, mesh->z_min, contact->pads[0].name);
     for (int32_t k = 1; k < contact->node_count; k++) {
         int32_t b = contact->nodes[k], a = node_over(mesh, contact, k, tolerance);
         const char *name = contact->pads[contact->pad_of[k]].name;
         if (a < 0) continue;
         const double *at_b = mesh_place(mesh, b);
         if (fabs(mesh_height(mesh, b) - mesh_height(mesh, a)) > tolerance)
-            FAIL(err, ERROR_INPUT,
-                 "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a face is "
-                 "no contact",
-                 mesh->path, name, at_b[0], mesh_height(mesh, a), mesh_height(mesh, b));
-        FAIL(err, ERROR_INPUT,
-             "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "
-             "glued together there",
-             mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b], name,
-             at_b[0]);
+            return REFUSE(err,
+                          "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a "
+                          "face is no contact",
+                          mesh->path, name, at_b[0], mesh_height(mesh, a), mesh_height(mesh, b));
+        return REFUSE(err,
+                      "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh "
+                      "is not glued together there",
+                      mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b],
+                      name, at_b[0]);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // A block that was drawn at another height.
@@ -262,12 +260,11 @@ static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *er
         if (mesh_height(mesh, contact->nodes[k]) < mesh_height(mesh, lowest))
             lowest = contact->nodes[k];
     if (mesh_gap(mesh, lowest) > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = %g",
-             mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
-             mesh_height(mesh, lowest));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err, "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = %g",
+            mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+            mesh_height(mesh, lowest));
+    return true;
 }
 
 // In the plane: a curve that turns back has nodes of another stretch between those of an edge.
@@ -296,12 +293,11 @@ bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_
                   MeshContact *contact, Error *err)
 {
     *contact = (MeshContact){0};
-    TRY(pick_pads(mesh, names, name_count, contact, err));
-    TRY(check_boundary(mesh, contact, err));
-    TRY(merge_nodes(mesh, contact, err));
-    TRY(check_places(mesh, contact, err));
-    TRY(check_height(mesh, contact, err));
-    if (mesh->dim == 2) TRY(check_order(mesh, contact, err));
-cleanup:
-    return error_is_clean(err);
+    if (!pick_pads(mesh, names, name_count, contact, err)) return false;
+    if (!check_boundary(mesh, contact, err)) return false;
+    if (!merge_nodes(mesh, contact, err)) return false;
+    if (!check_places(mesh, contact, err)) return false;
+    if (!check_height(mesh, contact, err)) return false;
+    if (mesh->dim == 2 && !check_order(mesh, contact, err)) return false;
+    return true;
 }

@@ -79,20 +79,20 @@ static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, E
     char what[PLACE_TEXT_SIZE + 8];
     if (!known) {
         table->faces[table->last[face->key.corner[0]]++] = *face;
-        goto cleanup;
+        return true;
     }
     if (memcmp(known->key.inner, face->key.inner, sizeof known->key.inner) != 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: elements %lld and %lld share the %s but not its mid-side node: "
-             "elements of different order do not fit together",
-             mesh->path, (long long)mesh->element_number[known->element],
-             (long long)mesh->element_number[face->element], describe(mesh, &face->key, what));
+        return REFUSE(err,
+                      "%s: elements %lld and %lld share the %s but not its mid-side node: elements "
+                      "of different order do not fit together",
+                      mesh->path, (long long)mesh->element_number[known->element],
+                      (long long)mesh->element_number[face->element],
+                      describe(mesh, &face->key, what));
     if (++known->elements > 2)
-        FAIL(err, ERROR_INPUT,
-             "%s: the %s is on more than two elements (%lld among them): elements overlap",
-             mesh->path, describe(mesh, &face->key, what),
-             (long long)mesh->element_number[face->element]);
-cleanup:
+        return REFUSE(err,
+                      "%s: the %s is on more than two elements (%lld among them): elements overlap",
+                      mesh->path, describe(mesh, &face->key, what),
+                      (long long)mesh->element_number[face->element]);
     return error_is_clean(err);
 }
 
@@ -124,17 +124,15 @@ static bool count_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table,
 bool mesh_faces_build(const Mesh *mesh, MeshFaces *table, Error *err)
 {
     *table = (MeshFaces){0};
-    TRY((table->first = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err)));
-    if (!(table->last = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
+    if (!(table->first = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err))) return false;
+    if (!(table->last = NEW_ARRAY(int32_t, mesh->node_count, err))) return false;
     visit_faces(mesh, count_face, table, err);
     for (int32_t i = 0; i < mesh->node_count; i++) {
         table->first[i + 1] += table->first[i];
         table->last[i] = table->first[i];
     }
-    TRY((table->faces = NEW_ARRAY(MeshFace, table->first[mesh->node_count], err)));
-    TRY(visit_faces(mesh, add_face, table, err));
-cleanup:
-    return error_is_clean(err);
+    return (table->faces = NEW_ARRAY(MeshFace, table->first[mesh->node_count], err)) &&
+           visit_faces(mesh, add_face, table, err);
 }
 
 void mesh_faces_destroy(MeshFaces *table)

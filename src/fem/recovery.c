@@ -153,13 +153,12 @@ cleanup:
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
     *stress = (NodalStress){.dim = mesh->dim, .point_count = mesh->node_count};
-    if (mesh->region) TRY(split_nodes(mesh, stress, err));
-    TRY(prepare_rows(mesh, stress, err));
+    if (mesh->region && !split_nodes(mesh, stress, err)) return false;
+    if (!prepare_rows(mesh, stress, err)) return false;
     int64_t count = stress->point_count;
     stress->elastic = NEW_ARRAY(double, strain_count(mesh->dim) * count, err);
     stress->total = NEW_ARRAY(double, strain_count(mesh->dim) * count, err);
     stress->von_mises = NEW_ARRAY(double, count, err);
-cleanup:
     return error_is_clean(err);
 }
 

@@ -19,16 +19,14 @@ static bool look_at(const FrictionLaw *law, double speed, Error *err)
 {
     double mu = friction_coefficient(law, speed), slope = friction_slope(law, speed);
     if (!isfinite(mu))
-        FAIL(err, ERROR_INPUT, "at velocity %g the coefficient is %g: not a finite number", speed,
-             mu);
+        return REFUSE(err, "at velocity %g the coefficient is %g: not a finite number", speed, mu);
     if (!isfinite(slope))
-        FAIL(err, ERROR_INPUT, "at velocity %g the slope of the coefficient is %g: not finite",
-             speed, slope);
+        return REFUSE(err, "at velocity %g the slope of the coefficient is %g: not finite", speed,
+                      slope);
     if (mu < 0)
-        FAIL(err, ERROR_INPUT, "at velocity %g the coefficient is %g: it must not be negative",
-             speed, mu);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "at velocity %g the coefficient is %g: it must not be negative", speed,
+                      mu);
+    return true;
 }
 
 // A formula also between the speeds that are looked at: each piece whose bounds do not say that mu
@@ -46,19 +44,18 @@ static bool stays_within(const FrictionLaw *law, double highest, Error *err)
         if (bounds[0] >= least && bounds[1] <= most) continue;
         if (middle <= piece[0] || middle >= high || count + 2 > PIECES_MAX) continue;
         double mu = friction_coefficient(law, middle);
-        if (!(mu >= least)) TRY(look_at(law, middle, err));
+        if (!(mu >= least) && !look_at(law, middle, err)) return false;
         if (mu > most)
-            FAIL(err, ERROR_INPUT,
-                 "at velocity %g the coefficient is %g, but at the velocities looked at no more "
-                 "than %g: a peak must be wider",
-                 middle, mu, highest);
+            return REFUSE(err,
+                          "at velocity %g the coefficient is %g, but at the velocities looked at "
+                          "no more than %g: a peak must be wider",
+                          middle, mu, highest);
         piece[1] = middle;
         pieces[count + 1][0] = middle;
         pieces[count + 1][1] = high;
         count += 2;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Between two speeds that are looked at: where mu changes by more than its slopes say, the interval
@@ -77,11 +74,10 @@ static bool is_continuous(const FrictionLaw *law, double low, double high, Error
         *(left ? &to : &from) = mu;
     }
     if (fabs(to - from) > jump)
-        FAIL(err, ERROR_INPUT,
-             "at velocity %g the coefficient jumps from %g to %g: it must be continuous", high,
-             from, to);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "at velocity %g the coefficient jumps from %g to %g: it must be continuous",
+                      high, from, to);
+    return true;
 }
 
 // The slope against differences on both sides; at a kink it lies between them.
@@ -94,12 +90,11 @@ static bool slope_fits(const FrictionLaw *law, double speed, Error *err)
     double allowed = SLOPE_ERROR * (fabs(before) + fabs(after)) +
                      STEP * fmax(law->mu_static, mu) / speed;
     if (slope < fmin(before, after) - allowed || slope > fmax(before, after) + allowed)
-        FAIL(err, ERROR_INPUT,
-             "at velocity %g the slope is said to be %g, but differences of the coefficient give "
-             "%g",
-             speed, slope, 0.5 * (before + after));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "at velocity %g the slope is said to be %g, but differences of the coefficient give %g",
+            speed, slope, 0.5 * (before + after));
+    return true;
 }
 
 static double weakening(const FrictionLaw *law, double speed)
@@ -170,9 +165,9 @@ bool friction_look(FrictionLaw *law, Error *err)
     law->mu_static = friction_coefficient(law, 0);
     law->steepest = law->fall = 0;
     for (int32_t k = 0; isfinite(speed = friction_look_speed(law, k)); k++) {
-        TRY(look_at(law, speed, err));
-        if (k > 0) TRY(is_continuous(law, before, speed, err));
-        if (k > 0 && speed < law->end) TRY(slope_fits(law, speed, err));
+        if (!look_at(law, speed, err)) return false;
+        if (k > 0 && !is_continuous(law, before, speed, err)) return false;
+        if (k > 0 && speed < law->end && !slope_fits(law, speed, err)) return false;
         law->steepest = fmax(law->steepest, weakening(law, speed));
         rise = fmax(rise, friction_slope(law, speed));
         double mu = friction_coefficient(law, speed);
@@ -182,22 +177,21 @@ bool friction_look(FrictionLaw *law, Error *err)
         fall = fmax(fall, highest - mu);
         before = speed;
     }
-    TRY(stays_within(law, highest, err));
+    if (!stays_within(law, highest, err)) return false;
     law->bend = fmax(law->steepest, rise);
     if (highest > law->mu_static * (1 + SAME)) law->fall = fall;
     if (given > 0 && fabs(given - law->mu_static) > SAME * given)
-        FAIL(err, ERROR_INPUT, "at velocity 0 the coefficient is %g, but mu_static is given as %g",
-             law->mu_static, given);
+        return REFUSE(err, "at velocity 0 the coefficient is %g, but mu_static is given as %g",
+                      law->mu_static, given);
     if (given > 0) law->mu_static = given;
     if (law->mu_kinetic > lowest * (1 + SAME))
-        FAIL(err, ERROR_INPUT,
-             "at velocity %g the coefficient is %g, but mu_kinetic, the lowest, is given as %g",
-             lowest_at, lowest, law->mu_kinetic);
+        return REFUSE(
+            err, "at velocity %g the coefficient is %g, but mu_kinetic, the lowest, is given as %g",
+            lowest_at, lowest, law->mu_kinetic);
     if (!(law->mu_kinetic > 0)) law->mu_kinetic = lowest;
     law->mu_kinetic = fmin(law->mu_kinetic, law->mu_static);
     if (!(law->critical_velocity > 0)) law->critical_velocity = find_critical(law);
     law->strengthens = rise > SAME * law->steepest;
     law->spent = law->steepest > 0 ? find_spent(law) : 0;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

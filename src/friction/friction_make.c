@@ -46,25 +46,24 @@ static bool read_table(const FrictionSource *source, FrictionLaw *law, const cha
     int32_t count = source->velocity_count;
     *key = "velocity";
     if (count < 2 || count > FRICTION_POINTS_MAX)
-        FAIL(err, ERROR_INPUT, "has %d numbers; a table has 2 to %d", count, FRICTION_POINTS_MAX);
+        return REFUSE(err, "has %d numbers; a table has 2 to %d", count, FRICTION_POINTS_MAX);
     if (source->velocity[0] != 0)
-        FAIL(err, ERROR_INPUT, "begins with %g; the first is 0, where mu holds at rest",
-             source->velocity[0]);
+        return REFUSE(err, "begins with %g; the first is 0, where mu holds at rest",
+                      source->velocity[0]);
     *table = (FrictionTable){.count = count, .straight = source->straight};
     for (int32_t k = 0; k < count; k++) {
         table->speed[k] = source->velocity[k];
         if (k > 0 && !(table->speed[k] > table->speed[k - 1]))
-            FAIL(err, ERROR_INPUT, "%g stands after %g; velocities ascend", table->speed[k],
-                 table->speed[k - 1]);
+            return REFUSE(err, "%g stands after %g; velocities ascend", table->speed[k],
+                          table->speed[k - 1]);
     }
     *key = "mu";
     if (source->mu_count != count)
-        FAIL(err, ERROR_INPUT, "has %d numbers, friction.velocity has %d", source->mu_count, count);
+        return REFUSE(err, "has %d numbers, friction.velocity has %d", source->mu_count, count);
     memcpy(table->mu, source->mu, (size_t)count * sizeof(double));
     friction_table_slopes(table);
     law->end = table->speed[count - 1];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool make_own_memory(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
@@ -99,14 +98,15 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
                           .unknown = "is no number here: v, p, the states, and numbers that "
                                      "friction gives, such as mu_static or slip_distance"};
     *key = "state";
-    if (source->state_count > STATES_MAX) FAIL(err, ERROR_INPUT, "at most %d states", STATES_MAX);
+    if (source->state_count > STATES_MAX) return REFUSE(err, "at most %d states", STATES_MAX);
     for (int32_t k = 0; k < source->state_count; k++) more[k + 1] = source->state[k].name;
     for (int32_t k = 0; k <= source->state_count; k++) {
         if (k == 0) *key = "formula";
-        bool read = formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
-                                   &memory.formula, err);
-        if (!read && k > 0) error_context(err, "%s, its rate", source->state[k - 1].name);
-        TRY(read);
+        if (!formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
+                            &memory.formula, err)) {
+            if (k > 0) error_context(err, "%s, its rate", source->state[k - 1].name);
+            return false;
+        }
         *key = "state";
         memory.ends[k + 1] = memory.formula.count;
     }
@@ -116,9 +116,7 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
         law->own.formula = memory.formula;
         return true;
     }
-    TRY(make_own_memory(source, &memory, law, key, err));
-cleanup:
-    return error_is_clean(err);
+    return make_own_memory(source, &memory, law, key, err);
 }
 
 static bool read_plugin(const FrictionSource *source, FrictionLaw *law, const char **key,
@@ -129,24 +127,22 @@ static bool read_plugin(const FrictionSource *source, FrictionLaw *law, const ch
     AmontonsFriction *given = &plugin->given;
     *key = "file";
     if (source->parameter_count > AMONTONS_FRICTION_PARAMETERS_MAX)
-        FAIL(err, ERROR_INPUT, "takes at most %d friction.parameters, not %d",
-             AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
+        return REFUSE(err, "takes at most %d friction.parameters, not %d",
+                      AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
     *given = (AmontonsFriction){.mu_static = law->mu_static,
                                 .mu_kinetic = law->mu_kinetic,
                                 .critical_velocity = law->critical_velocity,
                                 .parameter_count = source->parameter_count};
     for (int32_t k = 0; k < source->parameter_count; k++)
         given->parameters[k] = source->parameters[k];
-    TRY(friction_plugin_open(source->file, plugin, err));
+    if (!friction_plugin_open(source->file, plugin, err)) return false;
     law->own.plugin = *plugin;
     if (!plugin->rates) return true;
     memory.states = plugin->states(given);
     if (memory.states < 1 || memory.states > STATES_MAX)
-        FAIL(err, ERROR_INPUT, "%s has %d states; allowed: 1 to %d", source->file, memory.states,
-             STATES_MAX);
-    TRY(make_own_memory(source, &memory, law, key, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s has %d states; allowed: 1 to %d", source->file, memory.states,
+                      STATES_MAX);
+    return make_own_memory(source, &memory, law, key, err);
 }
 
 bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)

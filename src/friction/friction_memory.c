@@ -131,18 +131,46 @@ static void plugin_rates(const FrictionMemory *memory, double speed, const doubl
     memory->plugin.rates(&memory->plugin.given, speed, memory->pressure, state, rates);
 }
 
-typedef void (*MemoryPart)(const FrictionMemory *memory, double speed, const double *state,
-                           FrictionRates *rates);
+typedef void MemoryPart(const FrictionMemory *memory, double speed, const double *state,
+                        FrictionRates *rates);
 
-// mu and g, each with its derivatives. straight: g is linear in the state.
+static MemoryPart paced_mu, paced_rate;
+
+// mu and g, each with its derivatives; one function: it fills both. straight: g is linear in the
+// state.
 static const struct {
-    MemoryPart mu, rate;
+    MemoryPart *mu, *rate;
     bool straight;
 } LAWS[] = {[MEMORY_AGEING] = {ageing_mu, ageing_rate, true},
             [MEMORY_SLIP_WEAKENING] = {weakening_mu, weakening_rate, true},
             [MEMORY_RATE_STATE] = {rate_state_mu, rate_state_rate, false},
             [MEMORY_FORMULAS] = {formula_mu, formula_rate, false},
-            [MEMORY_PLUGIN] = {plugin_rates, plugin_rates, false}};
+            [MEMORY_PLUGIN] = {plugin_rates, plugin_rates, false},
+            [MEMORY_PACED] = {paced_mu, paced_rate, false}};
+
+static void paced_mu(const FrictionMemory *memory, double speed, const double *state,
+                     FrictionRates *rates)
+{
+    FrictionRates own = {.mu_pressure = 0};
+    LAWS[memory->paced].mu(memory, speed / memory->mu_pace, state, &own);
+    rates->mu = own.mu;
+    rates->mu_speed = own.mu_speed / memory->mu_pace;
+    rates->mu_pressure = own.mu_pressure;
+    memcpy(rates->mu_state, own.mu_state, (size_t)memory->states * sizeof(double));
+}
+
+static void paced_rate(const FrictionMemory *memory, double speed, const double *state,
+                       FrictionRates *rates)
+{
+    FrictionRates own;
+    LAWS[memory->paced].rate(memory, speed / memory->pace, state, &own);
+    for (int32_t k = 0; k < memory->states; k++) {
+        rates->rate[k] = memory->pace * own.rate[k];
+        rates->rate_speed[k] = own.rate_speed[k];
+        for (int32_t j = 0; j < memory->states; j++)
+            rates->rate_state[k][j] = memory->pace * own.rate_state[k][j];
+    }
+}
 
 static void find_mu(const FrictionMemory *memory, double speed, const double *state,
                     FrictionRates *rates)
@@ -160,7 +188,8 @@ void memory_rates(const FrictionMemory *memory, double speed, const double *stat
                   FrictionRates *rates)
 {
     rates->states = memory->states;
-    LAWS[memory->kind].rate(memory, speed, state, rates);
+    if (LAWS[memory->kind].rate != LAWS[memory->kind].mu)
+        LAWS[memory->kind].rate(memory, speed, state, rates);
     find_mu(memory, speed, state, rates);
 }
 
@@ -281,6 +310,11 @@ void memory_state(const FrictionMemory *memory, double speed, double *state)
         eliminate(memory, speed, memory->states, state);
 }
 
+bool memory_solve_states(const FrictionRates *rates, double reach, double *x)
+{
+    return solve_states(rates, reach, rates->states, x);
+}
+
 double memory_feedback(const FrictionRates *rates, double reach)
 {
     double x[STATES_MAX], sum = 0;
@@ -376,7 +410,8 @@ double memory_shown(const FrictionMemory *memory, double state)
 double memory_spent_speed(const FrictionMemory *memory)
 {
     static const double MANY = 20;   // of D_c that are slipped in the stage
-    bool fades = memory->kind != MEMORY_SLIP_WEAKENING && !memory->creeps;
+    MemoryKind kind = memory->kind == MEMORY_PACED ? memory->paced : memory->kind;
+    bool fades = kind != MEMORY_SLIP_WEAKENING && !memory->creeps;
     double speed = fades ? memory->critical_velocity : 0;
     return memory->reach > 0 ? speed + MANY * memory->slip_distance / memory->reach : speed;
 }

@@ -35,7 +35,8 @@ typedef enum MemoryKind {
     MEMORY_SLIP_WEAKENING,
     MEMORY_RATE_STATE,
     MEMORY_FORMULAS,
-    MEMORY_PLUGIN
+    MEMORY_PLUGIN,
+    MEMORY_PACED   // any of these on another clock (friction/friction_pace)
 } MemoryKind;
 
 // mu and g at a speed and a state, with their derivatives; of entries as many as there are states.
@@ -61,6 +62,8 @@ typedef struct FrictionMemory {
         // states are `from`
     double pressure;   // p of the stage, stress; of formulas and plug-ins
     bool feels_pressure;   // mu or a rate depends on it
+    MemoryKind paced;   // of MEMORY_PACED: which law it is
+    double pace, mu_pace;   // by how much faster its states run, and its mu; 1
     union {
         struct {
             Formula formula;   // of v, p and the states: mu, then the rates, one behind the other
@@ -79,6 +82,8 @@ void memory_state(const FrictionMemory *memory, double speed, double *state);
 double memory_coefficient(const FrictionMemory *memory, double speed, double *slope);
 // What is added to mu_v there.
 double memory_feedback(const FrictionRates *rates, double reach);
+// x [states] becomes (1 - reach g_theta)^-1 x. false: singular.
+bool memory_solve_states(const FrictionRates *rates, double reach, double *x);
 
 // Of a law that creeps: the velocity [count] to which a step of Newton's method leads that is taken
 // in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v of

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "friction/friction_pace.h"
 
+bool friction_weakens_at_once(const FrictionLaw *law)
+{
+    if (!law->remembers || law->own.memory.creeps) return false;
+    return law->kind == FRICTION_AGEING || law->steepest > 0;   // one's own: by friction_start
+}
+
 FrictionLaw friction_paced(const FrictionLaw *law, double pace)
 {
     FrictionLaw paced = *law;
     if (!law->remembers) return paced;
     FrictionMemory *memory = &paced.own.memory;
-    memory->reference_velocity *= pace;
-    memory->healing_time /= pace;
-    memory->start[0] = friction_paced_state(law, memory->start[0], pace);
+    memory->paced = memory->kind;
+    memory->kind = MEMORY_PACED;
+    memory->pace = pace;
+    memory->mu_pace = friction_weakens_at_once(law) ? 1 : pace;
     return paced;
-}
-
-// theta of `ageing` is a time; psi and phi are pure numbers.
-double friction_paced_state(const FrictionLaw *law, double state, double pace)
-{
-    return law->kind == FRICTION_AGEING ? state / pace : state;
 }

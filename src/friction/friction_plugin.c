@@ -22,12 +22,10 @@ static bool find_symbols(void *handle, const char *path, FrictionPlugin *plugin,
         char name[64];
         snprintf(name, sizeof name, "amontons_friction_%s", names[k]);
         void *address = dlsym(handle, name);
-        if (!address)
-            FAIL(err, ERROR_INPUT, "%s has no function %s (amontons_friction.h)", path, name);
+        if (!address) return REFUSE(err, "%s has no function %s (amontons_friction.h)", path, name);
         memcpy(places[k], &address, sizeof address);   // POSIX: object to function pointer
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The loader looks for a name without a slash among the system's libraries.
@@ -37,25 +35,21 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
     char name[PATH_MAX];
     int (*interface)(void) = NULL;
     if (!trust || !*trust)
-        FAIL(err, ERROR_INPUT,
-             "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, if you "
-             "know where it comes from",
-             path);
-    TRY(open_check(path, err));   // the loader would wait for a pipe
+        return REFUSE(err,
+                      "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, "
+                      "if you know where it comes from",
+                      path);
+    if (!open_check(path, err)) return false;   // the loader would wait for a pipe
     snprintf(name, sizeof name, "%s%s", strchr(path, '/') ? "" : "./", path);
     void *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-    if (!handle) FAIL(err, ERROR_INPUT, "cannot be opened: %s", dlerror());
+    if (!handle) return REFUSE(err, "cannot be opened: %s", dlerror());
     void *version = dlsym(handle, "amontons_friction_interface");
     if (!version)
-        FAIL(err, ERROR_INPUT,
-             "%s has no function amontons_friction_interface "
-             "(amontons_friction.h)",
-             path);
+        return REFUSE(err, "%s has no function amontons_friction_interface (amontons_friction.h)",
+                      path);
     memcpy(&interface, &version, sizeof interface);
     if (interface() < 1 || interface() > AMONTONS_FRICTION_INTERFACE)
-        FAIL(err, ERROR_INPUT, "%s was built for version %d of amontons_friction.h, not 1 to %d",
-             path, interface(), AMONTONS_FRICTION_INTERFACE);
-    TRY(find_symbols(handle, path, plugin, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s was built for version %d of amontons_friction.h, not 1 to %d", path,
+                      interface(), AMONTONS_FRICTION_INTERFACE);
+    return find_symbols(handle, path, plugin, err);
 }

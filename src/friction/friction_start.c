@@ -59,8 +59,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// memory->from becomes that of steady slip. false: none is found from there; it is as it was.
-static bool find_steady(FrictionMemory *memory, double speed)
+bool friction_find_steady(FrictionMemory *memory, double speed)
 {
     static const double STAYS = 1e-6;   // of a state: what the last, longest stage may change
     double state[STATES_MAX], began[STATES_MAX];
@@ -124,7 +123,7 @@ static bool find_start(const FrictionSource *source, FrictionMemory *memory, con
              "remember");
     if (!all) TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
     *key = "state";
-    if (!all && !find_steady(memory, source->rod_velocity))
+    if (!all && !friction_find_steady(memory, source->rod_velocity))
         FAIL(err, ERROR_INPUT,
              "no state of steady slip is found at velocity %g: a `start` is needed",
              source->rod_velocity);
@@ -151,7 +150,7 @@ static bool look_along(const FrictionSource *source, FrictionMemory *memory, dou
         lost = fmax(lost, now);
         steady[k] = k == 0 ? NAN : rates.mu;
         if (memory->states == 0 || k == 0) continue;
-        found = find_steady(memory, speed);
+        found = friction_find_steady(memory, speed);
         steady[k] = NAN;
         if (!found) continue;
         TRY(look_at(source, memory, speed, &rates, key, err));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A law of one's own that remembers, from what a scene gives to one that can be used: its states
-// when the rod begins to move, a look at it, its scales. Called by friction/friction_make.
+// when the rod begins to move, a look at it, its scales. Called by friction/friction_make, and for
+// steady slip by study/stability.
 #ifndef AMONTONS_FRICTION_FRICTION_START_H
 #define AMONTONS_FRICTION_FRICTION_START_H
 
@@ -21,5 +22,8 @@
 // states: not finite, negative; or no steady state is found. *key: of the map `friction`.
 bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
                     const char **key, Error *err);
+
+// memory->from becomes that of steady slip. false: none is found from there; it is as it was.
+bool friction_find_steady(FrictionMemory *memory, double speed);
 
 #endif

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "friction/friction_state.h"
 
-#include "algebra/dense.h"
-
-#include <math.h>
 #include <string.h>
 
 bool friction_remembers(const FrictionLaw *law, int32_t count)
@@ -34,7 +31,7 @@ void friction_set_stage(FrictionLaw *law, const double *from, double reach)
 
 double friction_set_pressure(FrictionLaw *law, double pressure, double speed)
 {
-    if (!law->remembers || !law->own.memory.feels_pressure) return 0;
+    if (!friction_feels_pressure(law)) return 0;
     FrictionMemory *memory = &law->own.memory;
     double before = memory_coefficient(memory, speed, NULL);
     memory->pressure = pressure;
@@ -59,6 +56,18 @@ void friction_rates(const FrictionLaw *law, double speed, const double *state, F
     rates->mu_pressure = 0;
 }
 
+void friction_rates_pressed(const FrictionLaw *law, double pressure, double speed,
+                            const double *state, FrictionRates *rates)
+{
+    FrictionLaw other;
+    bool differs = friction_feels_pressure(law) && law->own.memory.pressure != pressure;
+    if (differs) {
+        other = *law;
+        other.own.memory.pressure = pressure;
+    }
+    friction_rates(differs ? &other : law, speed, state, rates);
+}
+
 double friction_direct_slope(const FrictionLaw *law, double speed)
 {
     double state[STATES_MAX];
@@ -72,49 +81,6 @@ void friction_follow(const FrictionLaw *law, int32_t count, const double *veloci
                      const double *step, double *next)
 {
     memory_follow(&law->own.memory, count, velocity, step, next);
-}
-
-double friction_weakens_at(const FrictionRates *rates, double reach)
-{
-    return -memory_feedback(rates, reach);
-}
-
-// With G = D + O, D the diagonal, and R = (s - D)^-1, |R_kk| <= P_kk = reach/sqrt(1 + (reach
-// G_kk)^2) at such s where G_kk <= 0: (s - G)^-1 = R + R O R + R O R O R + ... The first term is a
-// sum over the states, of which only those that weaken count, as Re R_kk >= 0 (a state that grows
-// by itself, G_kk > 0, has 1/reach - G_kk in the place of 1/P_kk, and counts either way); all
-// others together are no more, entry by entry, than (P^-1 - |O|)^-1 |g_v| - P |g_v|, where these
-// sums converge: where (P^-1 - |O|)^-1 (1, ..., 1) is above 0 (Berman and Plemmons, Nonnegative
-// Matrices in the Mathematical Sciences, 1994, ch. 6).
-double friction_weakens_most(const FrictionRates *rates, double reach)
-{
-    double matrix[STATES_MAX * STATES_MAX], coupled[STATES_MAX], ones[STATES_MAX];
-    double bound[STATES_MAX], most = 0;
-    int32_t pivots[STATES_MAX], n = rates->states;
-    bool couples = false;
-    for (int32_t k = 0; k < n; k++) {
-        double own = reach * rates->rate_state[k][k];
-        double weakens = -rates->mu_state[k] * rates->rate_speed[k];
-        bound[k] = reach / (own <= 0 ? hypot(1, own) : 1 - own);
-        if (!(bound[k] >= 0)) return INFINITY;
-        most += (own <= 0 ? fmax(weakens, 0) : fabs(weakens)) * bound[k];
-        coupled[k] = fabs(rates->rate_speed[k]);
-        ones[k] = 1;
-        for (int32_t j = 0; j < n; j++) {
-            couples = couples || (j != k && rates->rate_state[k][j] != 0);
-            matrix[j * n + k] = j == k ? 1 / bound[k] : -fabs(rates->rate_state[k][j]);
-        }
-    }
-    if (!couples || reach == 0) return most;
-    if (!dense_lu(matrix, n, pivots)) return INFINITY;
-    dense_lu_solve(matrix, n, pivots, coupled);
-    dense_lu_solve(matrix, n, pivots, ones);
-    for (int32_t k = 0; k < n; k++) {
-        if (!(ones[k] > 0)) return INFINITY;
-        most += fabs(rates->mu_state[k]) *
-                fmax(coupled[k] - bound[k] * fabs(rates->rate_speed[k]), 0);
-    }
-    return most;
 }
 
 void friction_start_state(const FrictionLaw *law, double *state)

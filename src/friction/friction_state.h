@@ -18,6 +18,12 @@ static inline bool friction_creeps(const FrictionLaw *law)
     return law->remembers && law->own.memory.creeps;
 }
 
+// mu or a rate asks for pressure.
+static inline bool friction_feels_pressure(const FrictionLaw *law)
+{
+    return law->remembers && law->own.memory.feels_pressure;
+}
+
 // Of a law that creeps (friction/friction_memory): where a step of Newton's method [count] leads in
 // friction.
 void friction_follow(const FrictionLaw *law, int32_t count, const double *velocity,
@@ -36,16 +42,12 @@ void friction_state(const FrictionLaw *law, double speed, double *state);
 // mu and g there, without memory mu alone.
 void friction_rates(const FrictionLaw *law, double speed, const double *state,
                     FrictionRates *rates);
+// The same at a pressure that need not be that of the stage.
+void friction_rates_pressed(const FrictionLaw *law, double pressure, double speed,
+                            const double *state, FrictionRates *rates);
 
 // mu_v alone, at the end of that stage.
 double friction_direct_slope(const FrictionLaw *law, double speed);
-
-// A small disturbance exp(s t) of slip feels -mu_theta (s - g_theta)^-1 g_v, by which what is
-// remembered weakens: at the real s = 1/reach, and the most that its real part is at any s with
-// |s| >= 1/reach and Re s >= 0, or more than that; INFINITY: no bound is known. Both one over a
-// velocity.
-double friction_weakens_at(const FrictionRates *rates, double reach);
-double friction_weakens_most(const FrictionRates *rates, double reach);
 
 // What the states are when the rod begins to move; and state number k as people read it.
 void friction_start_state(const FrictionLaw *law, double *state);

@@ -29,12 +29,12 @@ static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
 {
     double have = model_memory_there();
     if (node_count * NODE_BYTES > have)
-        FAIL(err, ERROR_INPUT,
-             "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
-             "and there are %.1f; coarser cells, or cells graded towards the contact, are needed",
-             scene->mesh.file, node_count, node_count * NODE_BYTES / 1e9, have / 1e9);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
+            "and there are %.1f; coarser cells, or cells graded towards the contact, are needed",
+            scene->mesh.file, node_count, node_count * NODE_BYTES / 1e9, have / 1e9);
+    return true;
 }
 
 // lambda is that of plane strain.
@@ -115,12 +115,12 @@ bool model_set_load(Model *model, double unit_resultant, Error *err)
     bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
     if (!(load > 0) && held) load = free_scale(model, load);
     if (!(load > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
-             scene->path, load);
+        return REFUSE(
+            err,
+            "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
+            scene->path, load);
     model->scales.load = load;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Pressure and tractions onto the bulk's load, first per unit of load_reference(): so what the
@@ -137,7 +137,7 @@ static bool add_loads(Model *model, Error *err)
         MeshPlace traction = {0};
         traction[up] = -scene->load.pressure / reference;
         bool found = mesh_boundary(&model->mesh, scene->groups.top, &boundary, err);
-        TRY(scene_blame(scene, "groups.top", found, err));
+        if (!scene_blame(scene, "groups.top", found, err)) return false;
         bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
@@ -145,16 +145,14 @@ static bool add_loads(Model *model, Error *err)
         MeshPlace traction = {given->x / reference, given->y / reference};
         traction[up] = given->z / reference;
         bool found = mesh_boundary(&model->mesh, given->group, &boundary, err);
-        TRY(scene_blame(scene, "load.tractions", found, err));
+        if (!scene_blame(scene, "load.tractions", found, err)) return false;
         bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }
     for (int32_t dof = up; dof < bulk->dof_count; dof += bulk->dim) unit -= bulk->load[dof];
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
     model->unit_load.resultant = unit;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
-    TRY(model_set_load(model, unit, err));
-cleanup:
-    return error_is_clean(err);
+    return model_set_load(model, unit, err);
 }
 
 // The assembled bulk of the full mesh, its loads and its interface; needed to build a basis, to
@@ -164,8 +162,8 @@ bool model_build_bulk(Model *model, Error *err)
     const Scene *scene = model->scene;
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
-    TRY(bulk_assemble(&model->mesh, model->materials.list, &model->bulk, err));
-    TRY(add_loads(model, err));
+    if (!bulk_assemble(&model->mesh, model->materials.list, &model->bulk, err)) return false;
+    if (!add_loads(model, err)) return false;
     InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
                         .contact_names = scene->groups.contact.name,
                         .has_rod = scene->rod.kind != ROD_NONE,
@@ -180,11 +178,10 @@ bool model_build_bulk(Model *model, Error *err)
     const char *last = interface->rod_node             ? "rod.height"
                        : interface->contact_count == 0 ? "groups.contact"
                                                        : "groups.rod";
-    TRY(scene_blame(scene, last, done, err));
+    if (!scene_blame(scene, last, done, err)) return false;
     done = model_place_regions(model, middle - 0.5 * width, middle + 0.5 * width, err);
-    TRY(scene_blame(scene, "materials", done, err));
+    if (!scene_blame(scene, "materials", done, err)) return false;
     model->full_dofs = model->bulk.dof_count;
-cleanup:
     return error_is_clean(err);
 }
 

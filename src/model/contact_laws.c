@@ -64,19 +64,17 @@ static bool take_mean(Part part, bool plane, const char *text, double *factor, E
     if (!*text) return true;
     for (int32_t j = 0; j < rows; j++) {
         double y = part.y[0] + (j + 0.5) / rows * (part.y[1] - part.y[0]);
-        TRY(place_formula_read(text, plane ? NULL : &y, &formula, err));
+        if (!place_formula_read(text, plane ? NULL : &y, &formula, err)) return false;
         for (int32_t k = 0; k < SAMPLES; k++) {
             double x = part.from + (k + 0.5) / SAMPLES * (part.to - part.from);
             double value = formula_at(&formula, x, &ignored);
             if (!(value >= 0 && isfinite(value)))
-                FAIL(err, ERROR_INPUT, "at x = %g the factor is %g; a number >= 0 is needed", x,
-                     value);
+                return REFUSE(err, "at x = %g the factor is %g; a number >= 0 is needed", x, value);
             mean += (value - mean) / ++taken;   // to the bit the value where it is level
         }
     }
     *factor *= mean;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The item of the piece of contact on which node i lies, else of its group; NULL: none.
@@ -100,11 +98,10 @@ static bool check_groups(const Model *model, Error *err)
         for (int32_t p = 0; p < interface->pad_count; p++)
             found = found || mesh_piece_is_of(interface->pad_name[p], laws->item[k].group);
         if (!found)
-            FAIL(err, ERROR_INPUT, "`%s` is no contact group; the first is `%s`, of %d",
-                 laws->item[k].group, interface->pad_name[0], interface->pad_count);
+            return REFUSE(err, "`%s` is no contact group; the first is `%s`, of %d",
+                          laws->item[k].group, interface->pad_name[0], interface->pad_count);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool model_lay_laws(Model *model, Error *err)
@@ -116,22 +113,21 @@ bool model_lay_laws(Model *model, Error *err)
     Part part = {0}, all = box_of(interface);
     bool alike = scene->contact_laws.count == 0 && !*scene->own_friction.along;
     if (alike && !friction_remembers(&scene->friction, 0)) return true;
-    TRY(scene_blame(scene, "friction.contacts", check_groups(model, err), err));
-    TRY((model->node_laws = NEW_ARRAY(FrictionLaw, count, err)));
+    if (!scene_blame(scene, "friction.contacts", check_groups(model, err), err)) return false;
+    if (!(model->node_laws = NEW_ARRAY(FrictionLaw, count, err))) return false;
     for (int32_t i = 0; i < count; i++) {
         const SceneContactLaw *item = item_of(model, i);
         double factor = 1;
         part = plane ? next_part(interface, i, part) : square_part(interface, i, all);
         bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
-        TRY(scene_blame(scene, "friction.along", done, err));
+        if (!scene_blame(scene, "friction.along", done, err)) return false;
         done = !item || take_mean(part, plane, item->along, &factor, err);
-        TRY(scene_blame(scene, "friction.contacts", done, err));
+        if (!scene_blame(scene, "friction.contacts", done, err)) return false;
         FrictionLaw law = scene->friction;
         done = !item || scene_contact_law(scene, item, &law, err);
-        TRY(scene_blame(scene, "friction.contacts", done, err));
+        if (!scene_blame(scene, "friction.contacts", done, err)) return false;
         model->node_laws[i] = friction_scaled(&law, factor);
     }
     model->law = friction_spread(model->node_laws, count);
-cleanup:
     return error_is_clean(err);
 }

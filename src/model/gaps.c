@@ -12,16 +12,16 @@ static bool add_formula(const char *text, Interface *interface, Error *err)
     Formula formula;
     double ignored;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (i == 0 || interface->y)
-            TRY(place_formula_read(text, interface->y ? &interface->y[i] : NULL, &formula, err));
+        if ((i == 0 || interface->y) &&
+            !place_formula_read(text, interface->y ? &interface->y[i] : NULL, &formula, err))
+            return false;
         double gap = formula_at(&formula, interface->x[i], &ignored);
         if (!(gap >= 0 && isfinite(gap)))
-            FAIL(err, ERROR_INPUT, "at x = %g the gap is %g; a number >= 0 is needed",
-                 interface->x[i], gap);
+            return REFUSE(err, "at x = %g the gap is %g; a number >= 0 is needed", interface->x[i],
+                          gap);
         interface->gap[i] += gap;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Measured no farther than the contact nodes reach: what lies beyond is not guessed.
@@ -32,11 +32,11 @@ static bool reaches_over(const char *path, const char *axis, const double measur
     static const double ROUNDING = 1e-4;
     double slack = ROUNDING * (contact[1] - contact[0]);
     if (measured[0] > contact[0] + slack || measured[1] < contact[1] - slack)
-        FAIL(err, ERROR_INPUT,
-             "%s goes from %s = %g to %g, the contact from %g to %g: it must reach over all of it",
-             path, axis, measured[0], measured[1], contact[0], contact[1]);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "%s goes from %s = %g to %g, the contact from %g to %g: it must reach over all of it",
+            path, axis, measured[0], measured[1], contact[0], contact[1]);
+    return true;
 }
 
 static bool add_profile(const Scene *scene, Interface *interface, Error *err)
@@ -83,13 +83,12 @@ bool model_lay_gaps(Model *model, Error *err)
     double radius = scene->contact.radius;
     bool profile = *scene->contact.profile;
     if (!(radius > 0) && !*scene->contact.gap && !profile) return true;
-    if (!interface->gap) TRY((interface->gap = NEW_ARRAY(double, interface->contact_count, err)));
+    if (!interface->gap && !(interface->gap = NEW_ARRAY(double, interface->contact_count, err)))
+        return false;
     if (radius > 0) add_parabola(model, radius, interface);
-    if (*scene->contact.gap)
-        TRY(scene_blame(scene, "contact.gap", add_formula(scene->contact.gap, interface, err),
-                        err));
-    if (profile)
-        TRY(scene_blame(scene, "contact.profile", add_profile(scene, interface, err), err));
-cleanup:
-    return error_is_clean(err);
+    if (*scene->contact.gap &&
+        !scene_blame(scene, "contact.gap", add_formula(scene->contact.gap, interface, err), err))
+        return false;
+    return !profile ||
+           scene_blame(scene, "contact.profile", add_profile(scene, interface, err), err);
 }

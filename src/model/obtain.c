@@ -101,15 +101,15 @@ static bool load_basis(Model *model, const ReductionBlock *block, const Shape *s
 {
     ReducedBulk *reduced = &model->reduced;
     bool *found = &model->from_cache;
-    TRY(basis_cache_load(shape->basis, wants_mesh(model->scene), reduced, found, model->cache_note,
-                         err));
+    if (!basis_cache_load(shape->basis, wants_mesh(model->scene), reduced, found, model->cache_note,
+                          err))
+        return false;
     if (*found && reduced->interface_count == shape->interface.count &&
         reduced->full_dofs == block->bulk.dof_count)
         return true;
     *found = false;
     reduced_bulk_destroy(reduced);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The basis of `block`, from the cache or built and kept there; where it is kept, its name goes
@@ -216,9 +216,10 @@ static bool expect(Model *model, bool held, Error *err)
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
     int32_t parts = held ? model->reduced.part_count : 1;
-    if (!held && is_reducible(model))
-        TRY(mirror_likely_parts(&model->bulk, mesh->position, model->interface.dofs,
-                                model->interface.count, &parts, err));
+    if (!held && is_reducible(model) &&
+        !mirror_likely_parts(&model->bulk, mesh->position, model->interface.dofs,
+                             model->interface.count, &parts, err))
+        return false;
     Drive drive = stages_drive(model);
     model->choice =
         (ChoiceSizes){.space = model->interface.dim > 2,
@@ -230,8 +231,7 @@ static bool expect(Model *model, bool held, Error *err)
                       .several = model->materials.count > 1,
                       .held = held};
     model->expected = choice_expect(&model->choice);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool reduction_pays(const Model *model)
@@ -245,13 +245,12 @@ static bool reduction_pays(const Model *model)
 static bool check_rod(const Scene *scene, double reach, Error *err)
 {
     if (reach > 0.5 && scene->rod.kind == ROD_PUSH)
-        FAIL(err, ERROR_INPUT,
-             "%s: rod.kind: push, but group `%s` is on the leading half of the block, which a rod "
-             "that moves along +x cannot push; let it pull there (rod.kind: bonded) or name the "
-             "trailing face (groups.rod)",
-             scene->path, scene->groups.rod);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: rod.kind: push, but group `%s` is on the leading half of the block, "
+                      "which a rod that moves along +x cannot push; let it pull there (rod.kind: "
+                      "bonded) or name the trailing face (groups.rod)",
+                      scene->path, scene->groups.rod);
+    return true;
 }
 
 // Said before anything is factored; in space, where it goes up with the fourth power of the cells
@@ -261,37 +260,31 @@ static bool check_memory(const Model *model, Error *err)
     double bytes = model->is_reduced ? model->expected.bytes_reduced : model->expected.bytes_full;
     double have = model_memory_there();
     if (bytes > have && model->scene->time.scheme != SCHEME_EXPLICIT)
-        FAIL(err, ERROR_INPUT,
-             "%s: %d contact nodes are too many for this computer: a run takes some %.0f GB of "
-             "memory, and there are %.1f; coarser cells at the contact are needed",
-             model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: %d contact nodes are too many for this computer: a run takes some %.0f "
+                      "GB of memory, and there are %.1f; coarser cells at the contact are needed",
+                      model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
+    return true;
 }
 
 // Of the assembled bulk.
 static bool choose(Model *model, Error *err)
 {
-    TRY(model_hold_supports(model, err));
-    TRY(expect(model, false, err));
+    if (!model_hold_supports(model, err)) return false;
+    if (!expect(model, false, err)) return false;
     model->is_reduced = is_reducible(model) && reduction_pays(model);
-    TRY(check_memory(model, err));
-cleanup:
-    return error_is_clean(err);
+    return check_memory(model, err);
 }
 
 // The assembled bulk becomes the operator; key: where the cache keeps the shape.
 static bool make_operator(Model *model, const char *key, Error *err)
 {
     const Interface *interface = &model->interface;
-    TRY(choose(model, err));
-    if (model->is_reduced)
-        TRY(reduce_bulk(model, key, err));
-    else
-        TRY(bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
-                                 interface->count, &model->system, err));
-cleanup:
-    return error_is_clean(err);
+    return choose(model, err) &&
+           (model->is_reduced
+                ? reduce_bulk(model, key, err)
+                : bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
+                                       interface->count, &model->system, err));
 }
 
 // The shape's key, where it can be kept: supports are part of the assembled bulk only.
@@ -323,15 +316,14 @@ static bool find_shape(Model *model, const char *key, Shape *shape, bool *found,
 {
     *found = false;
     if (!key[0]) return true;
-    TRY(shape_cache_load(key, shape, found, model->cache_note, err));
-    if (*found)
-        TRY(basis_cache_load(shape->basis, wants_mesh(model->scene), &model->reduced, found,
-                             model->cache_note, err));
+    if (!shape_cache_load(key, shape, found, model->cache_note, err)) return false;
+    if (*found && !basis_cache_load(shape->basis, wants_mesh(model->scene), &model->reduced, found,
+                                    model->cache_note, err))
+        return false;
     *found = *found && model->reduced.interface_count == shape->interface.count;
     model->from_cache = *found;
     if (!*found) forget_shape(model, shape);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // What velocities and times are measured with.

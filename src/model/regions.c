@@ -14,21 +14,20 @@ static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error 
     const char *name = named->region[i].group;
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
     const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
-    if (!group) goto cleanup;
+    if (!group) return false;
     if (group->blurred)
-        FAIL(err, ERROR_INPUT,
-             "%s: which elements belong to group '%s' cannot be told: another group has its "
-             "elementary number (save the mesh in format 4.1)",
-             mesh->path, name);
+        return REFUSE(err,
+                      "%s: which elements belong to group '%s' cannot be told: another group has "
+                      "its elementary number (save the mesh in format 4.1)",
+                      mesh->path, name);
     for (int32_t k = 0; k < group->element_count; k++) {
         int32_t e = group->elements[k];
         if (owner[e])
-            FAIL(err, ERROR_INPUT, "%s: element %lld is in both '%s' and '%s': of which material?",
-                 mesh->path, (long long)mesh->element_number[e], named->region[owner[e] - 1].group,
-                 name);
+            return REFUSE(err, "%s: element %lld is in both '%s' and '%s': of which material?",
+                          mesh->path, (long long)mesh->element_number[e],
+                          named->region[owner[e] - 1].group, name);
         owner[e] = (uint8_t)(i + 1);
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -74,12 +73,11 @@ static bool check_locking(const Model *model, const uint8_t *is_mean, Error *err
     const Mesh *mesh = &model->mesh;
     for (int32_t e = 0; e < mesh->element_count; e++)
         if (mesh->kind[e] == ELEMENT_TET4 && is_mean[mesh_region(mesh, e)])
-            FAIL(err, ERROR_INPUT,
-                 "%s: TET4 lock in a material whose volume resists so much more than its shape; "
-                 "take hexahedra, wedges or order 2",
-                 mesh->path);
-cleanup:
-    return error_is_clean(err);
+            return REFUSE(err,
+                          "%s: TET4 lock in a material whose volume resists so much more than its "
+                          "shape; take hexahedra, wedges or order 2",
+                          mesh->path);
+    return true;
 }
 
 bool model_mark_regions(Model *model, Error *err)

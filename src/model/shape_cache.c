@@ -83,8 +83,9 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
     Hash hash = computation_hash_bits();
     bool whole = false;
     double eta = scene->material.eta1 + scene->material.eta2;
-    TRY(mesh_source_hash(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
-                         &hash, &whole, err));
+    if (!mesh_source_hash(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
+                          &hash, &whole, err))
+        return false;
     hash_boundary(scene, &hash);
     hash_number(&hash, scene->material.poisson);
     hash_number(&hash, scene->material.plane);
@@ -93,8 +94,7 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
     hash_number(&hash, tolerance);
     hash_number(&hash, scene->reduction.use);   // or auto would take what always alone makes
     if (whole) hash_write(&hash, key);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Regions that there can be, and an index within 32 bits.

@@ -68,12 +68,11 @@ static bool write_curves(HtmlWriter *html, const RunSource *runs, int32_t count,
     if (with == 0) return true;
     RenderCurvesFunction render =
         (RenderCurvesFunction)module_function("render", "amontons_render_curves", err);
-    TRY(render);
-    TRY(render(folders, names, with, html, &drawn, err));
+    if (!render) return false;
+    if (!render(folders, names, with, html, &drawn, err)) return false;
     if (!drawn)
         html_markup(html, "<p class='note'>Some runs are in SI units and some are normalised: "
                           "their curves have no common axis.</p>\n");
-cleanup:
     return error_is_clean(err);
 }
 
@@ -82,9 +81,7 @@ static void write_again(HtmlWriter *html, const RunSource *runs, int32_t count)
     html_markup(html, "<p>The report of each run holds its scene: ");
     html_markup(html, "<code>amontons report FOLDER</code>, with</p>\n<ul>");
     for (int32_t k = 0; k < count; ++k) {
-        html_markup(html, "<li>");
-        html_text(html, runs[k].name);
-        html_markup(html, ": ");
+        html_around(html, "<li>", runs[k].name, ": ");
         html_text(html, runs[k].title);
         html_markup(html, "</li>");
     }

@@ -133,9 +133,8 @@ static void begin_table(HtmlWriter *html, const char *caption, const RunSource *
                 "quantity</th>",
                 count == 1 ? " class='one'" : "", caption);
     for (int32_t k = 0; k < count; ++k) {
-        html_markup(html, "<th scope='col' class='number'>");
-        html_text(html, count == 1 ? "value" : runs[k].name);
-        html_markup(html, "</th>");
+        html_around(html, "<th scope='col' class='number'>", count == 1 ? "value" : runs[k].name,
+                    "</th>");
     }
     html_markup(html, "<th scope='col'>meaning</th></tr></thead><tbody>\n");
 }

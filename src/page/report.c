@@ -6,10 +6,8 @@
 #include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
+#include "run/result/pictures.h"
 
-#include <errno.h>
-#include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { SECONDS_MAX = 600 };   // far above what the longest history takes
@@ -23,19 +21,14 @@ typedef struct ReportRequest {
 
 static bool check_folders(const ReportRequest *request, Error *err)
 {
-    struct stat status;
     for (int32_t k = 0; k < request->count; ++k) {
         const char *folder = request->results[k];
-        if (stat(folder, &status) != 0)
-            FAIL(err, ERROR_INPUT, "cannot open the result %s: %s", folder, strerror(errno));
-        if (!S_ISDIR(status.st_mode))
-            FAIL(err, ERROR_INPUT, "%s is a file, not a result folder", folder);
+        if (!pictures_check_folder(folder, err)) return false;
         if (request->count > 1 && folder_holds(folder, "sweep.csv", NULL))
-            FAIL(err, ERROR_INPUT,
-                 "%s is a sweep: only runs are compared; a sweep has its own page", folder);
+            return REFUSE(err, "%s is a sweep: only runs are compared; a sweep has its own page",
+                          folder);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *err)

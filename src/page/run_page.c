@@ -71,9 +71,8 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
                                     "error bar)");
     } else {
         bool told = strncmp(is, "none: ", 6) == 0;
-        html_markup(html, " There is no <i>\u03bc</i><sub>M</sub>: ");
-        html_text(html, told ? is + 6 : "the block as a whole did not slide after the start");
-        html_markup(html, ".");
+        html_around(html, " There is no <i>\u03bc</i><sub>M</sub>: ",
+                    told ? is + 6 : "the block as a whole did not slide after the start", ".");
     }
     html_markup(html, "</p>\n");
 }
@@ -118,10 +117,10 @@ static void write_again(HtmlWriter *html, const RunSource *run)
     html_markup(html, "<p>Save the <a href='#scene'>scene</a> as scene.json in the result folder, "
                       "where its mesh is found. The same version gives the same bits.</p>\n"
                       "<pre tabindex='0'>");
-    sheet_command(html, "cd ", is_plain ? run->name : "RESULT", "");
-    sheet_command(html, "amontons run scene.json -o again", "", "    # the run");
-    sheet_command(html, "amontons render . --format pdf", "", "      # its figures for print");
-    sheet_command(html, "amontons report .", "", "                   # this page");
+    html_around(html, "cd ", is_plain ? run->name : "RESULT", "\n");
+    html_around(html, "amontons run scene.json -o again", "", "    # the run\n");
+    html_around(html, "amontons render . --format pdf", "", "      # its figures for print\n");
+    html_around(html, "amontons report .", "", "                   # this page\n");
     html_markup(html, "</pre>\n");
 }
 
@@ -129,15 +128,13 @@ static bool write_history(HtmlWriter *html, const RunSource *run, const char *fi
 {
     RenderFrames frames = {0};
     sheet_part(html, &FRAMES);
-    TRY(frames_write(html, run, &frames, err));
+    if (!frames_write(html, run, &frames, err)) return false;
     if (film) sheet_part(html, &FILM);
-    if (film) TRY(film_write(html, run->folder, film, err));
+    if (film && !film_write(html, run->folder, film, err)) return false;
     sheet_part(html, &FIGURES);
-    TRY(figures_write(html, run, err));
+    if (!figures_write(html, run, err)) return false;
     sheet_part(html, &EVENTS);
-    TRY(events_write(html, run, &frames, err));
-cleanup:
-    return error_is_clean(err);
+    return events_write(html, run, &frames, err);
 }
 
 bool run_page_write(HtmlWriter *html, const char *folder, Error *err)

@@ -41,15 +41,14 @@ static bool read_json(RunSource *source, Error *err)
         source->json = memory_text("{}", err);
         return source->json != NULL;
     }
-    TRY(text_file_read(path, REPORT_BYTES_MAX, &source->json, &size, err));
+    if (!text_file_read(path, REPORT_BYTES_MAX, &source->json, &size, err)) return false;
     if (!json_is_whole(source->json))
-        FAIL(err, ERROR_INPUT, "%s ends before its last bracket: no run.json of ours", path);
+        return REFUSE(err, "%s ends before its last bracket: no run.json of ours", path);
     json_find_text(source->json, "status", status, sizeof status);
     json_find_text(source->json, "scene.units", units, sizeof units);
     json_find_text(source->json, "scene.title", source->title, sizeof source->title);
     source->state = strcmp(status, "done") == 0 ? RUN_DONE : RUN_FAILED;
     source->si = strcmp(units, "si") == 0;
-cleanup:
     return error_is_clean(err);
 }
 

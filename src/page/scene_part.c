@@ -67,9 +67,7 @@ static void write_key(void *context, const char *path, const char *value)
     if (!*value) return;
     html_markup(summary->html, "%s<span class='key'><b>", summary->begun ? ", " : "");
     html_text(summary->html, path + summary->prefix);
-    html_markup(summary->html, "</b> ");
-    html_text(summary->html, value);
-    html_markup(summary->html, "</span>");
+    html_around(summary->html, "</b> ", value, "</span>");
     summary->begun = true;
 }
 
@@ -84,9 +82,7 @@ void scene_summary_write(HtmlWriter *html, const RunSource *run)
         snprintf(path, sizeof path, "scene.%s", group);
         if (!json_find_key(run->json, path, 0, inner, sizeof inner)) continue;   // title, units
         Summary summary = {.html = html, .prefix = strlen(path) + 1};
-        html_markup(html, "<tr><th scope='row'>");
-        html_text(html, group);
-        html_markup(html, "</th><td>");
+        html_around(html, "<tr><th scope='row'>", group, "</th><td>");
         walk(run->json, path, 0, write_key, &summary);
         html_markup(html, "</td></tr>\n");
     }
@@ -117,14 +113,10 @@ static void write_difference(void *context, const char *path, const char *value)
     }
     if (!differs) return;
     ++all->written;
-    html_markup(all->html, "<tr><th scope='row'>");
-    html_text(all->html, path + strlen("scene."));
-    html_markup(all->html, "</th>");
+    html_around(all->html, "<tr><th scope='row'>", path + strlen("scene."), "</th>");
     for (int32_t k = 0; k < all->count; ++k) {
         value_words(all->runs[k].json, path, words);
-        html_markup(all->html, "<td class='number'>");
-        html_text(all->html, *words ? words : "\u2013");
-        html_markup(all->html, "</td>");
+        html_around(all->html, "<td class='number'>", *words ? words : "\u2013", "</td>");
     }
     html_markup(all->html, "</tr>\n");
 }
@@ -135,9 +127,7 @@ void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t co
     html_markup(html, "<div class='wide'><table><caption>Keys of the scenes that differ; all "
                       "others are the same</caption><thead><tr><th scope='col'>key</th>");
     for (int32_t k = 0; k < count; ++k) {
-        html_markup(html, "<th scope='col' class='number'>");
-        html_text(html, runs[k].name);
-        html_markup(html, "</th>");
+        html_around(html, "<th scope='col' class='number'>", runs[k].name, "</th>");
     }
     html_markup(html, "</tr></thead><tbody>\n");
     for (all.of = 0; all.of < count; ++all.of)

@@ -71,10 +71,3 @@ void sheet_box(HtmlWriter *html, const char *kind, const char *words)
     html_text(html, words);
     html_markup(html, "</p>\n");
 }
-
-void sheet_command(HtmlWriter *html, const char *before, const char *name, const char *after)
-{
-    html_markup(html, "%s", before);
-    html_text(html, name);
-    html_markup(html, "%s\n", after);
-}

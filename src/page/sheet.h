@@ -20,7 +20,5 @@ void sheet_end(HtmlWriter *html, const char *made_by);
 
 // A box that is seen at once: "warning" or "failure".
 void sheet_box(HtmlWriter *html, const char *kind, const char *words);
-// Commands, a line each.
-void sheet_command(HtmlWriter *html, const char *before, const char *name, const char *after);
 
 #endif

@@ -7,6 +7,10 @@
 #include "friction/friction_state.h"
 #include "contact/slip.h"
 
+#include <stdio.h>
+
+static const double SLIGHT = 1e-6;   // of the pressure: what a formula may be below 0
+
 // law must outlive the arrays.
 bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
                            ContactArrays *arrays, Error *err)
@@ -48,13 +52,40 @@ static void read_slip(ContactArrays *arrays, const Observation *seen, int32_t i,
     arrays->shear[k] = -seen->state->reaction[t] / seen->interface->weight[i];
 }
 
+// Of node i: formulas and plug-ins are looked at before the run in steady slip alone, and may fall
+// below 0 where it leads. Friction would then drive the block.
+static bool check_coefficient(const ContactArrays *arrays, const Observation *seen, int32_t i,
+                              Error *err)
+{
+    const FrictionLaw *law = friction_at(arrays->law, i);
+    const Interface *interface = seen->interface;
+    if (!law->remembers || !friction_is_own(law)) return true;
+    const double *theta = seen->state->theta + (int64_t)i * STATES_MAX;
+    double speed = slip_size(interface, i, seen->state->slip_rate);
+    char states[25 * STATES_MAX] = "";
+    FrictionRates rates;
+    friction_rates(law, speed, theta, &rates);
+    if (rates.mu >= -SLIGHT) return true;
+    for (int32_t k = 0, used = 0; k < rates.states; k++)
+        used += snprintf(states + used, sizeof states - (size_t)used, "%s%g", k ? ", " : ", state ",
+                         theta[k]);
+    FAIL(err, ERROR_COMPUTE,
+         "at U = %.6g, t = %.9g friction has come to a coefficient of %g, at contact node %d, x = "
+         "%g: velocity %g, pressure %g%s. It must not be negative wherever a run leads: max(0, "
+         "...) in the formula keeps it from that",
+         seen->U, seen->t, rates.mu, i, interface->x[i], speed,
+         seen->state->reaction[interface_normal(interface, i)] / interface->weight[i], states);
+cleanup:
+    return false;
+}
+
 bool contact_arrays_record(void *self, const Observation *seen, Error *err)
 {
-    (void)err;
     ContactArrays *arrays = self;
     const State *state = seen->state;
     for (int32_t i = 0; i < arrays->count; i++) {
         int32_t n = interface_normal(seen->interface, i);
+        TRY(check_coefficient(arrays, seen, i, err));
         for (int32_t c = 0; c < arrays->tangents; c++) read_slip(arrays, seen, i, c);
         for (int32_t k = 0; k < arrays->states; k++)
             arrays->state[i * arrays->states + k] = friction_shown_state(
@@ -64,7 +95,8 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
                                          slip_size(seen->interface, i, state->slip_rate));
     }
     arrays->started = true;
-    return true;
+cleanup:
+    return error_is_clean(err);
 }
 
 void contact_arrays_archive(ContactArrays *arrays, Archive *archive)

@@ -35,11 +35,10 @@ bool drops_create(const Interface *interface, const Events *events, double toler
                      .rising = NOTHING_SEEN,
                      .top = -INFINITY,
                      .mu_max = -INFINITY};
-    TRY(stretches_create(interface, &drops->stretches, err));
+    if (!stretches_create(interface, &drops->stretches, err)) return false;
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
     drops->states = NEW_ARRAY(double, (FIRST_ROOM + 1) * state_size(drops), err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -165,17 +164,16 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     if (events->crossed) {
         if (seen->grows && isnan(drops->rising.front_growth))
             drops->rising.front_growth = front_of_slip(seen);
-        TRY(add_drop(drops, seen, true, err));
+        if (!add_drop(drops, seen, true, err)) return false;
     } else if (sliding && drops->count > 0) {
         Drop *drop = &drops->list[drops->count - 1];
         drop->mu_after = fmin(drop->mu_after, seen->mu);
     } else {
         follow_rise(drops, seen);
-        if (events->ended) TRY(add_drop(drops, seen, false, err));
+        if (events->ended && !add_drop(drops, seen, false, err)) return false;
     }
     if (!in_event || events->ended) forget_fall(drops, seen);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- reading ------------------------------------------------------------------------------------
@@ -242,17 +240,13 @@ const Event *drops_least_resolved(const Drops *drops, int32_t first)
 // events: its own is one of so many.
 static void drop_archive(Drop *drop, int32_t events, Archive *archive)
 {
-    archive_number(archive, &drop->U);
-    archive_number(archive, &drop->mu);
-    archive_number(archive, &drop->mu_after);
+    archive_numbers_of(archive, &drop->U, &drop->mu, &drop->mu_after);
     archive_index(archive, &drop->event, 0, events);
     archive_integer(archive, &drop->pads);
     archive_flag(archive, &drop->bulk);
     archive_flag(archive, &drop->load);
-    archive_number(archive, &drop->critical_length);
-    archive_number(archive, &drop->critical_part);
-    archive_number(archive, &drop->front_uncertified);
-    archive_number(archive, &drop->front_growth);
+    archive_numbers_of(archive, &drop->critical_length, &drop->critical_part,
+                       &drop->front_uncertified, &drop->front_growth);
 }
 
 // Work and states: room for as many as the list has.
@@ -269,9 +263,9 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     int32_t events = drops->events->count;   // which are read before
     void *list = drops->list;
     archive_section(archive, "drops");
-    TRY(archive_list(archive, &list, &drops->count, &drops->room, sizeof(Drop), err));
+    if (!archive_list(archive, &list, &drops->count, &drops->room, sizeof(Drop), err)) return false;
     drops->list = list;
-    if (archive_reads(archive)) TRY(make_room(drops, err));
+    if (archive_reads(archive) && !make_room(drops, err)) return false;
     for (int32_t k = 0; k < drops->count; k++) {
         drop_archive(&drops->list[k], events, archive);
         drops->list[k].state = k;
@@ -280,9 +274,6 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     stretches_archive(&drops->stretches, archive);
     archive_index(archive, &drops->settled, -1, drops->count + 1);
     drop_archive(&drops->rising, events + 1, archive);   // it has none yet
-    archive_number(archive, &drops->top);
-    archive_number(archive, &drops->fall);
-    archive_number(archive, &drops->mu_max);
-cleanup:
-    return error_is_clean(err);
+    archive_numbers_of(archive, &drops->top, &drops->fall, &drops->mu_max);
+    return true;
 }

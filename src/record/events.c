@@ -287,23 +287,23 @@ static void follow_slow(Events *events, const Observation *seen)
 static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
     events->began = events->ended = events->crossed = false;
-    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start)
-        TRY(start_rapid(events, seen, err));
+    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start &&
+        !start_rapid(events, seen, err))
+        return false;
     if (events->rapid >= 0) {
         follow_rapid(events, seen);
         if (seen->max_slip_rate < events->rate_stop) {
             end_rapid(events, seen->interface);
             events->ended = true;
         }
-        goto cleanup;
+        return true;
     }
     bool slips = seen->front > interface_line_x(seen->interface, 0) && seen->max_slip_rate > 0;
     if (events->slow < 0 && slips) {
-        TRY(start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err));
+        if (!start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err)) return false;
         for (int32_t i = 0; i < seen->interface->contact_count; i++) events->slow_arrival[i] = NAN;
     }
     if (events->slow >= 0) follow_slow(events, seen);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -344,20 +344,11 @@ static void event_archive(Event *event, int32_t pad_count, Archive *archive)
     int32_t kind = (int32_t)event->kind;
     archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_LEADING + 1);
     event->kind = (EventKind)kind;
-    archive_number(archive, &event->U_start);
-    archive_number(archive, &event->U_stop);
-    archive_number(archive, &event->t_start);
-    archive_number(archive, &event->t_stop);
-    archive_number(archive, &event->front_start);
-    archive_number(archive, &event->reach);
-    archive_number(archive, &event->slipped);
-    archive_number(archive, &event->peak_slip_rate);
-    archive_number(archive, &event->front_speed);
-    archive_number(archive, &event->area_front_speed);
+    archive_numbers_of(archive, &event->U_start, &event->U_stop, &event->t_start, &event->t_stop,
+                       &event->front_start, &event->reach, &event->slipped, &event->peak_slip_rate,
+                       &event->front_speed, &event->area_front_speed);
     archive_index(archive, &event->pad, -1, pad_count);
-    archive_number(archive, &event->slip_length);
-    archive_number(archive, &event->slip_cells);
-    archive_number(archive, &event->slip_before);
+    archive_numbers_of(archive, &event->slip_length, &event->slip_cells, &event->slip_before);
     archive_numbers(archive, event->front_times, FRONT_STATIONS);
 }
 
@@ -365,7 +356,8 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
 {
     void *list = events->list;
     archive_section(archive, "events");
-    TRY(archive_list(archive, &list, &events->count, &events->room, sizeof(Event), err));
+    if (!archive_list(archive, &list, &events->count, &events->room, sizeof(Event), err))
+        return false;
     events->list = list;
     for (int32_t k = 0; k < events->count; k++)
         event_archive(&events->list[k], interface->pad_count, archive);
@@ -378,12 +370,10 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     archive_flag(archive, &events->crossed);
     archive_octets(archive, events->slipped, interface->contact_count);
     archive_numbers(archive, events->slow_arrival, interface->contact_count);
-    archive_number(archive, &events->fast_front_start);
-    archive_number(archive, &events->fast_t_start);
-    archive_number(archive, &events->fast_reach);
+    archive_numbers_of(archive, &events->fast_front_start, &events->fast_t_start,
+                       &events->fast_reach);
     front_path_archive(&events->path, interface->contact_count, archive);
     pad_sums_archive(events->pads, interface->pad_count, archive);
     pad_sums_archive(events->pads_before, interface->pad_count, archive);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -75,7 +75,7 @@ static bool fill_face_grid(FieldFiles *files, const Interface *interface, Error 
     static const uint8_t six[][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
     static const uint8_t nine[][4] = {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
     const ContactFaces *faces = files->faces;
-    TRY(make_line_grid(files, (int64_t)FACE_CELLS_MAX * faces->count, 4, err));
+    if (!make_line_grid(files, (int64_t)FACE_CELLS_MAX * faces->count, 4, err)) return false;
     for (int32_t i = 0; i < files->line_point_count; i++) {
         int32_t k = i - interface->contact_count;
         files->line_points[3 * i] = k < 0 ? interface->x[i] : faces->corner[2 * k];
@@ -90,8 +90,7 @@ static bool fill_face_grid(FieldFiles *files, const Interface *interface, Error 
         for (int32_t k = 0; k < FACE_CELLS_MAX && count == 9; k++)
             add_face_cell(files, points, nine[k], 4);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // In the plane one segment between neighbours of the same pad: gaps between pads stay gaps.

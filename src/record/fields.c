@@ -98,14 +98,12 @@ bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
     char path[PATH_SIZE];
     *fields = (Fields){.def = *def, .folder = folder, .room = FIRST_ROOM};
     fields->next_U = fields->next_t = -INFINITY;   // the start is written in any case
-    TRY(field_files_create(mesh, interface, &fields->files, err));
+    if (!field_files_create(mesh, interface, &fields->files, err)) return false;
     fields->entries = NEW_ARRAY(FieldSeriesEntry, 2 * FIRST_ROOM, err);
     fields->names = memory_array(2 * FIRST_ROOM, NAME_SIZE, err);
-    if (!fields->entries || !fields->names) goto cleanup;
+    if (!fields->entries || !fields->names) return false;
     snprintf(path, sizeof path, "%s/fields", folder);
-    TRY(folder_make(path, err));
-cleanup:
-    return error_is_clean(err);
+    return folder_make(path, err);
 }
 
 void fields_destroy(Fields *fields)
@@ -137,15 +135,13 @@ static bool start_writer(Fields *fields, const Observation *seen, Error *err)
     for (int32_t k = 0; k < FIELD_SLOTS; k++) {
         FieldTimeCopy *copy = &fields->slots[k];
         if (!copy->storage) copy->storage = memory_bytes(8 * (2 * dofs + 2 * whole + line), err);
-        TRY(copy->storage);
+        if (!copy->storage) return false;
         double *next = copy->storage;
         for (int which = 0; which < 2; which++, next += dofs) copy->unknowns[which] = next;
         for (int which = 0; which < 2; which++, next += whole) copy->whole[which] = next;
         copy->line = next;
     }
-    TRY(worker_create(&def, &fields->writer, err));
-cleanup:
-    return error_is_clean(err);
+    return worker_create(&def, &fields->writer, err);
 }
 
 // Room for two more entries; their names stay where they are pointed to. The writer must be idle
@@ -154,17 +150,16 @@ static bool make_room(Fields *fields, Error *err)
 {
     if (fields->written + 1 <= fields->room) return true;
     int64_t old = 2 * (int64_t)fields->room;
-    TRY(fields_flush(fields, err));
+    if (!fields_flush(fields, err)) return false;
     FieldSeriesEntry *entries =
         memory_resize(fields->entries, old, 2 * old, sizeof(FieldSeriesEntry), err);
-    TRY(entries);
+    if (!entries) return false;
     fields->entries = entries;
     void *names = memory_resize(fields->names, old, 2 * old, NAME_SIZE, err);
-    TRY(names);
+    if (!names) return false;
     fields->names = names;
     fields->room *= 2;
     for (int32_t k = 0; k < fields->entry_count; k++) fields->entries[k].file = fields->names[k];
-cleanup:
     return error_is_clean(err);
 }
 
@@ -199,15 +194,14 @@ static bool hand_over(Fields *fields, const Observation *seen, Error *err)
 {
     int32_t slot;
     int64_t dofs = seen->system->dof_count;
-    TRY(worker_slot(fields->writer, &slot, err));
+    if (!worker_slot(fields->writer, &slot, err)) return false;
     FieldTimeCopy *copy = &fields->slots[slot];
     copy->time = seen->t;
     memcpy(copy->unknowns[0], seen->state->displacement, (size_t)dofs * sizeof(double));
     memcpy(copy->unknowns[1], seen->state->velocity, (size_t)dofs * sizeof(double));
     copy_line(fields, seen, copy->line);
     worker_submit(fields->writer);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // U has come back over the multiple of every_U at or beyond which a file was written last; not by
@@ -249,13 +243,12 @@ bool fields_record(void *self, const Observation *seen, Error *err)
     Fields *fields = self;
     if (!is_due(fields, seen)) return true;
     double started = clock_seconds();
-    TRY(start_writer(fields, seen, err));
-    TRY(make_room(fields, err));
-    TRY(hand_over(fields, seen, err));
+    if (!start_writer(fields, seen, err)) return false;
+    if (!make_room(fields, err)) return false;
+    if (!hand_over(fields, seen, err)) return false;
     fields->written++;
     fields->seconds += clock_seconds() - started;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Without a folder there is no list: what a state with fields has of it is passed over. Times are
@@ -263,21 +256,18 @@ cleanup:
 bool fields_archive(Fields *fields, Archive *archive, Error *err)
 {
     int32_t written = fields->written;
-    TRY(fields_flush(fields, err));
+    if (!fields_flush(fields, err)) return false;
     archive_section(archive, "fields");
     archive_integer(archive, &written);
-    archive_number(archive, &fields->next_U);
-    archive_number(archive, &fields->next_t);
-    archive_number(archive, &fields->slipped);
+    archive_numbers_of(archive, &fields->next_U, &fields->next_t, &fields->slipped);
     if (archive_reads(archive)) fields->written = fields->entry_count = 0;
     for (int32_t k = 0; k < written && !archive->failed; k++) {
         double time = archive_reads(archive) ? NAN : fields->entries[2 * k].time;
         archive_number(archive, &time);
         if (!archive_reads(archive) || !fields->folder) continue;
-        TRY(make_room(fields, err));
+        if (!make_room(fields, err)) return false;
         add_time(fields, time);
         fields->written++;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

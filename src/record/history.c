@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A recorder: every accepted step becomes a row of each series in history.h5. Which series there
-// are, their names, units and kinds stands in io/hdf5/result_tables.h; the switches below say where
-// a value comes from. io/hdf5/array_file gathers rows into chunks and compresses those.
+// are, their names, units and kinds stands in io/hdf5/result_tables.h; the arrays below say where a
+// value comes from. io/hdf5/array_file gathers rows into chunks and compresses those.
 #include "record/history.h"
 
 #include "base/clock.h"
@@ -57,56 +57,35 @@ void history_destroy(History *history)
     *history = (History){0};
 }
 
-// Of the whole block; NaN for a series that is not of that kind.
+// Of the whole block.
 static double series_value(const Observation *seen, ResultSeries series)
 {
-    switch (series) {
-    case SERIES_TIME:
-        return seen->t;
-    case SERIES_ROD:
-        return seen->U;
-    case SERIES_ROD_WAY:
-        return seen->rod_way;
-    case SERIES_MU:
-        return seen->mu;
-    case SERIES_ROD_FORCE:
-        return seen->rod_force;
-    case SERIES_NORMAL_FORCE:
-        return seen->normal_force;
-    case SERIES_STEP:
-        return seen->step_size;
-    case SERIES_FRONT:
-        return seen->front;
-    case SERIES_MAX_SLIP_RATE:
-        return seen->max_slip_rate;
-    case SERIES_CERTIFIED:
-        return seen->certified;
-    case SERIES_ENERGY_ERROR:
-        return seen->energy_imbalance;
-    default:
-        return NAN;
-    }
+    const double values[RESULT_SERIES_COUNT] = {[SERIES_TIME] = seen->t,
+                                                [SERIES_ROD] = seen->U,
+                                                [SERIES_ROD_WAY] = seen->rod_way,
+                                                [SERIES_MU] = seen->mu,
+                                                [SERIES_ROD_FORCE] = seen->rod_force,
+                                                [SERIES_NORMAL_FORCE] = seen->normal_force,
+                                                [SERIES_STEP] = seen->step_size,
+                                                [SERIES_FRONT] = seen->front,
+                                                [SERIES_MAX_SLIP_RATE] = seen->max_slip_rate,
+                                                [SERIES_CERTIFIED] = seen->certified,
+                                                [SERIES_ENERGY_ERROR] = seen->energy_imbalance};
+    return values[series];
 }
 
 // Of all contact nodes; status as numbers, in history->row.
 static const double *node_values(const History *history, ResultSeries series)
 {
     const ContactArrays *contact = history->contact;
-    switch (series) {
-    case SERIES_SLIP_RATE:
-        return contact->slip_rate;
-    case SERIES_SLIP:
-        return contact->slip;
-    case SERIES_PRESSURE:
-        return contact->pressure;
-    case SERIES_SHEAR:
-        return contact->shear;
-    case SERIES_STATE:
-        return contact->state;
-    default:
-        for (int32_t i = 0; i < contact->count; i++) history->row[i] = contact->status[i];
-        return history->row;
-    }
+    const double *const values[RESULT_SERIES_COUNT] = {[SERIES_SLIP_RATE] = contact->slip_rate,
+                                                       [SERIES_SLIP] = contact->slip,
+                                                       [SERIES_PRESSURE] = contact->pressure,
+                                                       [SERIES_SHEAR] = contact->shear,
+                                                       [SERIES_STATE] = contact->state};
+    if (values[series]) return values[series];
+    for (int32_t i = 0; i < contact->count; i++) history->row[i] = contact->status[i];
+    return history->row;
 }
 
 // Mean slip of pad p along the drive, 0, or across it, 1: of its nodes by weight.
@@ -125,22 +104,13 @@ static double pad_value(const History *history, const Observation *seen, ResultS
                         int32_t p)
 {
     const PadSum *sum = &history->pad_sums[p];
-    switch (series) {
-    case SERIES_PAD_NORMAL:
-        return sum->normal_force;
-    case SERIES_PAD_SHEAR:
-        return sum->shear;
-    case SERIES_PAD_SHEAR_ACROSS:
-        return sum->shear_across;
-    case SERIES_PAD_SLIPPING:
-        return sum->slipping;
-    case SERIES_PAD_SLIP:
-        return pad_slip(history, seen->interface, p, 0);
-    case SERIES_PAD_SLIP_ACROSS:
-        return pad_slip(history, seen->interface, p, 1);
-    default:
-        return NAN;
-    }
+    const double sums[RESULT_SERIES_COUNT] = {[SERIES_PAD_NORMAL] = sum->normal_force,
+                                              [SERIES_PAD_SHEAR] = sum->shear,
+                                              [SERIES_PAD_SHEAR_ACROSS] = sum->shear_across,
+                                              [SERIES_PAD_SLIPPING] = sum->slipping};
+    bool across = series == SERIES_PAD_SLIP_ACROSS;
+    return across || series == SERIES_PAD_SLIP ? pad_slip(history, seen->interface, p, across)
+                                               : sums[series];
 }
 
 // One series of one step.
@@ -173,17 +143,16 @@ bool history_record(void *self, const Observation *seen, Error *err)
     pad_sums(seen, history->pad_sums);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
         if (!history->written[series]) continue;
-        TRY(append(history, seen, series, err));
+        if (!append(history, seen, series, err)) return false;
     }
     history->end.rows++;
     double now = clock_seconds();
     history->seconds += now - started;
     if (now - history->flushed_at > FLUSH_EVERY) {
-        TRY(array_file_flush(history->file, err));
+        if (!array_file_flush(history->file, err)) return false;
         history->flushed_at = now;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void history_end_archive(HistoryEnd *end, Archive *archive)
@@ -219,22 +188,21 @@ bool history_has_end(ArrayFile *file, const HistoryEnd *end, Error *err)
 {
     for (ResultSeries series = 0; end->rows > 0 && series < RESULT_SERIES_COUNT; series++) {
         bool one = result_series_columns(series) == COLUMNS_ONE;
-        if (one && array_file_has(file, result_series_name(series)))
-            TRY(has_last(file, end, series, err));
+        if (one && array_file_has(file, result_series_name(series)) &&
+            !has_last(file, end, series, err))
+            return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool history_take_back(History *history, const HistoryEnd *end, Error *err)
 {
     if (!history->file) return true;
-    if (!end->kept) FAIL(err, ERROR_INPUT, "the saved state is that of a run without a history");
-    TRY(history_has_end(history->file, end, err));
-    TRY(result_file_cut(history->file, end->rows, err));
+    if (!end->kept) return REFUSE(err, "the saved state is that of a run without a history");
+    if (!history_has_end(history->file, end, err)) return false;
+    if (!result_file_cut(history->file, end->rows, err)) return false;
     history->end = *end;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool history_sync(History *history, Error *err)
@@ -260,26 +228,16 @@ static int32_t peak_column(const Drops *drops, const Answers *answers, ResultTab
 // Entry `table` of one event.
 static double event_column(const Event *event, ResultTable table)
 {
-    switch (table) {
-    case EVENTS_KIND:
-        return event->kind;
-    case EVENTS_U_START:
-        return event->U_start;
-    case EVENTS_U_STOP:
-        return event->U_stop;
-    case EVENTS_T_START:
-        return event->t_start;
-    case EVENTS_T_STOP:
-        return event->t_stop;
-    case EVENTS_REACH:
-        return event->reach;
-    case EVENTS_SLIPPED:
-        return event->slipped;
-    case EVENTS_PEAK_RATE:
-        return event->peak_slip_rate;
-    default:
-        return event->front_speed;
-    }
+    const double entries[RESULT_TABLES_COUNT] = {[EVENTS_KIND] = event->kind,
+                                                 [EVENTS_U_START] = event->U_start,
+                                                 [EVENTS_U_STOP] = event->U_stop,
+                                                 [EVENTS_T_START] = event->t_start,
+                                                 [EVENTS_T_STOP] = event->t_stop,
+                                                 [EVENTS_REACH] = event->reach,
+                                                 [EVENTS_SLIPPED] = event->slipped,
+                                                 [EVENTS_PEAK_RATE] = event->peak_slip_rate,
+                                                 [EVENTS_FRONT_SPEED] = event->front_speed};
+    return entries[table];
 }
 
 static bool is_peak_table(ResultTable table)

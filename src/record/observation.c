@@ -124,7 +124,6 @@ void recorders_add(Recorders *recorders, void *self,
 bool recorders_record(const Recorders *recorders, const Observation *seen, Error *err)
 {
     for (int32_t k = 0; k < recorders->count; k++)
-        TRY(recorders->list[k].record(recorders->list[k].self, seen, err));
-cleanup:
-    return error_is_clean(err);
+        if (!recorders->list[k].record(recorders->list[k].self, seen, err)) return false;
+    return true;
 }

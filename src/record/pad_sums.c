@@ -53,11 +53,7 @@ PadSize pad_size(const Interface *interface, int32_t p)
 void pad_sums_archive(PadSum *sums, int32_t count, Archive *archive)
 {
     for (int32_t p = 0; p < count; p++) {
-        archive_number(archive, &sums[p].normal_force);
-        archive_number(archive, &sums[p].shear);
-        archive_number(archive, &sums[p].shear_across);
-        archive_number(archive, &sums[p].slipping);
-        archive_number(archive, &sums[p].slipping_cells);
-        archive_number(archive, &sums[p].fastest);
+        archive_numbers_of(archive, &sums[p].normal_force, &sums[p].shear, &sums[p].shear_across,
+                           &sums[p].slipping, &sums[p].slipping_cells, &sums[p].fastest);
     }
 }

@@ -174,14 +174,10 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
 
 static void cycle_archive(PadCycle *cycle, Archive *archive)
 {
-    archive_number(archive, &cycle->normal_force);
-    archive_number(archive, &cycle->shear);
-    archive_number(archive, &cycle->U_first_slip);
-    archive_number(archive, &cycle->U_detached);
+    archive_numbers_of(archive, &cycle->normal_force, &cycle->shear, &cycle->U_first_slip,
+                       &cycle->U_detached);
     archive_integer(archive, &cycle->order);
-    archive_number(archive, &cycle->U_rapid);
-    archive_number(archive, &cycle->t_rapid);
-    archive_number(archive, &cycle->slow_length);
+    archive_numbers_of(archive, &cycle->U_rapid, &cycle->t_rapid, &cycle->slow_length);
 }
 
 void pads_archive(Pads *pads, Archive *archive)

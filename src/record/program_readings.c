@@ -240,10 +240,7 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
     return true;
 }
 
-// --- results ------------------------------------------------------------------------------------
-
-// Those that are over, and the one under way. false: there are no more.
-static bool reading_at(const ProgramReadings *readings, int32_t k, ProgramReading *reading)
+bool program_readings_at(const ProgramReadings *readings, int32_t k, ProgramReading *reading)
 {
     bool open = k == readings->count && readings->now.reading.kind != READING_NONE;
     if (k < readings->count) *reading = readings->list[k];
@@ -251,160 +248,18 @@ static bool reading_at(const ProgramReadings *readings, int32_t k, ProgramReadin
     return k < readings->count || open;
 }
 
-static double logarithm(const ProgramReading *reading)
-{
-    return log(reading->velocity / reading->velocity_before);
-}
-
-static Estimate direct_of(const ProgramReading *reading)
-{
-    double ln = logarithm(reading);
-    return (Estimate){reading->peak.value / ln, reading->peak.error / fabs(ln)};
-}
-
-static Estimate change_of(const ProgramReading *reading)
-{
-    double ln = logarithm(reading);
-    return (Estimate){(reading->after.value - reading->before.value) / ln,
-                      (reading->after.error + reading->before.error) / fabs(ln)};
-}
-
-static bool heals(const ProgramReadings *readings, int32_t k, ProgramReading *reading)
-{
-    return reading_at(readings, k, reading) && reading->kind == READING_HOLD &&
-           !isnan(reading->peak.value);
-}
-
-// A straight line of healing over the logarithm of the time held: its slope.
-static Estimate healing_of(const ProgramReadings *readings)
-{
-    ProgramReading reading;
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, parts = 0;
-    for (int32_t k = 0; k <= readings->count; k++) {
-        if (!heals(readings, k, &reading)) continue;
-        double dx = log10(reading.duration) - x, dy = reading.peak.value - y;   // from means so far
-        n++;
-        x += dx / n;
-        y += dy / n;
-        xx += dx * dx * (n - 1) / n;
-        xy += dx * dy * (n - 1) / n;
-        yy += dy * dy * (n - 1) / n;
-    }
-    if (!(xx > 1e-12 * (1 + x * x))) return NONE;
-    double slope = xy / xx, rest = fmax(yy - slope * xy, 0);
-    for (int32_t k = 0; k <= readings->count; k++)
-        if (heals(readings, k, &reading))
-            parts += fabs(log10(reading.duration) - x) / xx * reading.peak.error;
-    return (Estimate){slope, parts + (n > 2 ? sqrt(rest / (n - 2) / xx) : 0)};
-}
-
-// Widens *all to hold the bar of `one` where it is known.
-static void span(Estimate *all, Estimate one)
-{
-    if (isnan(one.value)) return;
-    double low = fmin(all->value - all->error, one.value - one.error);   // NaN counts for nothing
-    double high = fmax(all->value + all->error, one.value + one.error);
-    *all = (Estimate){0.5 * (low + high), 0.5 * (high - low)};
-}
-
-ProgramSums program_readings_sum(const ProgramReadings *readings)
-{
-    ProgramSums sums = {0, 0, NONE, NONE, NONE, healing_of(readings)};
-    ProgramReading reading;
-    for (int32_t k = 0; reading_at(readings, k, &reading); k++) {
-        if (reading.kind == READING_HOLD) sums.holds++;
-        if (reading.kind != READING_STEP) continue;
-        sums.steps++;
-        span(&sums.direct, direct_of(&reading));
-        span(&sums.change, change_of(&reading));
-        span(&sums.distance, reading.distance);
-    }
-    return sums;
-}
-
-static const char *why_not(const ProgramReading *reading)
-{
-    if (isnan(reading->before.value)) return "mu was not steady before";
-    if (reading->kind == READING_HOLD && reading->velocity != reading->velocity_before)
-        return "the rod goes on with another velocity";
-    if (isnan(reading->peak.value)) return "the contact never had the rod's velocity as a whole";
-    if (reading->kind == READING_HOLD) return NULL;
-    if (isnan(reading->after.value)) return "mu was not steady after";
-    return isnan(reading->distance.value) ? "no change of mu with slip stands out" : NULL;
-}
-
-static void write_estimate(JsonWriter *json, const char *name, const char *error, Estimate value)
-{
-    json_number(json, name, value.value);
-    json_number(json, error, value.error);
-}
-
-static void write_step(JsonWriter *json, const ProgramReading *reading)
-{
-    json_number(json, "t", reading->t);
-    json_number(json, "U", reading->U);
-    json_number(json, "velocity_before", reading->velocity_before);
-    json_number(json, "velocity", reading->velocity);
-    write_estimate(json, "mu_before", "mu_before_error", reading->before);
-    write_estimate(json, "direct", "direct_error", reading->peak);
-    write_estimate(json, "direct_per_ln", "direct_per_ln_error", direct_of(reading));
-    write_estimate(json, "mu_after", "mu_after_error", reading->after);
-    write_estimate(json, "change_per_ln", "change_per_ln_error", change_of(reading));
-    write_estimate(json, "slip_distance", "slip_distance_error", reading->distance);
-}
-
-static void write_hold(JsonWriter *json, const ProgramReading *reading)
-{
-    json_number(json, "t", reading->t);
-    json_number(json, "U", reading->U);
-    json_number(json, "duration", reading->duration);
-    write_estimate(json, "mu_before", "mu_before_error", reading->before);
-    write_estimate(json, "healing", "healing_error", reading->peak);
-}
-
-void program_readings_json(const ProgramReadings *readings, JsonWriter *json)
-{
-    static const char *const lists[] = {[READING_STEP] = "steps", [READING_HOLD] = "holds"};
-    ProgramReading reading;
-    json_begin_object(json, "program");
-    for (int32_t kind = READING_STEP; kind < READING_KINDS; kind++) {
-        json_begin_list(json, lists[kind]);
-        for (int32_t k = 0; reading_at(readings, k, &reading); k++) {
-            if (reading.kind != kind) continue;
-            json_begin_object(json, NULL);
-            if (kind == READING_STEP)
-                write_step(json, &reading);
-            else
-                write_hold(json, &reading);
-            json_text(json, "why_not", why_not(&reading));
-            json_end(json);
-        }
-        json_end(json);
-    }
-    ProgramSums sums = program_readings_sum(readings);
-    write_estimate(json, "direct_per_ln", "direct_per_ln_error", sums.direct);
-    write_estimate(json, "change_per_ln", "change_per_ln_error", sums.change);
-    write_estimate(json, "slip_distance", "slip_distance_error", sums.distance);
-    write_estimate(json, "healing_per_decade", "healing_per_decade_error", sums.healing);
-    json_end(json);
-}
-
 // --- checkpoints --------------------------------------------------------------------------------
 
 static void archive_estimate(Estimate *estimate, Archive *archive)
 {
-    archive_number(archive, &estimate->value);
-    archive_number(archive, &estimate->error);
+    archive_numbers_of(archive, &estimate->value, &estimate->error);
 }
 
 static void archive_reading(ProgramReading *reading, Archive *archive)
 {
     archive_index(archive, &reading->kind, 0, READING_KINDS);
-    archive_number(archive, &reading->t);
-    archive_number(archive, &reading->U);
-    archive_number(archive, &reading->velocity_before);
-    archive_number(archive, &reading->velocity);
-    archive_number(archive, &reading->duration);
+    archive_numbers_of(archive, &reading->t, &reading->U, &reading->velocity_before,
+                       &reading->velocity, &reading->duration);
     archive_estimate(&reading->before, archive);
     archive_estimate(&reading->after, archive);
     archive_estimate(&reading->peak, archive);
@@ -416,19 +271,14 @@ static void archive_stretch(ProgramStretch *stretch, Archive *archive)
     ProgramTop *top = &stretch->top;
     archive_reading(&stretch->reading, archive);
     archive_flag(archive, &stretch->level);
-    archive_number(archive, &stretch->begins);
-    archive_number(archive, &stretch->ends);
-    archive_number(archive, &stretch->mu);
-    archive_number(archive, &stretch->slip);
-    archive_number(archive, &stretch->width);
+    archive_numbers_of(archive, &stretch->begins, &stretch->ends, &stretch->mu, &stretch->slip,
+                       &stretch->width);
     archive_index(archive, &stretch->count, 0, PROGRAM_BINS + 1);
     archive_numbers(archive, stretch->at, stretch->count);
     archive_numbers(archive, stretch->first, stretch->count);
     archive_numbers(archive, stretch->low, stretch->count);
     archive_numbers(archive, stretch->high, stretch->count);
-    archive_number(archive, &top->mu);
-    archive_number(archive, &top->slip);
-    archive_number(archive, &top->off);
+    archive_numbers_of(archive, &top->mu, &top->slip, &top->off);
     archive_flag(archive, &stretch->fell);
 }
 
@@ -437,9 +287,7 @@ void program_readings_archive(ProgramReadings *readings, Archive *archive)
     if (!readings->course) return;
     archive_section(archive, "program readings");
     archive_flag(archive, &readings->started);
-    archive_number(archive, &readings->mu);
-    archive_number(archive, &readings->slip);
-    archive_number(archive, &readings->U);
+    archive_numbers_of(archive, &readings->mu, &readings->slip, &readings->U);
     archive_stretch(&readings->now, archive);
     archive_index(archive, &readings->count, 0, PROGRAM_READINGS_MAX + 1);
     for (int32_t k = 0; k < readings->count; k++) archive_reading(&readings->list[k], archive);

@@ -12,17 +12,14 @@
 //                     moved from the quarter before, which holds if slip goes on for twice the
 //                     slip distance
 //     slip distance   from there on until 1/e of what mu still has to go to the new level is left
-//     healing         the first peak of mu after a hold, less the level before the hold; per decade
-//                     of time by a straight line. Its error: the standard error of the line, and
-//                     what the errors of the healings can do to its slope
+//     healing         the first peak of mu after a hold, less the level before the hold
 //
 // Errors add up what levels, velocities, slip so far and bins leave open. Made by run/ only where a
-// program has jumps (program_jumps); written by run/report.
+// program has jumps (program_jumps); record/program_results says what they come to.
 #ifndef AMONTONS_RECORD_PROGRAM_READINGS_H
 #define AMONTONS_RECORD_PROGRAM_READINGS_H
 
 #include "contact/rod_course.h"
-#include "io/text/json_writer.h"
 #include "record/observation.h"
 #include "record/series.h"
 
@@ -70,19 +67,12 @@ typedef struct ProgramReadings {
     ProgramReading list[PROGRAM_READINGS_MAX];
 } ProgramReadings;
 
-// A bar holds those of all velocity steps in which they are known; NaN: none.
-typedef struct ProgramSums {
-    int32_t steps, holds;
-    Estimate direct, change;   // per ln(V2/V1)
-    Estimate distance, healing;   // length; per decade of time held
-} ProgramSums;
-
 bool program_jumps(const RodCourse *course);   // its velocity does, somewhere
 ProgramReadings program_readings_of(const RodCourse *course);   // after start of its programs
 bool program_readings_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-ProgramSums program_readings_sum(const ProgramReadings *readings);
-void program_readings_json(const ProgramReadings *readings, JsonWriter *json);   // results.program
+// Number k of those that are over, and of the one under way. false: there are no more.
+bool program_readings_at(const ProgramReadings *readings, int32_t k, ProgramReading *reading);
 void program_readings_archive(ProgramReadings *readings, Archive *archive);
 
 #endif

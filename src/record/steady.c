@@ -95,11 +95,6 @@ void steady_archive(Steady *steady, Archive *archive)
 {
     archive_section(archive, "steady");
     archive_flag(archive, &steady->slides);
-    archive_number(archive, &steady->from);
-    archive_number(archive, &steady->to);
-    archive_number(archive, &steady->low);
-    archive_number(archive, &steady->high);
-    archive_number(archive, &steady->sum);
-    archive_number(archive, &steady->before.value);
-    archive_number(archive, &steady->before.error);
+    archive_numbers_of(archive, &steady->from, &steady->to, &steady->low, &steady->high,
+                       &steady->sum, &steady->before.value, &steady->before.error);
 }

@@ -82,9 +82,6 @@ void turning_write_json(const Turning *turning, JsonWriter *json)
 void turning_archive(Turning *turning, Archive *archive)
 {
     archive_section(archive, "turning");
-    archive_number(archive, &turning->angle);
-    archive_number(archive, &turning->drift);
-    archive_number(archive, &turning->across);
-    archive_number(archive, &turning->way);
-    archive_number(archive, &turning->breadth);
+    archive_numbers_of(archive, &turning->angle, &turning->drift, &turning->across, &turning->way,
+                       &turning->breadth);
 }

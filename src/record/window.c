@@ -49,11 +49,10 @@ static bool record_inside(Window *window, const Observation *seen, Error *err)
 bool window_record(void *self, const Observation *seen, Error *err)
 {
     Window *window = self;
-    TRY(record_inside(window, seen, err));
-    if (seen->t > window->furthest) TRY(recorders_record(&window->outside, seen, err));
+    if (!record_inside(window, seen, err)) return false;
+    if (seen->t > window->furthest && !recorders_record(&window->outside, seen, err)) return false;
     if (!window->found) follow_slidings(window, seen);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void window_close(Window *window, double begin)
@@ -80,11 +79,9 @@ void window_archive(Window *window, Archive *archive)
     archive_integer(archive, &window->slidings);
     archive_flag(archive, &window->slides);
     archive_flag(archive, &window->ended);
-    archive_number(archive, &window->before);
-    archive_number(archive, &window->onset);
+    archive_numbers_of(archive, &window->before, &window->onset);
     archive_flag(archive, &window->found);
-    archive_number(archive, &window->begin);
-    archive_number(archive, &window->end);
+    archive_numbers_of(archive, &window->begin, &window->end);
     archive_flag(archive, &window->again);
     archive_number(archive, &window->furthest);
 }

@@ -268,17 +268,17 @@ static bool take_up(Basis *basis, const Extension *x, Error *err)
 {
     int64_t m = x->m, count = x->count, added = x->added;
     for (int term = 0; term < BULK_TERMS; term++) {
-        TRY(extend_square(&basis->interior[term], x, (BulkTerm)term, err));
-        if (term != BULK_STIFFNESS)
-            TRY(append(&basis->beside[term], m, count, x->beside[term], added, err));
+        if (!extend_square(&basis->interior[term], x, (BulkTerm)term, err)) return false;
+        if (term != BULK_STIFFNESS &&
+            !append(&basis->beside[term], m, count, x->beside[term], added, err))
+            return false;
     }
-    TRY(extend_lower(basis, x, err));
-    TRY(append(&basis->parts, m, count, x->parts, added, err));
-    TRY(append(&basis->load, 1, m + count, x->load, added, err));
+    if (!extend_lower(basis, x, err)) return false;
+    if (!append(&basis->parts, m, count, x->parts, added, err)) return false;
+    if (!append(&basis->load, 1, m + count, x->load, added, err)) return false;
     responses_keep(&basis->responses);
     basis->interior_count = (int32_t)(count + added);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool basis_extend(Basis *basis, Error *err)

@@ -58,13 +58,12 @@ static bool list_modes(const Bulk *mesh, const FarPatches *patches, Transform *b
     int64_t entries = dofs;
     for (int32_t p = 0; p < patches->count; p++)
         entries += (int64_t)patches->modes[p].size * patches->modes[p].count;
-    TRY(transform_create(dofs, dofs, entries, by, err));
+    if (!transform_create(dofs, dofs, entries, by, err)) return false;
     for (int32_t dof = 0; dof < dofs; dof++)
         if (patches->of[dof] == NO_PATCH) *transform_append(by, &dof, 1, 1) = 1;
     for (int32_t p = 0; p < patches->count; p++)
-        TRY(append_patch(mesh, &patches->modes[p], by, err));
-cleanup:
-    return error_is_clean(err);
+        if (!append_patch(mesh, &patches->modes[p], by, err)) return false;
+    return true;
 }
 
 bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t interface_count,

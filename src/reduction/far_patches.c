@@ -183,11 +183,10 @@ bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatch
                        Error *err)
 {
     for (int32_t p = 0; p < patches->count; p++) {
-        TRY(copy_stiffness(bulk, unit, patches, p, err));
-        TRY(patch_modes_make_room(&patches->modes[p], expected, err));
+        if (!copy_stiffness(bulk, unit, patches, p, err)) return false;
+        if (!patch_modes_make_room(&patches->modes[p], expected, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 double far_patches_left(double unknowns, double interface_count)

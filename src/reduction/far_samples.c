@@ -108,14 +108,14 @@ static bool begin_patches(Sampling *work, Error *err)
 {
     FarPatches *patches = work->samples->patches;
     int32_t size = 0;
-    TRY((work->busy = NEW_ARRAY(bool, patches->count, err)));
-    TRY(far_patches_begin(work->mesh->bulk, work->def->scales.stiffness, ROOM, patches, err));
+    if (!(work->busy = NEW_ARRAY(bool, patches->count, err))) return false;
+    if (!far_patches_begin(work->mesh->bulk, work->def->scales.stiffness, ROOM, patches, err))
+        return false;
     for (int32_t p = 0; p < patches->count; p++)
         if (patches->modes[p].size > size) size = patches->modes[p].size;
     for (int32_t k = 0; k < parallel_workers(); k++)
-        TRY(far_room_create(size, CHUNK + 1, &work->room[k], err));
-cleanup:
-    return error_is_clean(err);
+        if (!far_room_create(size, CHUNK + 1, &work->room[k], err)) return false;
+    return true;
 }
 
 static bool sampling_begin(Sampling *work, Error *err)
@@ -125,15 +125,14 @@ static bool sampling_begin(Sampling *work, Error *err)
     const BulkScales *scales = &work->def->scales;
     int64_t m = mesh->interface_count;
     OperatorTerms terms = {.stiffness = 1 / scales->stiffness, .lift = true};
-    TRY((work->statics = interface_operator_create(mesh, terms, err)));
-    TRY(inertia_slowest(mesh, scales, work->statics, &samples->slowest, err));
+    if (!(work->statics = interface_operator_create(mesh, terms, err))) return false;
+    if (!inertia_slowest(mesh, scales, work->statics, &samples->slowest, err)) return false;
     list_points(work, inertia_element(mesh->bulk, scales, mesh->interface_dofs, (int32_t)m));
-    TRY(begin_patches(work, err));
+    if (!begin_patches(work, err)) return false;
     samples->stiffness = NEW_ARRAY(double, m *m, err);
     work->lifted = NEW_ARRAY(double, m *m, err);
     work->asked = NEW_ARRAY(double, m *CHUNK, err);
     work->fields = NEW_ARRAY(double, (int64_t)mesh->dof_count *(CHUNK + 1), err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -176,14 +175,13 @@ static bool add_to_patches(Sampling *work, int32_t columns, double least, int32_
                  .fields = dense_view(work->fields, work->mesh->dof_count, columns),
                  .least = least};
     for (int32_t p = 0; p < patches->count; p++)
-        if (work->busy[p]) TRY(patch_modes_make_room(&patches->modes[p], columns, err));
+        if (work->busy[p] && !patch_modes_make_room(&patches->modes[p], columns, err)) return false;
     parallel_for(patches->count, add_to_patch, &turn);
     if (turn.failed)
-        FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of modes far from the interface");
+        return FAULT(err, ERROR_LIBRARY, "LAPACK: no energies of modes far from the interface");
     *left = 0;
     for (int32_t p = 0; p < patches->count; p++) *left += work->busy[p];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Boundary motions of energy 1 on average, of S = L L': L^-T times signs.
@@ -197,12 +195,11 @@ static bool sample(Sampling *work, InterfaceOperator *full, const double *held, 
     for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m; asked += CHUNK) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
         dense_lower_divide_transposed(work->lower, m, CHUNK, work->asked);
-        TRY(interface_operator_respond(full, work->asked, CHUNK, work->fields, err));
-        TRY(add_to_patches(work, CHUNK + loads, least, &left, err));
+        if (!interface_operator_respond(full, work->asked, CHUNK, work->fields, err)) return false;
+        if (!add_to_patches(work, CHUNK + loads, least, &left, err)) return false;
         loads = 0;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool factor_statics(Sampling *work, Error *err)
@@ -214,9 +211,8 @@ static bool factor_statics(Sampling *work, Error *err)
     for (int64_t j = 0; j < m; j++) sum += schur[j * (m + 1)];
     for (int64_t j = 0; j < m; j++) work->lifted[j * (m + 1)] += LIFT * sum / (double)m;
     if (!dense_cholesky(work->lifted, (int32_t)m))
-        FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_COMPUTE, "the interface operator is not positive definite");
+    return true;
 }
 
 static bool sample_statics(Sampling *work, Error *err)

@@ -51,20 +51,19 @@ static bool list_rigid_motions(const Bulk *bulk, const double *position, BulkOpe
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err)
 {
-    TRY(allocate_full(bulk, interface_dofs, interface_count, system, err));
+    if (!allocate_full(bulk, interface_dofs, interface_count, system, err)) return false;
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
-    if (position) TRY(list_rigid_motions(bulk, position, system, err));
+    if (position && !list_rigid_motions(bulk, position, system, err)) return false;
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
-cleanup:
     return error_is_clean(err);
 }
 
 bool bulk_operator_copy(const BulkOperator *from, BulkOperator *system, Error *err)
 {
-    TRY(allocate_full(from->bulk, from->interface_dofs, from->interface_count, system, err));
+    if (!allocate_full(from->bulk, from->interface_dofs, from->interface_count, system, err))
+        return false;
     memcpy(system->load, from->load, (size_t)from->dof_count * sizeof(double));
     system->analysis = sparse_analysis_copy(from->analysis, err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -80,7 +79,7 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, double length, double mass
     int32_t border = reduced->interface_count + reduced->mirrored,
             motions = rigid_count(reduced->dim);
     system->rigid = NEW_ARRAY(double, (int64_t)motions * reduced->count, err);
-    if (!error_is_clean(err)) goto cleanup;
+    if (!error_is_clean(err)) return false;
     for (int32_t which = 0; reduced->rigid && which < motions; which++)
         for (int32_t k = 0; k < border; k++)
             system->rigid[which * reduced->count + k] = (which < reduced->dim ? 1 : length) *
@@ -89,7 +88,6 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, double length, double mass
     for (int32_t k = 0; k < reduced->count; k++)
         system->load[k] = reduced->scales.load * reduced->load[k];
     system->small = reduced_operator_create(reduced, err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -294,8 +292,7 @@ void bulk_operator_archive(BulkOperator *system, Archive *archive)
 {
     archive_section(archive, "bulk");
     archive_numbers(archive, system->load, system->dof_count);
-    archive_count(archive, &system->factorisations);
-    archive_count(archive, &system->solves);
+    archive_counts_of(archive, &system->factorisations, &system->solves);
 }
 
 static void hash_numbers(Hash *hash, const double *numbers, int64_t count)

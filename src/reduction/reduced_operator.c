@@ -89,7 +89,7 @@ static bool condense_mirrored(const double *border, int32_t m, int32_t n, Mirror
     int64_t all = m + n;
     mirrored->follow = NEW_ARRAY(double, (int64_t)n *m, err);
     mirrored->lower = NEW_ARRAY(double, (int64_t)n *n, err);
-    if (!error_is_clean(err)) goto cleanup;
+    if (!error_is_clean(err)) return false;
     for (int64_t j = 0; j < m; j++) {
         memcpy(mirrored->follow + j * n, border + j * all + m, (size_t)n * sizeof *border);
         memcpy(schur + j * m, border + j * all, (size_t)m * sizeof *schur);
@@ -97,12 +97,11 @@ static bool condense_mirrored(const double *border, int32_t m, int32_t n, Mirror
     for (int64_t j = 0; j < n; j++)
         memcpy(mirrored->lower + j * n, border + (m + j) * all + m, (size_t)n * sizeof *border);
     if (!dense_cholesky(mirrored->lower, n))
-        FAIL(err, ERROR_COMPUTE, "mirror images of the interface are not held by it");
+        return FAULT(err, ERROR_COMPUTE, "mirror images of the interface are not held by it");
     DenseView half = dense_view(mirrored->follow, n, m);
     dense_lower_divide(mirrored->lower, n, m, mirrored->follow);
     if (n > 0) dense_multiply_transposed(half, half, -1, 1, schur);
     dense_lower_divide_transposed(mirrored->lower, n, m, mirrored->follow);
-cleanup:
     return error_is_clean(err);
 }
 

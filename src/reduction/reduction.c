@@ -62,11 +62,10 @@ static void builder_destroy(Builder *work)
 static bool builder_create(Builder *work, Error *err)
 {
     int32_t m = work->full->interface_count;
-    TRY(basis_create(work->full, &work->def->scales, &work->basis, err));
+    if (!basis_create(work->full, &work->def->scales, &work->basis, err)) return false;
     work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
     work->values = NEW_ARRAY(double, m, err);
     work->eigen_work = NEW_ARRAY(double, dense_eigen_work(m), err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -83,9 +82,8 @@ static bool compare(Builder *work, const double *schur, double allowed, Error *e
     dense_add_scaled(-1, schur, m * m, work->excess);
     dense_divide_both_sides(work->lower, m, work->excess);
     if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
-        FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
+    return true;
 }
 
 // Responses of the full mesh to the last `wanted` columns of `excess`, scaled so that what they
@@ -146,12 +144,11 @@ static bool compare_at(Builder *work, ParameterPoint point, const double *schur,
     double allowed = allowed_error(work, point);
     double least = -NEGATIVE_LIMIT * allowed - parameter_error_allowed(&work->training, point, 0);
     bool definite = false;
-    TRY(condense_basis(work, point, &definite, err));
-    if (definite) TRY(compare(work, schur, allowed, err));
+    if (!condense_basis(work, point, &definite, err)) return false;
+    if (definite && !compare(work, schur, allowed, err)) return false;
     work->spoiled = !definite || work->values[0] < least;
-    if (work->spoiled) FAIL(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
-cleanup:
-    return error_is_clean(err);
+    if (work->spoiled) return FAULT(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
+    return true;
 }
 
 // Adds what the basis lacks at `point`; *left: the error of S there afterwards.
@@ -192,12 +189,11 @@ static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error 
     Builder *work = self;
     TrainingPoint now = work->training.points[k];
     double left = 0, *error = &work->part->errors.error[now.level];
-    TRY(train_at(work, now.point, full, &left, err));
+    if (!train_at(work, now.point, full, &left, err)) return false;
     // What the last one added is looked at, too.
-    if (k == work->training.count - 1) TRY(train_at(work, now.point, full, &left, err));
+    if (k == work->training.count - 1 && !train_at(work, now.point, full, &left, err)) return false;
     *error = fmax(*error, left);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Far beyond an element S is the interface's own mass: the mass matrix is diagonal.
@@ -275,20 +271,20 @@ cleanup:
 static bool build_on(Builder *work, Error *err)
 {
     const ReductionDef *def = work->def;
-    TRY(builder_create(work, err));
+    if (!builder_create(work, err)) return false;
     work->basis.loss_max = LOSS_LIMIT;
     if (!train_basis(work, err) && work->spoiled) {
         error_clear(err);
         basis_destroy(&work->basis);
         work->part->errors = (ReductionErrors){0};
-        TRY(basis_create(work->full, &def->scales, &work->basis, err));   // loss_max is 0
+        if (!basis_create(work->full, &def->scales, &work->basis, err))
+            return false;   // loss_max is 0
         train_basis(work, err);
     }
-    if (!error_is_clean(err)) goto cleanup;
-    TRY(basis_finish(&work->basis, def->modes, work->part, err));
-    if (def->modes && work->far.used) TRY(expand_modes(work, err));
+    if (!error_is_clean(err)) return false;
+    if (!basis_finish(&work->basis, def->modes, work->part, err)) return false;
+    if (def->modes && work->far.used && !expand_modes(work, err)) return false;
     if (work->far.used) add_far_field(work);
-cleanup:
     return error_is_clean(err);
 }
 

@@ -66,24 +66,24 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
     double length = mesh->x_max - mesh->x_min;
     *block = (ReductionBlock){.materials = normalise(materials)};
     int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
-    TRY((block->position = NEW_ARRAY(double, numbers, err)));
+    if (!(block->position = NEW_ARRAY(double, numbers, err))) return false;
     for (int64_t k = 0; k < numbers; k++) {
         double start = k % mesh->dim == 0 ? mesh->x_min : 0;
         block->position[k] = put_on_grid((mesh->position[k] - start) / length);
     }
     // A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
     for (int32_t axis = 0; axis < mesh->dim - 1; axis++)
-        TRY(mirror_nodes_find(mesh->dim, axis, block->position, mesh->node_count,
-                              &block->image[axis], err));
+        if (!mirror_nodes_find(mesh->dim, axis, block->position, mesh->node_count,
+                               &block->image[axis], err))
+            return false;
     Mesh scaled = *mesh;   // borrows all but the positions
     scaled.position = block->position;
-    TRY(bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err));
+    if (!bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err)) return false;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         if (bulk->held[dof]) bulk_hold(dof, &block->bulk);
         block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Of several materials all numbers, and where each is.

@@ -49,11 +49,10 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
         responses->room[k].image = NEW_ARRAY(double, dofs *RESPONSES_TOGETHER, err);
         responses->room[k].work = NEW_ARRAY(double, dofs *SPARSE_WIDE, err);
     }
-    if (!error_is_clean(err)) goto cleanup;
+    if (!error_is_clean(err)) return false;
     // Without a load every response to it is 0, in any unit.
     double scale = scales->load > 0 ? scales->load : 1;
     for (int32_t k = 0; k < bulk->dof_count; k++) responses->unit_load[k] = bulk->load[k] / scale;
-cleanup:
     return error_is_clean(err);
 }
 

@@ -174,12 +174,11 @@ static bool count_entries(Congruence *work, Error *err)
         if (block->count > work->most_columns) work->most_columns = block->count;
         for (int32_t j = block->first; j < block->first + block->count; j++) {
             entries += columns;
-            if (entries > INT32_MAX) FAIL(err, ERROR_COMPUTE, "too many entries are left");
+            if (entries > INT32_MAX) return FAULT(err, ERROR_COMPUTE, "too many entries are left");
             work->to->start[j + 1] = (int32_t)entries;
         }
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void fill_pattern(const Congruence *work, const TransformBlock *block)

@@ -43,10 +43,9 @@ static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
     for (int32_t k = 0; k < count && !accuracy->out_of_time; k++) {
         accuracy->out_of_time = !has_time_for(accuracy, 1);
         if (accuracy->out_of_time) break;
-        TRY(accuracy_run_member(accuracy, NULL, err));
+        if (!accuracy_run_member(accuracy, NULL, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void begin_level(Accuracy *accuracy, double refine)
@@ -64,13 +63,10 @@ static bool first_level(Accuracy *accuracy, Error *err)
         accuracy_run_member(accuracy, last ? NULL : &coarse, err);
         if (!coarse && (last || error_is_clean(err))) break;
         if (err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) *err = (Error){0};
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
         accuracy->levels.count--;
     }
-    TRY(error_is_clean(err));
-    TRY(add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err));
-cleanup:
-    return error_is_clean(err);
+    return error_is_clean(err) && add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err);
 }
 
 static const ErrorBar *asked(const Accuracy *accuracy)
@@ -145,18 +141,16 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
     bool coarse = true;
     for (int32_t k = accuracy->levels.count + 1; coarse; k++) {
         coarse = false;
-        TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
+        if (!try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err)) return false;
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
         accuracy->out_of_time = growth_ahead(accuracy, accuracy->step) *
                                     accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;
-        if (accuracy->out_of_time) goto cleanup;
+        if (accuracy->out_of_time) return true;
     }
-    TRY(add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err));
-cleanup:
-    return error_is_clean(err);
+    return add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err);
 }
 
 // --- what next ----------------------------------------------------------------------------------
@@ -232,18 +226,17 @@ cleanup:
 static bool find_levels(Accuracy *accuracy, Error *err)
 {
     bool ended = false;
-    TRY(first_level(accuracy, err));
+    if (!first_level(accuracy, err)) return false;
     if (!levels_have_runs(&accuracy->levels)) ended = end_here(accuracy, NO_TIME);
     if (!ended) show_level(accuracy);
     while (!ended) {
         int32_t before = accuracy->levels.count, runs = accuracy_last_level(accuracy)->run_count;
-        TRY(go_on(accuracy, &ended, err));
+        if (!go_on(accuracy, &ended, err)) return false;
         bool new = accuracy->levels.count != before ||
                    accuracy_last_level(accuracy)->run_count != runs;
         if (new) show_level(accuracy);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Branches, not the mesh, are why the bar is not met, and more runs may mend it.
@@ -263,7 +256,7 @@ static bool is_time_up(const Accuracy *accuracy, Simulation *simulation, Error *
     *err = (Error){0};
     warnings_add(
         &simulation->warnings,
-        "the run in full was cut short at U = %g: time was up (--within, accuracy.within); "
+        "the run in full was cut short: time was up at U = %g (--within, accuracy.within); "
         "history and pictures end there, the error bar is of the runs before",
         simulation->seen.U);
     return true;
@@ -274,7 +267,7 @@ static bool report_cut(Accuracy *accuracy, ResultFolder *folder, RunSummary *sum
 {
     Simulation *simulation = accuracy->cut;
     const LevelCut *cut = &accuracy->levels.cut;
-    TRY(result_folder_clear(folder, err) && result_folder_settle(folder, err));
+    if (!(result_folder_clear(folder, err) && result_folder_settle(folder, err))) return false;
     simulation->folder = *folder;   // its lock, too
     *folder = (ResultFolder){0};
     simulation->options.on_report = accuracy->options->on_report;
@@ -287,9 +280,7 @@ static bool report_cut(Accuracy *accuracy, ResultFolder *folder, RunSummary *sum
                  "error bar not met: its first run was cut short (%d contact nodes, %.0f %% of its "
                  "way): time was up (--within, accuracy.within)",
                  cut->contact_nodes, isnan(cut->part) ? 0 : 100 * cut->part);
-    TRY(simulation_finish(simulation, NULL, summary, err));
-cleanup:
-    return error_is_clean(err);
+    return simulation_finish(simulation, NULL, summary, err);
 }
 
 // The scene itself on the last mesh, with its files. It counts as one more run where it goes on for

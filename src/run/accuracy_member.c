@@ -122,7 +122,7 @@ static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
 static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait *wait, Error *err)
 {
     for (bool finished = false; !finished;) {
-        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
         end_wait_watch(wait, simulation);
         if (slides_steadily(accuracy, simulation)) break;
         if (finished && goes_on(accuracy, simulation)) finished = false;
@@ -130,10 +130,9 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait
             accuracy->so_far = answers_of(&simulation->drops);
             finished = finished || accuracy_is_known(accuracy, &accuracy->so_far);
         }
-        if (!finished) TRY(simulation_may_go_on(simulation, err));
+        if (!finished && !simulation_may_go_on(simulation, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool contact_has_nodes(const Interface *interface)

@@ -73,13 +73,11 @@ bool checkpoint_read(const char *folder, SavedState *state, Error *err)
     char path[PATH_SIZE];
     find_path(folder, path);
     if (access(path, F_OK) != 0)
-        FAIL(err, ERROR_INPUT,
-             "%s has no %s to go on from: the run ended before its first one, or wrote none; say "
-             "--overwrite to begin anew",
-             folder, CHECKPOINT_FILE);
-    TRY(amontons_state_read(path, state, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s has no %s to go on from: the run ended before its first one, or wrote "
+                      "none; say --overwrite to begin anew",
+                      folder, CHECKPOINT_FILE);
+    return amontons_state_read(path, state, err);
 }
 
 typedef struct HistoryTry {

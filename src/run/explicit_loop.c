@@ -19,12 +19,12 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
     StepControl *control = &simulation->control;
     double step = 0, interval = simulation->t_end / RECORDS;
     if (scene->time.scheme != SCHEME_EXPLICIT) return true;
-    TRY(stable_step(&simulation->model.bulk, &step, err));
+    if (!stable_step(&simulation->model.bulk, &step, err)) return false;
     if (scene->time.step_max > 0) step = fmin(step, scene->time.step_max);
     double steps = ceil(interval / step);
     if (steps < 1 || steps > 1e15)
-        FAIL(err, ERROR_COMPUTE, "explicit steps of %g in %g of time cannot be counted", step,
-             interval);
+        return FAULT(err, ERROR_COMPUTE, "explicit steps of %g in %g of time cannot be counted",
+                     step, interval);
     simulation->explicit_steps = (int64_t)steps;
     ExplicitDef def = {.bulk = &simulation->model.bulk,
                        .interface = &simulation->model.interface,
@@ -33,11 +33,10 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
                        .course = control->scheme.course,
                        .step = interval / steps,
                        .stage_laws = control->scheme.memory.laws};
-    TRY(explicit_reference_create(&def, &simulation->explicit_reference, err));
+    if (!explicit_reference_create(&def, &simulation->explicit_reference, err)) return false;
     explicit_reference_start(&simulation->explicit_reference, &control->now);
     step_control_use_explicit(control, &simulation->explicit_reference);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // One record: explicit_steps steps.

@@ -21,13 +21,13 @@ bool kept_states_archive(KeptStates *kept, Archive *archive, Error *err)
         archive_number(archive, &kept->times[k]);
         archive_count(archive, &size);
         if (archive_reads(archive)) {
-            if (size < 0 || size > archive->size) FAIL(err, ERROR_FILE, "a saved state is damaged");
+            if (size < 0 || size > archive->size)
+                return FAULT(err, ERROR_FILE, "a saved state is damaged");
             *state = (SavedState){.size = size};
-            TRY((state->bytes = memory_bytes(size, err)));
+            if (!(state->bytes = memory_bytes(size, err))) return false;
             kept->count++;
         }
         archive_octets(archive, state->bytes, size);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

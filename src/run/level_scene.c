@@ -13,12 +13,11 @@ bool scene_refine(Scene *scene, double refine, Error *err)
         return true;
     }
     if (k == SCENE_LIST_MAX)
-        FAIL(err, ERROR_INPUT, "%s: mesh.set: no room for `refine` beside %d parameters",
-             scene->path, k);
+        return REFUSE(err, "%s: mesh.set: no room for `refine` beside %d parameters", scene->path,
+                      k);
     scene->mesh.parameters[k] = (MeshParameter){.name = "refine", .value = refine};
     scene->mesh.parameter_count++;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void scene_scale_loads(Scene *scene, double factor)

@@ -32,7 +32,7 @@ static bool add_faces(const ContactFaces *faces, ResultHead *head, double **poin
 {
     int64_t count = (int64_t)faces->count * faces->width;
     if (count == 0) return true;
-    TRY(*points = NEW_ARRAY(double, count, err));
+    if (!(*points = NEW_ARRAY(double, count, err))) return false;
     for (int64_t k = 0; k < count; k++) (*points)[k] = faces->point[k];
     head->faces[FACES_NODES].rows = faces->count;
     head->faces[FACES_NODES].width = faces->width;
@@ -40,20 +40,23 @@ static bool add_faces(const ContactFaces *faces, ResultHead *head, double **poin
     head->faces[FACES_CORNERS].rows = faces->corner_count;
     head->faces[FACES_CORNERS].width = 2;
     head->faces[FACES_CORNERS].values = faces->corner;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
-// A line each, those of the scene's formulas.
-static const char *state_names(const Scene *scene, char *names, size_t size)
+// A line for each of `count`: those of the scene's formulas by their names; and their unit.
+static const char *state_names(const Scene *scene, int32_t count, char *names, size_t size)
 {
-    const SceneStates *states = &scene->own_friction.states;
+    const SceneStates *own = &scene->own_friction.states;
+    bool part = scene->friction.kind == FRICTION_SLIP_WEAKENING;
+    bool plugin = scene->friction.kind == FRICTION_PLUGIN;
     names[0] = 0;
-    for (int32_t k = 0; k < states->count; k++) {
+    for (int32_t k = 0; k < count; k++) {
         size_t used = strlen(names);
-        snprintf(names + used, size - used, "%s%s", k > 0 ? "\n" : "", states->state[k].name);
+        const char *name = k < own->count ? own->state[k].name : part ? "phi" : "theta";
+        used += (size_t)snprintf(names + used, size - used, "%s%s", k > 0 ? "\n" : "", name);
+        if (plugin) snprintf(names + used, size - used, "_%d", k + 1);
     }
-    return names;
+    return own->count > 0 || plugin ? "its own" : part ? "1" : "time";
 }
 
 // mu_M and l_c are NaN in the head: they are known at the end only.
@@ -70,7 +73,8 @@ static bool open_history(Simulation *simulation, Error *err)
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
         .states = simulation->contact.states,
-        .state_names = state_names(scene, names, sizeof names),
+        .state_names = names,
+        .state_unit = state_names(scene, simulation->contact.states, names, sizeof names),
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_TRAILING] = simulation->model.scales.trailing,
@@ -135,13 +139,13 @@ static bool open_fields(Simulation *simulation, Error *err)
         def.at_events = true;
         def.every_U = def.every_slip = step > 0 ? step : way / FILM_PARTS;
     }
-    TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
-                      &simulation->model.interface, &simulation->fields, err));
+    if (!fields_create(&def, simulation->folder.path, &simulation->model.mesh,
+                       &simulation->model.interface, &simulation->fields, err))
+        return false;
     simulation->fields.files.materials = simulation->model.materials.list;
     simulation->fields.law = &simulation->model.law;
     simulation->fields.events = &simulation->events;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // In a part of the run only what is inside the window is written: fields, and the history where it
@@ -152,23 +156,23 @@ bool output_open(Simulation *simulation, Error *err)
     Window *window = &simulation->window;
     WindowDef def = scene_window(scene);
     *window = window_of(&def, &simulation->events);
-    if (scene->output.compare[0])   // not found out when all is computed
-        TRY(scene_blame(scene, "output.compare", open_check(scene->output.compare, err), err));
+    const char *compared = scene->output.compare;   // not found out when all is computed
+    if (*compared && !scene_blame(scene, "output.compare", open_check(compared, err), err))
+        return false;
     if (scene->output.history) {
-        TRY(open_history(simulation, err));
+        if (!open_history(simulation, err)) return false;
         recorders_add(!def.given                     ? &simulation->recorders
                       : scene->output.window.history ? &window->inside
                                                      : &window->outside,
                       &simulation->history, history_record);
     }
     if (scene->output.fields) {
-        TRY(open_fields(simulation, err));
+        if (!open_fields(simulation, err)) return false;
         recorders_add(def.given ? &window->inside : &simulation->recorders, &simulation->fields,
                       fields_record);
     }
     if (def.given) recorders_add(&simulation->recorders, window, window_record);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void output_warn_of_window(Simulation *simulation)
@@ -216,8 +220,6 @@ bool output_draw_figures(Simulation *simulation, Error *err)
 
 bool output_begin_result(Simulation *simulation, Error *err)
 {
-    if (simulation->folder.aside) TRY(history_sync(&simulation->history, err));
-    TRY(result_folder_settle(&simulation->folder, err));
-cleanup:
-    return error_is_clean(err);
+    return (!simulation->folder.aside || history_sync(&simulation->history, err)) &&
+           result_folder_settle(&simulation->folder, err);
 }

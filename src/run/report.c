@@ -8,6 +8,7 @@
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"
+#include "record/program_results.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -42,12 +43,11 @@ static void write_kernels(JsonWriter *json)
     json_end(json);
 }
 
-// Rungs on which a step was accepted, the longest first. ladder: NULL where the run failed before
-// it had one.
+// Rungs on which a step was accepted, the longest first.
 static void write_rungs(JsonWriter *json, const Ladder *ladder)
 {
     json_begin_list(json, "rungs");
-    for (int32_t k = 0; ladder && k < ladder->rung_count; k++) {
+    for (int32_t k = 0; k < ladder->rung_count; k++) {
         if (ladder->accepted[k] == 0) continue;
         json_begin_object(json, NULL);
         json_number(json, "dt", ladder_step(ladder, k));
@@ -181,15 +181,15 @@ static void write_warnings(JsonWriter *json, const RunWarnings *warnings)
 
 static void write_results(JsonWriter *json, const RunReport *report)
 {
-    double length = report->model->length;
+    const Simulation *simulation = report->simulation;
     json_begin_object(json, "results");
-    answers_write_json(report->answers, report->drops, length, json);
-    steady_write_json(report->steady, report->answers, json);
-    write_slip(json, report->least_resolved, report->pads);
-    pads_write_json(report->pads, json);
-    if (report->model->interface.dim > 2) turning_write_json(report->turning, json);
-    if (report->readings->course) program_readings_json(report->readings, json);
-    write_events(json, report->events, report->pads);
+    answers_write_json(report->answers, &simulation->drops, simulation->model.length, json);
+    steady_write_json(&simulation->steady, report->answers, json);
+    write_slip(json, report->least_resolved, &simulation->pads);
+    pads_write_json(&simulation->pads, json);
+    if (simulation->model.interface.dim > 2) turning_write_json(&simulation->turning, json);
+    if (simulation->readings.course) program_results_json(&simulation->readings, json);
+    write_events(json, &simulation->events, &simulation->pads);
     json_end(json);
 }
 
@@ -209,6 +209,7 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
 // report->failure NULL: the run ended as it should.
 static void write_all(JsonWriter *json, const char *folder, const RunReport *report)
 {
+    const Simulation *simulation = report->simulation;
     char sources[HASH_TEXT_SIZE];
     Hash computation = computation_hash();
     hash_write(&computation, sources);
@@ -221,16 +222,16 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     json_text(json, "version", AMONTONS_VERSION);
     write_kernels(json);
     json_text(json, "sources", sources);
-    json_integer(json, "resumed", report->resumed);
-    write_warnings(json, report->warnings);
-    scene_write_json(report->scene, json, "scene", folder);
+    json_integer(json, "resumed", simulation->resumed);
+    write_warnings(json, &simulation->warnings);
+    scene_write_json(&simulation->scene, json, "scene", folder);
     write_steps(json, report->counters);
-    write_rungs(json, report->ladder);
-    write_timing(json, report->model, report->timing);
-    write_model(json, report->model, report->relaxation_steps);
+    write_rungs(json, &simulation->control.ladder);
+    write_timing(json, &simulation->model, &simulation->timing);
+    write_model(json, &simulation->model, simulation->relaxation_steps);
     write_results(json, report);
-    if (report->levels) levels_write_json(report->levels, json);
-    write_errors(json, report->errors);
+    if (simulation->levels) levels_write_json(simulation->levels, json);
+    write_errors(json, &simulation->errors);
     json_end(json);
 }
 

@@ -16,20 +16,16 @@ static bool keep(Simulation *simulation, Error *err)
         memmove(kept->states, kept->states + 1, (size_t)kept->count * sizeof(SavedState));
         memmove(kept->times, kept->times + 1, (size_t)kept->count * sizeof(double));
     }
-    TRY(saved_state_keep(simulation, &kept->states[kept->count], err));
+    if (!saved_state_keep(simulation, &kept->states[kept->count], err)) return false;
     kept->times[kept->count++] = simulation->control.now.time;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Always false.
 static bool refuse_other_end(Error *err)
 {
-    FAIL(err, ERROR_INPUT,
-         "output.window.last is counted back from the end of the run, and so far it had another "
-         "one (--overwrite begins anew)");
-cleanup:
-    return false;
+    return REFUSE(err, "output.window.last is counted back from the end of the run, and so far it "
+                       "had another one (--overwrite begins anew)");
 }
 
 // The last steps of a run are cut to its end. With a later one, states from before it would lead to
@@ -51,13 +47,12 @@ bool rewind_follow(Simulation *simulation, bool *finished, Error *err)
     bool goes_further = window->again && simulation->control.now.time > window->furthest;
     if (goes_further && window->def.last > 0) return refuse_other_end(err);
     if (window->again) return true;
-    if (window->ended && !window->found) TRY(keep(simulation, err));
+    if (window->ended && !window->found && !keep(simulation, err)) return false;
     if (*finished) window_close(window, simulation->kept.times[0]);
-    if (!window->found) goto cleanup;
-    TRY(saved_state_take_back(simulation, &simulation->kept.states[0], err));
-    TRY(window_take_back(window, &simulation->seen, err));
+    if (!window->found) return true;
+    if (!saved_state_take_back(simulation, &simulation->kept.states[0], err)) return false;
+    if (!window_take_back(window, &simulation->seen, err)) return false;
     kept_states_destroy(&simulation->kept);
     *finished = false;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/memory.h"
+#include "base/transfer.h"
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
 #include "scene/keys.h"
@@ -45,7 +46,7 @@ static bool find_identity(Simulation *simulation, Error *err)
     const Interface *interface = &simulation->model.interface;
     Hash hash = hash_start();
     if (simulation->identity[0]) return true;
-    TRY(scene_hash(&simulation->scene, key_counts, &hash, err));
+    if (!scene_hash(&simulation->scene, key_counts, &hash, err)) return false;
     bulk_operator_hash(&simulation->model.system, &hash);
     size_t contacts = (size_t)interface->contact_count, rods = (size_t)interface->rod_count;
     hash_bytes(&hash, interface->x, contacts * sizeof *interface->x);
@@ -53,8 +54,7 @@ static bool find_identity(Simulation *simulation, Error *err)
     hash_bytes(&hash, interface->pad, contacts * sizeof *interface->pad);
     hash_bytes(&hash, simulation->rod.softness, rods * sizeof *simulation->rod.softness);
     hash_write(&hash, simulation->identity);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // *found: what the state has in this place, where it is read.
@@ -72,26 +72,26 @@ static bool archive_head(Simulation *simulation, Archive *archive, SavedHead *he
     char ours[HASH_TEXT_SIZE];
     Hash computation = computation_hash();
     hash_write(&computation, ours);
-    TRY(find_identity(simulation, err));
+    if (!find_identity(simulation, err)) return false;
     pass_word(archive, FORMATS[simulation->model.reduced.count > 0], format);
     pass_word(archive, ours, sources);
     pass_word(archive, simulation->identity, identity);
     if (archive->failed || (strcmp(format, FORMATS[0]) != 0 && strcmp(format, FORMATS[1]) != 0))
-        FAIL(err, ERROR_INPUT, "it is not a saved state as this version writes it");
+        return REFUSE(err, "it is not a saved state as this version writes it");
     if (strcmp(sources, ours) != 0)
-        FAIL(err, ERROR_INPUT,
-             "it was saved by a build of other sources, which may compute otherwise (%.8s, this is "
-             "%.8s): begin anew with --overwrite, or go on with that build",
-             sources, ours);
+        return REFUSE(err,
+                      "it was saved by a build of other sources, which may compute otherwise "
+                      "(%.8s, this is %.8s): begin anew with --overwrite, or go on with that build",
+                      sources, ours);
     if (strcmp(identity, simulation->identity) != 0)
-        FAIL(err, ERROR_INPUT,
-             "it is the state of another scene or mesh; only time.until, title and output.figures "
-             "may differ (and the reduction must be the one that was made then)");
+        return REFUSE(
+            err,
+            "it is the state of another scene or mesh; only time.until, title and output.figures "
+            "may differ (and the reduction must be the one that was made then)");
     *head = (SavedHead){simulation->control.now.time, simulation->history.end};
     archive_number(archive, &head->time);
     history_end_archive(&head->history, archive);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- the list -----------------------------------------------------------------------------------
@@ -99,12 +99,8 @@ cleanup:
 static void archive_errors(RunErrors *errors, Archive *archive)
 {
     archive_section(archive, "errors");
-    archive_number(archive, &errors->energy);
-    archive_number(archive, &errors->complementarity);
-    archive_number(archive, &errors->moment);
-    archive_number(archive, &errors->equation);
-    archive_number(archive, &errors->penetration);
-    archive_number(archive, &errors->moment_quasi_static);
+    archive_numbers_of(archive, &errors->energy, &errors->complementarity, &errors->moment,
+                       &errors->equation, &errors->penetration, &errors->moment_quasi_static);
 }
 
 static void archive_warnings(RunWarnings *warnings, Archive *archive)
@@ -123,10 +119,8 @@ static void archive_report(Simulation *simulation, int64_t in_loop, Archive *arc
     archive_section(archive, "report");
     archive_count(archive, &simulation->relaxation_steps);
     archive_integer(archive, &simulation->resumed);
-    archive_number(archive, &elapsed);
-    archive_number(archive, &simulation->timing.relax);
-    archive_number(archive, &simulation->timing.solve);
-    archive_number(archive, &simulation->timing.output);
+    archive_numbers_of(archive, &elapsed, &simulation->timing.relax, &simulation->timing.solve,
+                       &simulation->timing.output);
     archive_count(archive, &in_loop);
     archive_flag(archive, &simulation->model.from_cache);
     archive_text(archive, simulation->model.cache_note, sizeof simulation->model.cache_note);
@@ -160,19 +154,18 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
 {
     const Interface *interface = &simulation->model.interface;
     archive_section(archive, "load");
-    archive_number(archive, &simulation->pressure);
-    archive_number(archive, &simulation->model.scales.load);
-    archive_number(archive, &simulation->last_unquiet);
+    archive_numbers_of(archive, &simulation->pressure, &simulation->model.scales.load,
+                       &simulation->last_unquiet);
     archive_flag(archive, &simulation->mu_above);
     bulk_operator_archive(&simulation->model.system, archive);
     int64_t factorisations = simulation->model.system.factorisations;
     rod_archive(&simulation->rod, archive);
-    TRY(step_control_archive(&simulation->control, archive, err));
+    if (!step_control_archive(&simulation->control, archive, err)) return false;
     simulation->model.system.factorisations = factorisations;   // rungs made again do not count
     archive_end(simulation, archive);
     explicit_reference_archive(&simulation->explicit_reference, archive);
-    TRY(events_archive(&simulation->events, interface, archive, err));
-    TRY(drops_archive(&simulation->drops, archive, err));
+    if (!events_archive(&simulation->events, interface, archive, err)) return false;
+    if (!drops_archive(&simulation->drops, archive, err)) return false;
     steady_archive(&simulation->steady, archive);
     pads_archive(&simulation->pads, archive);
     contact_arrays_archive(&simulation->contact, archive);
@@ -180,19 +173,16 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     program_readings_archive(&simulation->readings, archive);
     archive_errors(&simulation->errors, archive);
     archive_warnings(&simulation->warnings, archive);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // And what was written of it.
 static bool archive_output(Simulation *simulation, Archive *archive, Error *err)
 {
-    TRY(fields_archive(&simulation->fields, archive, err));
-    if (!simulation->window.def.given) goto cleanup;
+    if (!fields_archive(&simulation->fields, archive, err)) return false;
+    if (!simulation->window.def.given) return true;
     window_archive(&simulation->window, archive);
-    TRY(kept_states_archive(&simulation->kept, archive, err));
-cleanup:
-    return error_is_clean(err);
+    return kept_states_archive(&simulation->kept, archive, err);
 }
 
 // --- save and restore ---------------------------------------------------------------------------
@@ -244,14 +234,13 @@ static bool open_archive(const SavedState *state, Archive *archive, Error *err)
     Hash hash = hash_start();
     char checksum[HASH_TEXT_SIZE];
     int64_t size = state->size - CHECKSUM_SIZE;
-    if (!state->bytes || size < 0) FAIL(err, ERROR_INPUT, "it is too short for a saved state");
+    if (!state->bytes || size < 0) return REFUSE(err, "it is too short for a saved state");
     hash_bytes(&hash, state->bytes, (size_t)size);
     hash_write(&hash, checksum);
     if (memcmp((const char *)state->bytes + size, checksum, CHECKSUM_SIZE) != 0)
-        FAIL(err, ERROR_INPUT, "it is no saved state, or damaged: its checksum does not hold");
+        return REFUSE(err, "it is no saved state, or damaged: its checksum does not hold");
     *archive = archive_read(state->bytes, size);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 SceneReduce saved_state_reduction(const SavedState *state)
@@ -313,7 +302,6 @@ bool amontons_state_write(const SavedState *state, const char *path, Error *err)
 bool amontons_state_read(const char *path, SavedState *state, Error *err)
 {
     struct stat status;
-    int64_t at = 0;
     *state = (SavedState){0};
     int descriptor = open_to_read(path, err);
     TRY(descriptor >= 0);
@@ -321,12 +309,8 @@ bool amontons_state_read(const char *path, SavedState *state, Error *err)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
     state->size = status.st_size;
     TRY((state->bytes = memory_bytes(state->size, err)));
-    while (at < state->size) {
-        ssize_t got = read(descriptor, (char *)state->bytes + at, (size_t)(state->size - at));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
-        at += got;
-    }
+    if (transfer_read(descriptor, state->bytes, state->size, -1) < state->size)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
 cleanup:
     if (descriptor >= 0) close(descriptor);
     if (!error_is_clean(err)) amontons_state_free(state);

@@ -11,6 +11,7 @@
 #include "run/explicit_loop.h"
 #include "run/one_mesh.h"
 #include "run/output.h"
+#include "run/report.h"
 #include "run/saved_state.h"
 #include "run/start.h"
 #include "run/summary.h"
@@ -39,11 +40,13 @@ static bool report_step(void *self, const Observation *seen, Error *err)
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
-    TRY(events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
-                      &simulation->events, err));
+    if (!events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
+                       &simulation->events, err))
+        return false;
     recorders_add(&simulation->recorders, &simulation->events, events_record);
-    TRY(drops_create(&simulation->model.interface, &simulation->events,
-                     simulation->scene.time.periodic_tolerance, &simulation->drops, err));
+    if (!drops_create(&simulation->model.interface, &simulation->events,
+                      simulation->scene.time.periodic_tolerance, &simulation->drops, err))
+        return false;
     bool remembers = simulation->control.scheme.memory.laws != NULL;
     simulation->drops.mu_static = remembers ? NAN : simulation->model.law.mu_static;
     recorders_add(&simulation->recorders, &simulation->drops, drops_record);
@@ -51,10 +54,12 @@ static bool open_recorders(Simulation *simulation, Error *err)
         steady_of(&simulation->events, model_friction_slip(&simulation->model) +
                                            model_machine_yield(&simulation->model));
     recorders_add(&simulation->recorders, &simulation->steady, steady_record);
-    TRY(pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err));
+    if (!pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err))
+        return false;
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
-    TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
-                              &simulation->contact, err));
+    if (!contact_arrays_create(&simulation->model.interface, &simulation->model.law,
+                               &simulation->contact, err))
+        return false;
     recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
     if (program_jumps(&simulation->rod_course)) {
         simulation->readings = program_readings_of(&simulation->rod_course);
@@ -62,12 +67,11 @@ static bool open_recorders(Simulation *simulation, Error *err)
     }
     simulation->turning = turning_of(&simulation->contact);
     recorders_add(&simulation->recorders, &simulation->turning, turning_record);
-    if (result_folder_is_ours(&simulation->folder)) TRY(output_open(simulation, err));
+    if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
     bool in_part = simulation->window.def.given;
     recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
                   report_step);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool scene_supports_nothing(const Simulation *simulation)
@@ -140,16 +144,15 @@ static bool tell_stage(void *self, const char *stage, Error *err)
 static bool begin_anew(Simulation *simulation, Error *err)
 {
     double begun = clock_processor_seconds();
-    TRY(tell_stage(simulation, "relaxing", err));
-    TRY(start_relax(simulation, err));
+    if (!tell_stage(simulation, "relaxing", err)) return false;
+    if (!start_relax(simulation, err)) return false;
     simulation->timing.outside -= clock_processor_seconds() - begun;
-    TRY(explicit_loop_prepare(simulation, err));
-    TRY(result_folder_clear(&simulation->folder, err));
-    TRY(open_recorders(simulation, err));
-    TRY(record_step(simulation, err));
+    if (!explicit_loop_prepare(simulation, err)) return false;
+    if (!result_folder_clear(&simulation->folder, err)) return false;
+    if (!open_recorders(simulation, err)) return false;
+    if (!record_step(simulation, err)) return false;
     simulation->allocations_before = simulation_allocations(simulation);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // From a checkpoint, which is known to be this scene's before the result is touched.
@@ -183,18 +186,18 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const RunOptions *options = &simulation->options;
-    TRY(result_folder_claim(options->folder, options->overwrite || options->resume,
-                            &simulation->folder, err));
+    if (!result_folder_claim(options->folder, options->overwrite || options->resume,
+                             &simulation->folder, err))
+        return false;
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: says not when to stop (time.until): it is a scene for `amontons static`",
-             scene->path);
+        return REFUSE(err,
+                      "%s: says not when to stop (time.until): it is a scene for `amontons static`",
+                      scene->path);
     if (options->resume && !options->folder)
-        FAIL(err, ERROR_INPUT, "a run without a result folder leaves nothing to go on from");
-    if (options->resume) TRY(checkpoint_read(options->folder, state, err));
+        return REFUSE(err, "a run without a result folder leaves nothing to go on from");
+    if (options->resume && !checkpoint_read(options->folder, state, err)) return false;
     if (options->resume) simulation->scene.reduction.decided = saved_state_reduction(state);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // On failure *out still holds what was made: amontons_run reports it, and everyone destroys it.
@@ -283,10 +286,9 @@ static bool advance_implicit(Simulation *simulation, Error *err)
     bool near = point - now < WORTH * control->def.wave_step;
     if (near) step_control_disturb(control);
     control->lands = !near && point < end;
-    TRY(step_control_advance(control, (control->lands ? point : end) - now, err));
+    if (!step_control_advance(control, (control->lands ? point : end) - now, err)) return false;
     steering_pass_point(simulation, point);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
@@ -295,23 +297,21 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
 {
     StepControl *control = &simulation->control;
     double started = clock_seconds();
-    TRY(steering_is_open(simulation, err));
-    if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
-        TRY(explicit_loop_advance(simulation, err));
-    else
-        TRY(advance_implicit(simulation, err));
+    if (!steering_is_open(simulation, err)) return false;
+    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT ? explicit_loop_advance(simulation, err)
+                                                           : advance_implicit(simulation, err)))
+        return false;
     simulation->timing.solve += clock_seconds() - started;
-    TRY(record_step(simulation, err));
-    TRY(output_begin_result(simulation, err));
+    if (!record_step(simulation, err)) return false;
+    if (!output_begin_result(simulation, err)) return false;
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     bool ends = isfinite(simulation->t_end);
-    if (implicit && ends) TRY(step_control_gets_on(control, simulation->t_end, err));
+    if (implicit && ends && !step_control_gets_on(control, simulation->t_end, err)) return false;
     *finished = simulation_is_finished(simulation);
     if (view)
         *view = step_view(&simulation->seen, &simulation->events, &simulation->contact,
                           simulation->t_end);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 Answers simulation_answers(const Simulation *simulation)
@@ -355,9 +355,9 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     Error second = {0};
     if (failure)
         fields_flush(&simulation->fields, &second);   // what was computed is written all the same
-    else
-        TRY(output_begin_result(simulation, err) && fields_flush(&simulation->fields, err) &&
-            checkpoint_at_end(simulation, err));
+    else if (!output_begin_result(simulation, err) || !fields_flush(&simulation->fields, err) ||
+             !checkpoint_at_end(simulation, err))
+        return false;
     simulation->closed = true;
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
@@ -369,39 +369,20 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
     warnings_of_turning(&simulation->turning, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
-    if (simulation->history.file && !simulation->folder.aside) {
-        TRY(output_store_warnings(simulation, err));
-        TRY(history_finish(&simulation->history, &simulation->drops, &answers, err));
-        TRY(output_draw_figures(simulation, err));
-    }
+    if (simulation->history.file && !simulation->folder.aside &&
+        !(output_store_warnings(simulation, err) &&
+          history_finish(&simulation->history, &simulation->drops, &answers, err) &&
+          output_draw_figures(simulation, err)))
+        return false;
     simulation->timing.output += clock_seconds() - started;
     simulation->timing.total = clock_seconds() - simulation->started;
     simulation->timing.outside += clock_processor_seconds();
     if (result_folder_is_ours(&simulation->folder) || simulation->options.on_report) {
-        RunReport report = {.scene = &simulation->scene,
-                            .failure = failure,
-                            .counters = &counters,
-                            .ladder = &simulation->control.ladder,
-                            .timing = &simulation->timing,
-                            .model = &simulation->model,
-                            .relaxation_steps = simulation->relaxation_steps,
-                            .resumed = simulation->resumed,
-                            .errors = &simulation->errors,
-                            .events = &simulation->events,
-                            .drops = &simulation->drops,
-                            .answers = &answers,
-                            .least_resolved = least,
-                            .steady = &simulation->steady,
-                            .pads = &simulation->pads,
-                            .turning = &simulation->turning,
-                            .readings = &simulation->readings,
-                            .levels = simulation->levels,
-                            .warnings = &simulation->warnings};
-        TRY(hand_out_report(simulation, &report, err));
+        RunReport report = {simulation, failure, &counters, &answers, least};
+        if (!hand_out_report(simulation, &report, err)) return false;
     }
     summary_fill(simulation, &counters, &answers, summary);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err)

@@ -14,26 +14,23 @@ static bool stop_here(Simulation *simulation, Error *err)
     Error unseen = {0};
     bool kept = checkpoint_is_kept(simulation) && checkpoint_now(simulation, &unseen);
     const char *folder = simulation->folder.path;
-    FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", simulation->seen.U,
-         simulation->seen.t, *folder ? "; what was computed is kept in " : "", folder,
-         kept ? "; the same command with --resume goes on from there" : "");
-cleanup:
-    return false;
+    return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", simulation->seen.U,
+                 simulation->seen.t, *folder ? "; what was computed is kept in " : "", folder,
+                 kept ? "; the same command with --resume goes on from there" : "");
 }
 
 bool simulation_loop(Simulation *simulation, Error *err)
 {
     Error unseen = {0};
     bool finished = simulation->goes_on && simulation_is_finished(simulation);
-    TRY(rewind_start(simulation, err));
+    if (!rewind_start(simulation, err)) return false;
     while (!finished) {
-        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
-        TRY(rewind_follow(simulation, &finished, err));
+        if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
+        if (!rewind_follow(simulation, &finished, err)) return false;
         checkpoint_when_due(simulation);
-        if (!simulation_may_go_on(simulation, &unseen)) TRY(stop_here(simulation, err));
+        if (!simulation_may_go_on(simulation, &unseen) && !stop_here(simulation, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The loop itself allocates nothing but rungs and output. A failure anywhere is written into

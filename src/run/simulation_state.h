@@ -10,15 +10,31 @@
 #include "base/memory.h"
 #include "model/model.h"
 #include "record/contact_arrays.h"
+#include "record/error_bars.h"
 #include "record/fields.h"
 #include "record/history.h"
+#include "record/pads.h"
 #include "record/program_readings.h"
 #include "record/steady.h"
 #include "record/turning.h"
 #include "run/kept_states.h"
-#include "run/report.h"
 #include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
+
+// The largest of each kind of error over a run's accepted steps, relative (record/observation).
+typedef struct RunErrors {
+    double energy, complementarity, moment, equation;
+    double penetration;   // of a contact node into the plane, length
+    double reduction;   // of the interface operator, measured when the basis was built, at the
+        // steps that were accepted (reduction/reduction); 0: full mesh
+    double moment_quasi_static;   // without inertia, over frames in which nothing is fast
+} RunErrors;
+
+typedef struct RunTiming {
+    double relax, solve, output, total;   // s; the model keeps what it took to make it
+    double outside;   // processor time of the process outside relaxation and time loop: what it
+        // takes to begin, and to report at the end, s
+} RunTiming;
 
 struct Simulation {
     Scene scene;

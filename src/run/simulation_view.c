@@ -18,15 +18,17 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
     const State *now = &simulation->control.now;
     *view = (BlockView){0};
     if (!simulation->options.whole_block)
-        FAIL(err, ERROR_INPUT,
-             "the motion of the whole block is kept only where RunOptions.whole_block asks for it");
+        return REFUSE(
+            err,
+            "the motion of the whole block is kept only where RunOptions.whole_block asks for it");
     int64_t dofs = (int64_t)mesh->dim * mesh->node_count;
-    if (!simulation->block_motion)
-        TRY((simulation->block_motion = NEW_ARRAY(double, 2 * dofs, err)));
+    if (!simulation->block_motion && !(simulation->block_motion = NEW_ARRAY(double, 2 * dofs, err)))
+        return false;
     double *displacement = simulation->block_motion;
     double *velocity = displacement + dofs;
-    TRY(bulk_operator_recover(system, 2, (const double *[]){now->displacement, now->velocity},
-                              (double *[]){displacement, velocity}, err));
+    if (!bulk_operator_recover(system, 2, (const double *[]){now->displacement, now->velocity},
+                               (double *[]){displacement, velocity}, err))
+        return false;
     *view = (BlockView){.nodes = mesh->node_count,
                         .dimensions = mesh->dim,
                         .elements = mesh->element_count,
@@ -35,6 +37,5 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
                         .velocity = velocity,
                         .first_node = mesh->first_node,
                         .element_nodes = mesh->element_nodes};
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

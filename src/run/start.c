@@ -39,15 +39,13 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     bool held = scene->start.rod == START_ROD_HELD;
     RodKind kind = held ? ROD_KINDS[scene->rod.kind] : ROD_AWAY;
     simulation->law = model->law;
-    TRY(model_build_rod(model, kind, &simulation->rod, err));
+    if (!model_build_rod(model, kind, &simulation->rod, err)) return false;
     Block block = {.system = &model->system,
                    .interface = &model->interface,
                    .law = &simulation->law,
                    .rod = &simulation->rod,
                    .stage_laws = model->node_laws};
-    TRY(step_control_create(&block, &def, &simulation->control, err));
-cleanup:
-    return error_is_clean(err);
+    return step_control_create(&block, &def, &simulation->control, err);
 }
 
 // The rod comes to the face where that is now.

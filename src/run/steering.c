@@ -12,21 +12,19 @@
 bool steering_is_open(const Simulation *simulation, Error *err)
 {
     if (simulation->closed)
-        FAIL(err, ERROR_INPUT,
-             "%s: this simulation is finished, nothing can follow: save its state before",
-             simulation->scene.path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: this simulation is finished, nothing can follow: save its state before",
+                      simulation->scene.path);
+    return true;
 }
 
 static bool check_implicit(const Simulation *simulation, Error *err)
 {
-    TRY(steering_is_open(simulation, err));
+    if (!steering_is_open(simulation, err)) return false;
     if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
-        FAIL(err, ERROR_INPUT, "%s: time.scheme explicit: nothing can be changed between steps",
-             simulation->scene.path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: time.scheme explicit: nothing can be changed between steps",
+                      simulation->scene.path);
+    return true;
 }
 
 // As step_rule_end has it, from here on.
@@ -62,28 +60,25 @@ static bool check_free(const Simulation *simulation, const SceneProgram *program
                        Error *err)
 {
     if (scene_has_program(program))
-        FAIL(err, ERROR_INPUT, "%s: %s: the scene says how this changes", simulation->scene.path,
-             key);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: %s: the scene says how this changes", simulation->scene.path, key);
+    return true;
 }
 
 bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocity, Error *err)
 {
-    TRY(check_implicit(simulation, err));
-    TRY(check_free(simulation, &simulation->scene.rod.program, "rod.program", err));
+    if (!check_implicit(simulation, err)) return false;
+    if (!check_free(simulation, &simulation->scene.rod.program, "rod.program", err)) return false;
     if (!scene_size_holds(velocity))
-        FAIL(err, ERROR_INPUT,
-             "a rod velocity of %g is not possible: 0, and numbers of a size from %g to %g",
-             velocity, SCENE_SMALLEST, SCENE_LARGEST);
+        return REFUSE(
+            err, "a rod velocity of %g is not possible: 0, and numbers of a size from %g to %g",
+            velocity, SCENE_SMALLEST, SCENE_LARGEST);
     if (simulation->rod.kind == ROD_AWAY)
-        FAIL(err, ERROR_INPUT, "%s: rod.kind none: there is no rod to be moved",
-             simulation->scene.path);
+        return REFUSE(err, "%s: rod.kind none: there is no rod to be moved",
+                      simulation->scene.path);
     rod_set_velocity(&simulation->rod, velocity, simulation->control.now.time);
     simulation->t_end = steering_end(simulation);
     disturb(simulation);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The load is the pressure's alone, so it is proportional to it. A reduced bulk follows what its
@@ -92,18 +87,19 @@ bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, E
 {
     const Scene *scene = &simulation->scene;
     BulkOperator *system = &simulation->model.system;
-    TRY(check_implicit(simulation, err));
-    TRY(check_free(simulation, &simulation->scene.load.program, "load.program", err));
+    if (!check_implicit(simulation, err)) return false;
+    if (!check_free(simulation, &simulation->scene.load.program, "load.program", err)) return false;
     if (!(pressure > 0 && scene_size_holds(pressure)))
-        FAIL(err, ERROR_INPUT, "a pressure of %g is not possible: above 0, of a size from %g to %g",
-             pressure, SCENE_SMALLEST, SCENE_LARGEST);
+        return REFUSE(err, "a pressure of %g is not possible: above 0, of a size from %g to %g",
+                      pressure, SCENE_SMALLEST, SCENE_LARGEST);
     if (!(scene->load.pressure > 0) || scene->load.traction_count > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: the pressure can be changed where load.pressure is the only load", scene->path);
+        return REFUSE(err, "%s: the pressure can be changed where load.pressure is the only load",
+                      scene->path);
     if (system->reduced)
-        FAIL(err, ERROR_INPUT,
-             "%s: the pressure can be changed on the full mesh only: set reduction.use to never",
-             scene->path);
+        return REFUSE(
+            err,
+            "%s: the pressure can be changed on the full mesh only: set reduction.use to never",
+            scene->path);
     double ratio = pressure / simulation->pressure;
     for (int32_t dof = 0; dof < system->dof_count; dof++) system->load[dof] *= ratio;
     simulation->model.scales.load *= ratio;
@@ -112,6 +108,5 @@ bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, E
         warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
                                &simulation->warnings);
     disturb(simulation);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -6,8 +6,7 @@
 bool simulation_may_go_on(const Simulation *simulation, Error *err)
 {
     const volatile sig_atomic_t *stop = simulation->options.stop;
-    if (stop && *stop) FAIL(err, ERROR_INTERRUPT, "stopped");
-    if (clock_seconds() > simulation->deadline) FAIL(err, ERROR_INTERRUPT, "time is up");
-cleanup:
-    return error_is_clean(err);
+    if (stop && *stop) return FAULT(err, ERROR_INTERRUPT, "stopped");
+    if (clock_seconds() > simulation->deadline) return FAULT(err, ERROR_INTERRUPT, "time is up");
+    return true;
 }

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "record/program_results.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -160,7 +161,7 @@ void amontons_estimate(double value, double bar, double known_to, char text[ESTI
 static void note_program(const ProgramReadings *readings, RunSummary *summary)
 {
     if (!readings->course) return;
-    ProgramSums sums = program_readings_sum(readings);
+    ProgramSums sums = program_results_sum(readings);
     summary->velocity_steps = sums.steps;
     summary->holds = sums.holds;
     memcpy(summary->direct_effect, &sums.direct, sizeof summary->direct_effect);

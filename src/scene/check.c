@@ -36,8 +36,7 @@ static bool blame(const Check *check, const char *name, const char *format, ...)
     int32_t index = scene_key_index(name);
     if (index >= 0 && check->sources[index].document) {
         const SceneValue *source = &check->sources[index];
-        yaml_error(source->document, source->node, check->err, "%s: %s", name, message);
-        return false;
+        return yaml_error(source->document, source->node, check->err, "%s: %s", name, message);
     }
     snprintf(map, sizeof map, "%s", name);
     YamlNode node = yaml_look_up(check->file, map);
@@ -49,8 +48,7 @@ static bool blame(const Check *check, const char *name, const char *format, ...)
             map[0] = 0;
         node = yaml_look_up(check->file, map);
     }
-    yaml_key_error(check->file, node, check->err, "%s: %s", name, message);
-    return false;
+    return yaml_key_error(check->file, node, check->err, "%s: %s", name, message);
 }
 
 static bool is_given(const Check *check, const char *name)
@@ -83,7 +81,7 @@ static bool is_needed(const SceneKey *key, const Scene *scene)
     if (word && !key->standard) return friction_use(&scene->friction, word) == FRICTION_MUST;
     if (strcmp(key->name, "rod.velocity") == 0)
         return scene->rod.kind != ROD_NONE && !is_static(scene);
-    return (!key->standard && !key->may_lack) || (key->given_in_si && scene->units == UNITS_SI);
+    return key->must_be_given || (key->given_in_si && scene->units == UNITS_SI);
 }
 
 // Keys without a default, and in SI those whose default of 1 would be 1 Pa or 1 kg/m3.

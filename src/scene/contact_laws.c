@@ -36,19 +36,15 @@ static bool set_part(const SceneValue *value, Scene *own, SceneContactLaw *item,
     if (strcmp(name, "along") == 0) return copy_word(value, item->along, SCENE_TEXT_SIZE, err);
     for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
         if (strcmp(name, words[k]) != 0) continue;
-        if (given[k])
-            *given[k] = true;
-        else
-            TRY(copy_word(value, item->formula, SCENE_TEXT_SIZE, err));
+        if (!given[k] && !copy_word(value, item->formula, SCENE_TEXT_SIZE, err)) return false;
+        if (given[k]) *given[k] = true;
         snprintf(key, sizeof key, "friction.%s", name);
         return scene_value_set(&keys[scene_key_index(key)], value, own, err);
     }
-    yaml_key_error(value->document, value->node, err,
-                   "friction.contacts: unknown key `%.60s`; allowed: group, law, mu_static, "
-                   "mu_kinetic, critical_velocity, formula, along",
-                   name);
-cleanup:
-    return false;
+    return yaml_key_error(value->document, value->node, err,
+                          "friction.contacts: unknown key `%.60s`; allowed: group, law, mu_static, "
+                          "mu_kinetic, critical_velocity, formula, along",
+                          name);
 }
 
 // What is not the scene's law must be one of the built-in laws, or a formula of its own.
@@ -58,28 +54,27 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law
     bool own = friction_is_own(law), formula = friction_use(law, "formula") == FRICTION_MUST;
     bool creeps = law->kind == FRICTION_RATE_STATE;
     if (friction_use(law, "slip_distance") == FRICTION_MUST && law->kind != scene_law->kind)
-        FAIL(err, ERROR_INPUT,
-             "`%s` takes numbers that friction gives, so friction.law has to be the same",
-             friction_law_name(law));
+        return REFUSE(err,
+                      "`%s` takes numbers that friction gives, so friction.law has to be the same",
+                      friction_law_name(law));
     if (creeps && (item->has_static || item->has_kinetic || item->has_critical))
-        FAIL(err, ERROR_INPUT, "`%s` can be scaled here (along), or replaced by another law",
-             friction_law_name(law));
+        return REFUSE(err, "`%s` can be scaled here (along), or replaced by another law",
+                      friction_law_name(law));
     if (own && !formula)
-        FAIL(err, ERROR_INPUT,
-             "a %s is for the whole contact; here it can be scaled (along), or replaced by another "
-             "law",
-             friction_law_name(law));
+        return REFUSE(err,
+                      "a %s is for the whole contact; here it can be scaled (along), or replaced "
+                      "by another law",
+                      friction_law_name(law));
     if (formula != (*item->formula != 0))
-        FAIL(err, ERROR_INPUT, "the law `%s` %s a formula", friction_law_name(law),
-             formula ? "needs" : "does not read");
+        return REFUSE(err, "the law `%s` %s a formula", friction_law_name(law),
+                      formula ? "needs" : "does not read");
     if (!own && law->mu_kinetic > law->mu_static)
-        FAIL(err, ERROR_INPUT, "mu_kinetic: %g is more than mu_static (%g)", law->mu_kinetic,
-             law->mu_static);
+        return REFUSE(err, "mu_kinetic: %g is more than mu_static (%g)", law->mu_kinetic,
+                      law->mu_static);
     bool fades = friction_use(law, "critical_velocity") == FRICTION_MUST;
     if (!own && fades && !(law->critical_velocity > 0))
-        FAIL(err, ERROR_INPUT, "critical_velocity: a weakening law needs it");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "critical_velocity: a weakening law needs it");
+    return true;
 }
 
 bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, FrictionLaw *law,
@@ -100,12 +95,10 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, Friction
                          .mu_kinetic = item->mu_kinetic,
                          .critical_velocity = item->critical_velocity};
     if (!friction_has_drop(law)) law->mu_kinetic = law->mu_static;
-    TRY(check_item(item, &scene->friction, law, err));
-    if (friction_is_own(law))
-        TRY(friction_own_law(&source, law, &key, err) && friction_look(law, err));
-    TRY(scene_remember(scene, law, &key, err));
-cleanup:
-    return error_is_clean(err);
+    return check_item(item, &scene->friction, law, err) &&
+           (!friction_is_own(law) ||
+            (friction_own_law(&source, law, &key, err) && friction_look(law, err))) &&
+           scene_remember(scene, law, &key, err);
 }
 
 static bool read_item(const SceneValue *value, const Scene *scene, Scene *own,
@@ -124,7 +117,7 @@ static bool read_item(const SceneValue *value, const Scene *scene, Scene *own,
     }
     YAML_EACH (part, document, value->node) {
         SceneValue one = {.document = document, .node = part};
-        TRY(set_part(&one, own, item, err));
+        if (!set_part(&one, own, item, err)) return false;
     }
     FrictionLaw law;
     item->kind = own->friction.kind;
@@ -133,12 +126,11 @@ static bool read_item(const SceneValue *value, const Scene *scene, Scene *own,
     item->critical_velocity = own->friction.critical_velocity;
     Error found = {0};
     if (!*item->group)
-        yaml_error(document, value->node, err, "friction.contacts: an item needs its `group`");
-    else if (!scene_contact_law(scene, item, &law, &found))
-        yaml_error(document, value->node, err, "friction.contacts: %s: %s", item->group,
-                   found.message);
-cleanup:
-    return error_is_clean(err);
+        return yaml_error(document, value->node, err,
+                          "friction.contacts: an item needs its `group`");
+    return scene_contact_law(scene, item, &law, &found) ||
+           yaml_error(document, value->node, err, "friction.contacts: %s: %s", item->group,
+                      found.message);
 }
 
 bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)

@@ -48,10 +48,9 @@ bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char 
     double result = 0;
     Error found = {0};
     const char *text = yaml_text(formula->document, formula->node) + 1;
-    if (!formula_value(text, scene_number, scene, &result, &found)) {
-        yaml_error(formula->document, formula->node, err, "%s: %s", formula->key, found.message);
-        return false;
-    }
+    if (!formula_value(text, scene_number, scene, &result, &found))
+        return yaml_error(formula->document, formula->node, err, "%s: %s", formula->key,
+                          found.message);
     snprintf(number, sizeof number, "%.15g", result);
     return yaml_scalar(name, number, value, err);
 }

@@ -50,17 +50,22 @@ typedef struct SceneKey {
     size_t offset;   // into Scene
     const char *unit;   // a dimension of scene/units: "stress", "velocity", "1"
     SceneRange range;   // of a number
-    const char *standard;   // default, as it would be written in YAML; NULL: must be given
+    const char *standard;   // default, as it would be written in YAML; NULL: none
     const char *sentence;   // what it means, for the reference
     const char *const *choices;   // NULL-terminated, in the order of the enum; NULL otherwise
-    bool may_lack;   // without a default, and yet need not be given
+    bool must_be_given;   // of those without a default; friction.law says which of its keys must
     bool given_in_si;   // the default suits normalised scenes: with SI it must be given
 } SceneKey;
+
+static inline bool scene_key_may_lack(const SceneKey *key)
+{
+    return !key->standard && !key->must_be_given;
+}
 
 // A number that need not be given: so a study varies whether it is there.
 static inline bool scene_key_may_be_none(const SceneKey *key)
 {
-    return key->type == KEY_NUMBER && key->may_lack;
+    return key->type == KEY_NUMBER && scene_key_may_lack(key);
 }
 
 const SceneKey *scene_keys(int32_t *count);

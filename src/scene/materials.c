@@ -77,11 +77,10 @@ static bool set_number(const char *word, const SceneValue *value, SceneMaterial 
     snprintf(path, sizeof path, "%s.%s.%.20s", MAP, region->group, word);
     if (k < 0) {
         bool plane = strcmp(word, "plane") == 0;
-        yaml_key_error(value->document, value->node, err, "%s: %s; allowed: %s", path,
-                       plane ? "the whole block is in plane stress or strain (material.plane)"
-                             : "unknown key",
-                       "young, poisson, density, eta1, eta2");
-        return false;
+        return yaml_key_error(
+            value->document, value->node, err, "%s: %s; allowed: %s", path,
+            plane ? "the whole block is in plane stress or strain (material.plane)" : "unknown key",
+            "young, poisson, density, eta1, eta2");
     }
     SceneKey key = *material_key(k);
     key.name = path;
@@ -131,10 +130,9 @@ static bool set_region(const char *name, const SceneValue *value, Scene *scene, 
     }
     YAML_EACH (part, document, value->node) {
         SceneValue one = {.document = document, .node = part};
-        TRY(set_number(yaml_key(document, part), &one, region, scene, err));
+        if (!set_number(yaml_key(document, part), &one, region, scene, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool scene_materials_set(const SceneValue *value, Scene *scene, Error *err)
@@ -155,8 +153,7 @@ bool scene_materials_set(const SceneValue *value, Scene *scene, Error *err)
                            "a map, as in {pads: {young: 0.01, eta1: 0.1}}", err);
     YAML_EACH (item, document, value->node) {
         one.node = item;
-        TRY(set_region(yaml_key(document, item), &one, scene, err));
+        if (!set_region(yaml_key(document, item), &one, scene, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -63,17 +63,15 @@ bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Erro
     if (memory.kind == MEMORY_FORMULAS) return true;
     *key = "rest";
     if (!(own->rest > 0) && !(scene->rod.velocity > 0))
-        FAIL(err, ERROR_INPUT,
-             "missing: without a rod that moves nothing says what the contacts remember; allowed: "
-             "a number > 0");
+        return REFUSE(err, "missing: without a rod that moves nothing says what the contacts "
+                           "remember; allowed: a number > 0");
     memory.start[0] = own->rest > 0 ? memory_rested(&memory, own->rest)
                                     : memory_steady(&memory, scene->rod.velocity);
     if (creeps) set_scales(scene, &memory);
     if (law->kind == FRICTION_SLIP_WEAKENING)
         memory.critical_velocity = memory.slip_distance / memory.healing_time;
     friction_make_memory(&memory, law);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Numbers of the map `friction` that a formula may name, and their symbols.

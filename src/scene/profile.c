@@ -70,25 +70,24 @@ static bool read_head(const Table *table, const char *at, size_t length, double 
     while (length > 0 && strchr(AROUND, at[length - 1])) length--;
     snprintf(head, sizeof head, "%.*s", (int)length, at);
     if (length == 0 || length >= sizeof head || !find_unit(head, &unit))
-        FAIL(
-            err, ERROR_INPUT,
-            "%s:%d:%d: found `%.*s`; wanted: two numbers, x and gap, or names of the two columns: "
-            "`x, gap`, or with units `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um`; "
-            "of a height map three: x, y and gap",
-            table->path, table->number, column_of(table, at), length < 60 ? (int)length : 60, at);
+        return REFUSE(err,
+                      "%s:%d:%d: found `%.*s`; wanted: two numbers, x and gap, or names of the two "
+                      "columns: `x, gap`, or with units `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, "
+                      "gap_um`, `mm, um`; of a height map three: x, y and gap",
+                      table->path, table->number, column_of(table, at),
+                      length < 60 ? (int)length : 60, at);
     if (!unit) return true;
     at += unit - head;
     if (table->units == UNITS_NORMALISED)
-        FAIL(err, ERROR_INPUT,
-             "%s:%d:%d: found a unit, `%s`; a normalised scene has plain numbers (units need "
-             "`units: si`)",
-             table->path, table->number, column_of(table, at), unit);
+        return REFUSE(err,
+                      "%s:%d:%d: found a unit, `%s`; a normalised scene has plain numbers (units "
+                      "need `units: si`)",
+                      table->path, table->number, column_of(table, at), unit);
     *scale = 1;
     if (!unit_to_si(unit, "length", scale))
-        FAIL(err, ERROR_INPUT, "%s:%d:%d: `%s` is no unit of length; allowed: %s", table->path,
-             table->number, column_of(table, at), unit, unit_examples("length"));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s:%d:%d: `%s` is no unit of length; allowed: %s", table->path,
+                      table->number, column_of(table, at), unit, unit_examples("length"));
+    return true;
 }
 
 // What heads the columns, from `at` on.
@@ -102,13 +101,12 @@ static bool read_heads(Table *table, const char *at, Error *err)
         const char *behind = next[length] ? next + length + 1 : NULL;
         if (!behind && heads == 0) behind = next + length;   // nothing heads the gap
         if (heads == COLUMNS_MAX - 1) length = strlen(next);
-        TRY(read_head(table, next, length, &unit[heads], err));
+        if (!read_head(table, next, length, &unit[heads], err)) return false;
         next = heads < COLUMNS_MAX - 1 ? behind : NULL;
     }
     table->columns = heads;
     memcpy(table->unit, unit, sizeof unit);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool add_point(Table *table, const double *column, Error *err)
@@ -123,16 +121,15 @@ static bool add_point(Table *table, const double *column, Error *err)
     double x = point.column[0], gap = point.column[last];
     double before = table->count > 0 ? table->points[table->count - 1].column[0] : -INFINITY;
     if (last == 1 && !(x > before))
-        FAIL(err, ERROR_INPUT, "%s:%d: x = %g comes after %g; x must ascend", table->path,
-             table->number, x, before);
+        return REFUSE(err, "%s:%d: x = %g comes after %g; x must ascend", table->path,
+                      table->number, x, before);
     if (!(gap >= 0 && finite))
-        FAIL(err, ERROR_INPUT, "%s:%d: at x = %g the gap is %g; a number >= 0 is needed",
-             table->path, table->number, x, gap);
+        return REFUSE(err, "%s:%d: at x = %g the gap is %g; a number >= 0 is needed", table->path,
+                      table->number, x, gap);
     ProfilePoint *list = memory_grow(table->points, table->count, &table->room, sizeof point, err);
-    TRY(list);
+    if (!list) return false;
     table->points = list;
     table->points[table->count++] = point;
-cleanup:
     return error_is_clean(err);
 }
 
@@ -164,13 +161,11 @@ static bool read_line(Table *table, Error *err)
     int32_t read = read_numbers(&at, table->columns ? table->columns : COLUMNS_MAX, number);
     if (table->columns == 0) table->columns = read == COLUMNS_MAX ? read : COLUMNS_MAX - 1;
     if (*at || read != table->columns)
-        FAIL(err, ERROR_INPUT, "%s:%d:%d: found `%.60s`; wanted: %s", table->path, table->number,
-             column_of(table, at), table->line,
-             table->columns == COLUMNS_MAX ? "three numbers, x, y and gap"
-                                           : "two numbers, x and gap");
-    TRY(add_point(table, number, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s:%d:%d: found `%.60s`; wanted: %s", table->path, table->number,
+                      column_of(table, at), table->line,
+                      table->columns == COLUMNS_MAX ? "three numbers, x, y and gap"
+                                                    : "two numbers, x and gap");
+    return add_point(table, number, err);
 }
 
 // The places along a column, ascending, each once.
@@ -178,7 +173,7 @@ static bool list_places(const Table *table, int32_t column, double **places, int
                         Error *err)
 {
     double *place = *places = NEW_ARRAY(double, table->count, err);
-    TRY(place);
+    if (!place) return false;
     for (int32_t i = 0; i < table->count; i++) place[i] = table->points[i].column[column];
     qsort(place, (size_t)table->count, sizeof *place, order_doubles);
     *count = 0;
@@ -186,9 +181,8 @@ static bool list_places(const Table *table, int32_t column, double **places, int
         if (i == 0 || place[i] > place[*count - 1]) place[(*count)++] = place[i];
     const char *axis = column == 0 ? " along x" : " along y";
     if (*count < 2)
-        FAIL(err, ERROR_INPUT, "%s has %d point%s%s; two or more are needed", table->path, *count,
-             *count == 1 ? "" : "s", table->columns == COLUMNS_MAX ? axis : "");
-cleanup:
+        return REFUSE(err, "%s has %d point%s%s; two or more are needed", table->path, *count,
+                      *count == 1 ? "" : "s", table->columns == COLUMNS_MAX ? axis : "");
     return error_is_clean(err);
 }
 
@@ -208,14 +202,15 @@ static bool lay_out(const Table *table, SceneProfile *profile, Error *err)
 {
     int32_t last = table->columns - 1;
     profile->rows = 1;
-    TRY(list_places(table, 0, &profile->x, &profile->count, err));
-    if (last == COLUMNS_MAX - 1) TRY(list_places(table, 1, &profile->y, &profile->rows, err));
+    if (!list_places(table, 0, &profile->x, &profile->count, err)) return false;
+    if (last == COLUMNS_MAX - 1 && !list_places(table, 1, &profile->y, &profile->rows, err))
+        return false;
     if ((int64_t)profile->count * profile->rows != table->count)
-        FAIL(err, ERROR_INPUT,
-             "%s has %d points at %d different x and %d different y: a height map is a grid, with "
-             "one point for each x and y",
-             table->path, table->count, profile->count, profile->rows);
-    TRY((profile->gap = NEW_ARRAY(double, table->count, err)));
+        return REFUSE(err,
+                      "%s has %d points at %d different x and %d different y: a height map is a "
+                      "grid, with one point for each x and y",
+                      table->path, table->count, profile->count, profile->rows);
+    if (!(profile->gap = NEW_ARRAY(double, table->count, err))) return false;
     for (int32_t i = 0; i < table->count; i++) profile->gap[i] = NAN;
     for (int32_t i = 0; i < table->count; i++) {
         const double *point = table->points[i].column;
@@ -227,12 +222,11 @@ static bool lay_out(const Table *table, SceneProfile *profile, Error *err)
         }
         double *gap = &profile->gap[(int64_t)profile->count * row + k];
         if (!isnan(*gap))
-            FAIL(err, ERROR_INPUT, "%s has two points at x = %g, y = %g", table->path, point[0],
-                 point[1]);
+            return REFUSE(err, "%s has two points at x = %g, y = %g", table->path, point[0],
+                          point[1]);
         *gap = point[last];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)

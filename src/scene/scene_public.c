@@ -49,9 +49,9 @@ const char *amontons_scene_title(const Scene *scene)
 bool amontons_scene_reference(FILE *out, Error *err)
 {
     scene_write_reference(out);
-    if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write the key reference");
-cleanup:
-    return error_is_clean(err);
+    if (fflush(out) != 0 || ferror(out))
+        return FAULT(err, ERROR_FILE, "cannot write the key reference");
+    return true;
 }
 
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count)

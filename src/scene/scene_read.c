@@ -47,22 +47,19 @@ typedef struct Reader {
 static bool add_setting(Reader *reader, const Setting *setting, Error *err)
 {
     if (reader->setting_count == SETTINGS_MAX)
-        FAIL(err, ERROR_INPUT, "more than %d settings of keys", SETTINGS_MAX);
+        return REFUSE(err, "more than %d settings of keys", SETTINGS_MAX);
     reader->settings[reader->setting_count++] = *setting;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
-static void report_unknown(const char *name, const SceneValue *value, Error *err)
+// Always false.
+static bool report_unknown(const char *name, const SceneValue *value, Error *err)
 {
     const char *nearest = scene_key_nearest(name);
-    if (nearest)
-        yaml_key_error(value->document, value->node, err,
-                       "%s: unknown key; did you mean `%s`? (`amontons info keys` lists them all)",
-                       name, nearest);
-    else
-        yaml_key_error(value->document, value->node, err,
-                       "%s: unknown key (`amontons info keys` lists them all)", name);
+    return yaml_key_error(value->document, value->node, err,
+                          "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,
+                          nearest ? "; did you mean `" : "", nearest ? nearest : "",
+                          nearest ? "`?" : "");
 }
 
 static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err);
@@ -78,10 +75,9 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
         char path[KEY_NAME_SIZE];
         SceneValue child = {.document = document, .node = item};
         snprintf(path, sizeof path, "%s%s%.60s", name, *name ? "." : "", yaml_key(document, item));
-        TRY(gather(reader, path, &child, err));
+        if (!gather(reader, path, &child, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Turns the value standing under `name` into settings of keys.
@@ -89,17 +85,13 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
 {
     Setting setting = {.key = scene_key_index(name), .value = *value};
     if (setting.key >= 0) {
-        TRY(add_setting(reader, &setting, err));
+        if (!add_setting(reader, &setting, err)) return false;
         bool has_children = reader->keys[setting.key].type == KEY_FIELDS &&
                             yaml_kind(value->document, value->node) == YAML_MAP;
-        if (has_children) TRY(gather_children(reader, name, value, err));
-    } else if (scene_key_is_group(name)) {
-        TRY(gather_children(reader, name, value, err));
-    } else {
-        report_unknown(name, value, err);
+        return !has_children || gather_children(reader, name, value, err);
     }
-cleanup:
-    return error_is_clean(err);
+    return scene_key_is_group(name) ? gather_children(reader, name, value, err)
+                                    : report_unknown(name, value, err);
 }
 
 // A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter,
@@ -108,20 +100,17 @@ static bool gather_outside(Reader *reader, const char *name, const SceneValue *v
 {
     Setting setting = {.key = -1, .value = *value};
     if (strlen(name) >= KEY_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
+        return REFUSE(err, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
     setting.key = scene_key_above(name, &setting.value.part);
     if (setting.key >= 0) {
         snprintf(setting.group, sizeof setting.group, "%s", setting.value.part);
-        TRY(add_setting(reader, &setting, err));
-        goto cleanup;
+        return add_setting(reader, &setting, err);
     }
     if (scene_key_is_group(name) && scene_key_index(name) < 0) {
         snprintf(setting.group, sizeof setting.group, "%s", name);
-        TRY(add_setting(reader, &setting, err));
+        if (!add_setting(reader, &setting, err)) return false;
     }
-    TRY(gather(reader, name, value, err));
-cleanup:
-    return error_is_clean(err);
+    return gather(reader, name, value, err);
 }
 
 // One `--set`: "key=value".
@@ -130,17 +119,15 @@ static bool gather_override(Reader *reader, const char *text, Error *err)
     char name[KEY_NAME_SIZE] = "", shown[KEY_NAME_SIZE + 8];
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || equals - text >= KEY_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "--set %.80s: wanted is key=value, as in load.pressure=0.006", text);
+        return REFUSE(err, "--set %.80s: wanted is key=value, as in load.pressure=0.006", text);
     memcpy(name, text, (size_t)(equals - text));
     snprintf(shown, sizeof shown, "--set %s", name);
     YamlDocument **document = &reader->overrides[reader->override_count];
-    TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
+    if (!yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err)) return false;
     reader->override_count++;
     SceneValue value = {.document = *document, .node = YAML_ROOT};
-    if (scene_is_formula(*document, YAML_ROOT)) goto cleanup;   // needs the others: work_out_all
-    TRY(gather_outside(reader, name, &value, err));
-cleanup:
-    return error_is_clean(err);
+    if (scene_is_formula(*document, YAML_ROOT)) return true;   // needs the others: work_out_all
+    return gather_outside(reader, name, &value, err);
 }
 
 // --- storing ------------------------------------------------------------------------------------
@@ -173,13 +160,10 @@ static bool store_defaults(Reader *reader, const char *group, Scene *scene, Erro
         scene->given[k] = false;
         scene->line[k] = 0;
         reader->sources[k] = (SceneValue){0};
-        if (key->standard)
-            TRY(scene_value_set(key, &value, scene, err));
-        else
-            scene_value_clear(key, scene);
+        if (!key->standard) scene_value_clear(key, scene);
+        if (key->standard && !scene_value_set(key, &value, scene, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool is_none(const SceneKey *key, const SceneValue *value)
@@ -196,13 +180,11 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     SceneValue value = setting->value;
     if (value.part) value.part = setting->group;
     if (is_none(key, &value)) return store_defaults(reader, key->name, scene, err);
-    if (key->type == KEY_FIELDS) TRY(store_defaults(reader, fields, scene, err));
-    if (key->type == KEY_MATERIALS)
-        TRY(scene_materials_set(&value, scene, err));
-    else if (key->type == KEY_STATES)
-        TRY(scene_states_set(key, &value, scene, err));
-    else
-        TRY(scene_value_set(key, &value, scene, err));
+    if (key->type == KEY_FIELDS && !store_defaults(reader, fields, scene, err)) return false;
+    bool stored = key->type == KEY_MATERIALS ? scene_materials_set(&value, scene, err)
+                  : key->type == KEY_STATES  ? scene_states_set(key, &value, scene, err)
+                                             : scene_value_set(key, &value, scene, err);
+    if (!stored) return false;
     bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&
                              key->type != KEY_FIELDS;
     if (is_part_of_fields) {
@@ -213,32 +195,31 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     bool inside = value.document == reader->file;
     scene->line[setting->key] = inside ? yaml_line(value.document, value.node) : 0;
     reader->sources[setting->key] = value;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // `units` first, wherever it stands: numbers are read by it.
 static bool store_settings(Reader *reader, Scene *scene, Error *err)
 {
     int32_t units = scene_key_index("units");
-    TRY(store_defaults(reader, "", scene, err));
+    if (!store_defaults(reader, "", scene, err)) return false;
     for (int32_t i = 0; i < reader->setting_count; i++)
-        if (reader->settings[i].key == units)
-            TRY(store_setting(reader, &reader->settings[i], scene, err));
+        if (reader->settings[i].key == units &&
+            !store_setting(reader, &reader->settings[i], scene, err))
+            return false;
     for (int32_t i = 0; i < reader->setting_count; i++)
-        if (reader->settings[i].key != units)
-            TRY(store_setting(reader, &reader->settings[i], scene, err));
-cleanup:
-    return error_is_clean(err);
+        if (reader->settings[i].key != units &&
+            !store_setting(reader, &reader->settings[i], scene, err))
+            return false;
+    return true;
 }
 
 // Settings from number `first` on.
 static bool store_from(Reader *reader, int32_t first, Scene *scene, Error *err)
 {
     for (int32_t i = first; i < reader->setting_count; i++)
-        TRY(store_setting(reader, &reader->settings[i], scene, err));
-cleanup:
-    return error_is_clean(err);
+        if (!store_setting(reader, &reader->settings[i], scene, err)) return false;
+    return true;
 }
 
 // --- reading ------------------------------------------------------------------------------------
@@ -253,29 +234,22 @@ static bool resolve_file(const char *path, const char *key, char *name, Error *e
     if (!file[0] || file[0] == '/' || !slash) return true;
     int length = snprintf(name, SCENE_TEXT_SIZE, "%.*s/%s", (int)(slash - path), path, file);
     if (length >= SCENE_TEXT_SIZE)
-        FAIL(err, ERROR_INPUT, "%s: the path %.200s... is longer than 511 bytes", key, name);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: the path %.200s... is longer than 511 bytes", key, name);
+    return true;
 }
 
 static bool gather_file(Reader *reader, Error *err)
 {
     SceneValue root = {.document = reader->file, .node = YAML_ROOT};
-    if (yaml_kind(reader->file, YAML_ROOT) == YAML_NOTHING) {
-        yaml_error(reader->file, YAML_ROOT, err,
-                   "the scene is empty; a scene is a map of keys "
-                   "(`amontons info keys` lists them)");
-        goto cleanup;
-    }
-    if (yaml_kind(reader->file, YAML_ROOT) != YAML_MAP) {
-        yaml_error(reader->file, YAML_ROOT, err,
-                   "not a scene: a scene is a map of keys, as in `units: normalised` "
-                   "(`amontons info keys` lists them)");
-        goto cleanup;
-    }
-    TRY(gather_children(reader, "", &root, err));
-cleanup:
-    return error_is_clean(err);
+    if (yaml_kind(reader->file, YAML_ROOT) == YAML_NOTHING)
+        return yaml_error(
+            reader->file, YAML_ROOT, err,
+            "the scene is empty; a scene is a map of keys (`amontons info keys` lists them)");
+    if (yaml_kind(reader->file, YAML_ROOT) != YAML_MAP)
+        return yaml_error(reader->file, YAML_ROOT, err,
+                          "not a scene: a scene is a map of keys, as in `units: normalised` "
+                          "(`amontons info keys` lists them)");
+    return gather_children(reader, "", &root, err);
 }
 
 // What the file gives. *scene is overwritten, and of no use after a failure.
@@ -283,15 +257,12 @@ static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error 
 {
     *scene = (Scene){0};
     reader->keys = scene_keys(&reader->key_count);
-    TRY(yaml_read(path, &reader->file, err));
+    if (!yaml_read(path, &reader->file, err)) return false;
     if (strlen(path) >= SCENE_TEXT_SIZE)
-        FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
+        return REFUSE(err, "%.80s...: a path of more than 511 bytes", path);
     memcpy(scene->path, path, strlen(path) + 1);
-    TRY((reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)));
-    TRY(read_defaults(reader, err));
-    TRY(gather_file(reader, err));
-cleanup:
-    return error_is_clean(err);
+    return (reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)) &&
+           read_defaults(reader, err) && gather_file(reader, err);
 }
 
 // Formulas of --set, in their order, over the scene that all else and those before make.
@@ -308,14 +279,14 @@ static bool work_out_all(Reader *reader, const char *const *overrides, int32_t c
         snprintf(shown, sizeof shown, "--set %s, value of `%.80s`", name,
                  yaml_text(formula, YAML_ROOT));
         SceneSetting setting = {.key = name, .document = formula, .node = YAML_ROOT};
-        TRY(scene_work_out(scene, &setting, shown, value, err));
+        if (!scene_work_out(scene, &setting, shown, value, err)) return false;
         reader->override_count++;
-        TRY(gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
-                           err));
-        TRY(store_from(reader, first, scene, err));
+        if (!gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
+                            err))
+            return false;
+        if (!store_from(reader, first, scene, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // When everything is stored.
@@ -325,22 +296,20 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     const char *word;
     SceneProfile profile;   // read again when the contact is known
     bool done;
-    TRY(scene_check(scene, reader->sources, reader->file, err));
+    if (!scene_check(scene, reader->sources, reader->file, err)) return false;
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
-    TRY(resolve_file(path, "mesh.file", scene->mesh.file, err));
-    TRY(resolve_file(path, "friction.file", scene->own_friction.file, err));
-    TRY(resolve_file(path, "contact.profile", scene->contact.profile, err));
-    TRY(resolve_file(path, "output.compare", scene->output.compare, err));
+    if (!resolve_file(path, "mesh.file", scene->mesh.file, err)) return false;
+    if (!resolve_file(path, "friction.file", scene->own_friction.file, err)) return false;
+    if (!resolve_file(path, "contact.profile", scene->contact.profile, err)) return false;
+    if (!resolve_file(path, "output.compare", scene->output.compare, err)) return false;
     done = scene_profile_read(scene, &profile, err);
     scene_profile_destroy(&profile);
-    TRY(scene_blame(scene, "contact.profile", done, err));
+    if (!scene_blame(scene, "contact.profile", done, err)) return false;
     done = scene_own_law(scene, &word, err);
     snprintf(key, sizeof key, "friction.%s", word);
-    TRY(scene_blame(scene, key, done, err));
-    TRY(scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err));
-cleanup:
-    return error_is_clean(err);
+    return scene_blame(scene, key, done, err) &&
+           scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err);
 }
 
 // Errors have been written by now: they carry their texts with them.
@@ -379,13 +348,12 @@ struct SceneSource {
 bool scene_source_open(const char *path, SceneSource **source, Error *err)
 {
     SceneSource *made = *source = NEW_ARRAY(SceneSource, 1, err);
-    TRY(made);
-    TRY(begin_reading(&made->reader, path, &made->file, err));
+    if (!made) return false;
+    if (!begin_reading(&made->reader, path, &made->file, err)) return false;
     made->file_count = made->reader.setting_count;
-    TRY(store_settings(&made->reader, &made->file, err));
+    if (!store_settings(&made->reader, &made->file, err)) return false;
     memcpy(made->file_sources, made->reader.sources, sizeof made->file_sources);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void scene_source_close(SceneSource *source)
@@ -410,19 +378,15 @@ bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32
     reader->setting_count = source->file_count;
     for (int32_t i = 0; i < count; i++) {
         SceneValue value = {.document = settings[i].document, .node = settings[i].node};
-        TRY(gather_outside(reader, settings[i].key, &value, err));
+        if (!gather_outside(reader, settings[i].key, &value, err)) return false;
     }
     for (int32_t i = source->file_count; i < reader->setting_count; i++)
         other_units = other_units || reader->settings[i].key == units;
     memcpy(&source->made, &source->file, sizeof source->made);
     memcpy(reader->sources, source->file_sources, sizeof reader->sources);
-    if (other_units)
-        TRY(store_settings(reader, &source->made, err));
-    else
-        TRY(store_from(reader, source->file_count, &source->made, err));
-    TRY(finish_copy(source, scene, err));
-cleanup:
-    return error_is_clean(err);
+    return (other_units ? store_settings(reader, &source->made, err)
+                        : store_from(reader, source->file_count, &source->made, err)) &&
+           finish_copy(source, scene, err);
 }
 
 bool scene_source_add(SceneSource *source, const SceneSetting *setting, Scene *scene, Error *err)

@@ -29,12 +29,10 @@ static bool set_part(const SceneValue *value, FrictionStateText *state, Error *e
     const char *part = yaml_key(value->document, value->node);
     const char *text = yaml_text(value->document, value->node);
     bool rate = strcmp(part, "rate") == 0;
-    if (!rate && strcmp(part, "start") != 0) {
-        yaml_key_error(value->document, value->node, err,
-                       "friction.state.%s: unknown key `%.60s`; allowed: rate, start", state->name,
-                       part);
-        return false;
-    }
+    if (!rate && strcmp(part, "start") != 0)
+        return yaml_key_error(value->document, value->node, err,
+                              "friction.state.%s: unknown key `%.60s`; allowed: rate, start",
+                              state->name, part);
     bool scalar = yaml_kind(value->document, value->node) == YAML_SCALAR;
     if (!scalar || !*text || strlen(text) >= STATE_TEXT_SIZE)
         return yaml_refuse(value->document, value->node, "friction.state",
@@ -49,27 +47,23 @@ static bool add_state(const SceneValue *value, SceneStates *states, Error *err)
     const char *name = yaml_key(document, value->node);
     FrictionStateText *state = &states->state[states->count];
     *state = (FrictionStateText){0};
-    if (!is_name(name) || is_taken(name) || scene_friction_number(name) >= 0) {
-        yaml_key_error(document, value->node, err,
-                       "friction.state: `%.40s` cannot be the name of a state; allowed: letters, "
-                       "digits and _, at most 31, and not v, p, a function or a number of friction "
-                       "(mu_S, D_c, a, b, ...)",
-                       name);
-        return false;
-    }
+    if (!is_name(name) || is_taken(name) || scene_friction_number(name) >= 0)
+        return yaml_key_error(document, value->node, err,
+                              "friction.state: `%.40s` cannot be the name of a state; allowed: "
+                              "letters, digits and _, at most 31, and not v, p, a function or a "
+                              "number of friction (mu_S, D_c, a, b, ...)",
+                              name);
     memcpy(state->name, name, strlen(name) + 1);
     if (yaml_kind(document, value->node) != YAML_MAP)
         return yaml_refuse(document, value->node, "friction.state",
                            "a map {rate: FORMULA, start: FORMULA}", err);
-    for (YamlNode part = yaml_first(document, value->node); part != YAML_NO_NODE;
-         part = yaml_next(document, part)) {
+    YAML_EACH (part, document, value->node) {
         SceneValue one = {.document = document, .node = part};
         if (!set_part(&one, state, err)) return false;
     }
-    if (!*state->rate)
-        yaml_key_error(document, value->node, err, "friction.state: `%s` needs its `rate`", name);
     states->count++;
-    return error_is_clean(err);
+    return *state->rate || yaml_key_error(document, value->node, err,
+                                          "friction.state: `%s` needs its `rate`", name);
 }
 
 bool scene_states_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -82,11 +76,9 @@ bool scene_states_set(const SceneKey *key, const SceneValue *value, Scene *scene
         yaml_count(document, value->node) > STATES_MAX)
         return yaml_refuse(document, value->node, key->name, allowed, err);
     *states = (SceneStates){0};
-    for (YamlNode item = yaml_first(document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
+    YAML_EACH (item, document, value->node) {
         SceneValue one = {.document = document, .node = item};
-        TRY(add_state(&one, states, err));
+        if (!add_state(&one, states, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

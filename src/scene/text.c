@@ -32,7 +32,7 @@ void scene_write_reference(FILE *out)
         char allowed[300];
         scene_key_allowed(&keys[k], allowed, sizeof allowed);
         fprintf(out, "| `%s` | ", keys[k].name);
-        if (keys[k].may_lack)
+        if (scene_key_may_lack(&keys[k]))
             fprintf(out, "none");
         else if (!keys[k].standard)
             fprintf(out, "must be given");

@@ -16,19 +16,17 @@ static void *field_of(const SceneKey *key, Scene *scene)
     return (char *)scene + key->offset;
 }
 
-// "material.young: found `abc`; allowed: a number > 0"
-static void report_wrong(const SceneKey *key, const SceneValue *value, Error *err)
+// "material.young: found `abc`; allowed: a number > 0"; false.
+static bool report_wrong(const SceneKey *key, const SceneValue *value, Error *err)
 {
     char allowed[300];
     scene_key_allowed(key, allowed, sizeof allowed);
-    yaml_refuse(value->document, value->node, key->name, allowed, err);
+    return yaml_refuse(value->document, value->node, key->name, allowed, err);
 }
 
 static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *err)
 {
-    if (yaml_kind(value->document, value->node) == YAML_SCALAR) return true;
-    report_wrong(key, value, err);
-    return false;
+    return yaml_kind(value->document, value->node) == YAML_SCALAR || report_wrong(key, value, err);
 }
 
 typedef bool (*ValueSetter)(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
@@ -40,16 +38,13 @@ static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kin
 {
     int32_t most = key->type == KEY_NUMBERS ? (int32_t)SCENE_NUMBERS_MAX : (int32_t)SCENE_LIST_MAX;
     if (yaml_kind(value->document, value->node) != kind ||
-        yaml_count(value->document, value->node) > most) {
-        report_wrong(key, value, err);
-        goto cleanup;
-    }
+        yaml_count(value->document, value->node) > most)
+        return report_wrong(key, value, err);
     YAML_EACH (item, value->document, value->node) {
         SceneValue one = {.document = value->document, .node = item};
-        TRY(set(key, &one, scene, err));
+        if (!set(key, &one, scene, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- numbers ------------------------------------------------------------------------------------
@@ -74,19 +69,19 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
         return true;
     }
     if (units == UNITS_NORMALISED)
-        yaml_error(value->document, value->node, err,
-                   "%s: found `%.60s`, with a unit; a normalised scene has plain numbers "
-                   "(units need `units: si`)",
-                   key->name, text);
-    else if (!*examples)
-        yaml_error(value->document, value->node, err,
-                   "%s: found `%.60s`; this number has no unit; allowed: %s", key->name, text,
-                   scene_range_words(key->range));
-    else if (!unit_to_si(suffix, key->unit, number))
-        yaml_error(value->document, value->node, err,
-                   "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s", key->name, text,
-                   suffix, key->unit, examples);
-    return error_is_clean(err);
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`, with a unit; a normalised scene has plain numbers "
+                          "(units need `units: si`)",
+                          key->name, text);
+    if (!*examples)
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`; this number has no unit; allowed: %s", key->name,
+                          text, scene_range_words(key->range));
+    if (!unit_to_si(suffix, key->unit, number))
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s", key->name,
+                          text, suffix, key->unit, examples);
+    return true;
 }
 
 // Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
@@ -94,27 +89,24 @@ static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits
                         double *number, Error *err)
 {
     const char *suffix = "";
-    TRY(expect_scalar(key, value, err));
-    if (!split_number(yaml_text(value->document, value->node), number, &suffix)) {
-        report_wrong(key, value, err);
-        goto cleanup;
-    }
-    TRY(apply_unit(key, value, units, suffix, number, err));
-    if (!isfinite(*number)) report_wrong(key, value, err);
+    if (!expect_scalar(key, value, err)) return false;
+    if (!split_number(yaml_text(value->document, value->node), number, &suffix))
+        return report_wrong(key, value, err);
+    if (!apply_unit(key, value, units, suffix, number, err)) return false;
+    if (!isfinite(*number)) return report_wrong(key, value, err);
     if (!scene_size_holds(*number))
-        yaml_error(value->document, value->node, err,
-                   "%s: found `%.60s`; allowed: 0, and numbers of a size from %g to %g", key->name,
-                   yaml_text(value->document, value->node), SCENE_SMALLEST, SCENE_LARGEST);
-cleanup:
-    return error_is_clean(err);
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`; allowed: 0, and numbers of a size from %g to %g",
+                          key->name, yaml_text(value->document, value->node), SCENE_SMALLEST,
+                          SCENE_LARGEST);
+    return true;
 }
 
 static bool read_in_range(const SceneKey *key, const SceneValue *value, SceneUnits units,
                           double *number, Error *err)
 {
     if (!read_number(key, value, units, number, err)) return false;
-    if (!scene_range_holds(key->range, *number)) report_wrong(key, value, err);
-    return error_is_clean(err);
+    return scene_range_holds(key->range, *number) || report_wrong(key, value, err);
 }
 
 static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -147,11 +139,9 @@ static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene,
 {
     const char *text = yaml_text(value->document, value->node);
     bool flag = strcmp(text, "true") == 0;
-    if (!flag && strcmp(text, "false") != 0)
-        report_wrong(key, value, err);
-    else
-        memcpy(field_of(key, scene), &flag, sizeof flag);
-    return error_is_clean(err);
+    if (!flag && strcmp(text, "false") != 0) return report_wrong(key, value, err);
+    memcpy(field_of(key, scene), &flag, sizeof flag);
+    return true;
 }
 
 // size: of `out`, which is filled with zeros first. A name (GROUP_NAME_SIZE) must not be empty; no
@@ -159,15 +149,13 @@ static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene,
 static bool copy_text(const SceneKey *key, const SceneValue *value, size_t size, char *out,
                       Error *err)
 {
-    TRY(expect_scalar(key, value, err));
+    if (!expect_scalar(key, value, err)) return false;
     const char *text = yaml_text(value->document, value->node);
     bool empty_name = size == GROUP_NAME_SIZE && !*text;
     if (empty_name || strlen(text) >= size || strpbrk(text, "\n\r\t"))
-        report_wrong(key, value, err);
-    else
-        memcpy(memset(out, 0, size), text, strlen(text) + 1);
-cleanup:
-    return error_is_clean(err);
+        return report_wrong(key, value, err);
+    memcpy(memset(out, 0, size), text, strlen(text) + 1);
+    return true;
 }
 
 // -1: not among them.
@@ -178,7 +166,7 @@ static int32_t find_choice(const SceneKey *key, const char *text)
     return -1;
 }
 
-static void report_choice(const SceneKey *key, const SceneValue *value, Error *err)
+static bool report_choice(const SceneKey *key, const SceneValue *value, Error *err)
 {
     const char *text = yaml_text(value->document, value->node);
     int32_t count = 0;
@@ -186,44 +174,33 @@ static void report_choice(const SceneKey *key, const SceneValue *value, Error *e
     int32_t nearest = text_nearest(text, key->choices, count);
     char allowed[300];
     scene_key_allowed(key, allowed, sizeof allowed);
-    if (nearest < 0)
-        report_wrong(key, value, err);
-    else
-        yaml_error(value->document, value->node, err,
-                   "%s: found `%.60s`, did you mean `%s`? Allowed: %s", key->name, text,
-                   key->choices[nearest], allowed);
+    if (nearest < 0) return report_wrong(key, value, err);
+    return yaml_error(value->document, value->node, err,
+                      "%s: found `%.60s`, did you mean `%s`? Allowed: %s", key->name, text,
+                      key->choices[nearest], allowed);
 }
 
 static bool set_choice(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    TRY(expect_scalar(key, value, err));
+    if (!expect_scalar(key, value, err)) return false;
     int32_t choice = find_choice(key, yaml_text(value->document, value->node));
-    if (choice < 0)
-        report_choice(key, value, err);
-    else
-        memcpy(field_of(key, scene), &choice, sizeof choice);
-cleanup:
-    return error_is_clean(err);
+    if (choice < 0) return report_choice(key, value, err);
+    memcpy(field_of(key, scene), &choice, sizeof choice);
+    return true;
 }
 
 static bool add_name(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneNames *names = field_of(key, scene);
     char name[GROUP_NAME_SIZE];
-    TRY(copy_text(key, value, GROUP_NAME_SIZE, name, err));
-    if (key->choices && find_choice(key, name) < 0) {
-        report_choice(key, value, err);
-        goto cleanup;
-    }
+    if (!copy_text(key, value, GROUP_NAME_SIZE, name, err)) return false;
+    if (key->choices && find_choice(key, name) < 0) return report_choice(key, value, err);
     for (int32_t i = 0; i < names->count; i++)
-        if (strcmp(names->name[i], name) == 0) {
-            yaml_error(value->document, value->node, err, "%s: `%s` stands twice in the list",
-                       key->name, name);
-            goto cleanup;
-        }
+        if (strcmp(names->name[i], name) == 0)
+            return yaml_error(value->document, value->node, err,
+                              "%s: `%s` stands twice in the list", key->name, name);
     memcpy(names->name[names->count++], name, sizeof name);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // One name, or a list of them; nothing is an empty list.
@@ -253,22 +230,19 @@ static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *s
     const char *text = yaml_text(value->document, value->node);
     MeshParameter *parameter = find_parameter(scene, name);
     bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
-    if (full || !*name || strlen(name) >= GROUP_NAME_SIZE) {
-        yaml_key_error(value->document, value->node, err,
-                       "%s: at most 32 parameters, with names of 1 to 63 bytes", key->name);
-        goto cleanup;
-    }
-    TRY(expect_scalar(key, value, err));
+    if (full || !*name || strlen(name) >= GROUP_NAME_SIZE)
+        return yaml_key_error(value->document, value->node, err,
+                              "%s: at most 32 parameters, with names of 1 to 63 bytes", key->name);
+    if (!expect_scalar(key, value, err)) return false;
     double ignored = 0;
-    if (!yaml_is_quoted(value->document, value->node) && text_number(text, &ignored))
-        TRY(read_number(key, value, scene->units, &made.value, err));
-    else
-        TRY(copy_text(key, value, GROUP_NAME_SIZE, made.text, err));
+    bool number = !yaml_is_quoted(value->document, value->node) && text_number(text, &ignored);
+    bool read = number ? read_number(key, value, scene->units, &made.value, err)
+                       : copy_text(key, value, GROUP_NAME_SIZE, made.text, err);
+    if (!read) return false;
     memcpy(made.name, name, strlen(name) + 1);
     if (!parameter) parameter = &scene->mesh.parameters[scene->mesh.parameter_count++];
     *parameter = made;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool set_parameters(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -291,13 +265,13 @@ static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scen
     if (strcmp(name, "group") == 0)
         return copy_text(key, value, GROUP_NAME_SIZE, traction->group, err);
     for (int32_t d = 0; d < 3; d++) {
-        SceneKey component = {.name = components[d], .type = KEY_NUMBER, .unit = key->unit};
+        SceneKey component = {
+            .name = components[d], .type = KEY_NUMBER, .unit = key->unit, .must_be_given = true};
         if (strcmp(name, strrchr(components[d], '.') + 1) == 0)
             return read_number(&component, value, scene->units, places[d], err);
     }
-    yaml_key_error(value->document, value->node, err,
-                   "%s: unknown key `%.60s`; allowed: group, x, y, z", key->name, name);
-    return false;
+    return yaml_key_error(value->document, value->node, err,
+                          "%s: unknown key `%.60s`; allowed: group, x, y, z", key->name, name);
 }
 
 // Counted only after its parts were read: set_traction_part writes into the place behind the last.
@@ -305,13 +279,10 @@ static bool add_traction(const SceneKey *key, const SceneValue *value, Scene *sc
 {
     SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
     *traction = (SceneTraction){0};
-    TRY(set_items(key, value, YAML_MAP, set_traction_part, scene, err));
-    if (!*traction->group)
-        yaml_error(value->document, value->node, err, "%s: a traction needs its `group`",
-                   key->name);
+    if (!set_items(key, value, YAML_MAP, set_traction_part, scene, err)) return false;
     scene->load.traction_count++;
-cleanup:
-    return error_is_clean(err);
+    return *traction->group || yaml_error(value->document, value->node, err,
+                                          "%s: a traction needs its `group`", key->name);
 }
 
 static bool support_holds(const SceneSupport *support)
@@ -326,20 +297,18 @@ static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene
     const char *text = yaml_text(value->document, value->node);
     if (strcmp(name, "group") == 0)
         return copy_text(key, value, GROUP_NAME_SIZE, support->group, err);
-    if (strcmp(name, "direction") != 0) {
-        yaml_key_error(value->document, value->node, err,
-                       "%s: unknown key `%.60s`; allowed: group, direction", key->name, name);
-        return false;
-    }
+    if (strcmp(name, "direction") != 0)
+        return yaml_key_error(value->document, value->node, err,
+                              "%s: unknown key `%.60s`; allowed: group, direction", key->name,
+                              name);
     bool all = strcmp(text, "all") == 0, both = all || strcmp(text, "both") == 0;
     support->x = both || strcmp(text, "x") == 0;
     support->y = all || strcmp(text, "y") == 0;
     support->z = both || strcmp(text, "z") == 0;
-    if (!support_holds(support))
-        yaml_error(value->document, value->node, err,
-                   "%s.direction: found `%.60s`; allowed: one of x, y, z, both, all", key->name,
-                   text);
-    return error_is_clean(err);
+    return support_holds(support) ||
+           yaml_error(value->document, value->node, err,
+                      "%s.direction: found `%.60s`; allowed: one of x, y, z, both, all", key->name,
+                      text);
 }
 
 // Likewise.
@@ -347,13 +316,11 @@ static bool add_support(const SceneKey *key, const SceneValue *value, Scene *sce
 {
     SceneSupport *support = &scene->load.supports[scene->load.support_count];
     *support = (SceneSupport){0};
-    TRY(set_items(key, value, YAML_MAP, set_support_part, scene, err));
-    if (!*support->group || !support_holds(support))
-        yaml_error(value->document, value->node, err,
-                   "%s: a support needs its `group` and its `direction`", key->name);
+    if (!set_items(key, value, YAML_MAP, set_support_part, scene, err)) return false;
     scene->load.support_count++;
-cleanup:
-    return error_is_clean(err);
+    return (*support->group && support_holds(support)) ||
+           yaml_error(value->document, value->node, err,
+                      "%s: a support needs its `group` and its `direction`", key->name);
 }
 
 // load.tractions and load.supports; nothing is an empty list.
@@ -372,12 +339,12 @@ static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scen
     bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;
     bool is_film = !is_map && strcmp(yaml_text(value->document, value->node), "film") == 0;
     if (!is_map && !is_film && strcmp(yaml_text(value->document, value->node), "none") != 0)
-        report_wrong(key, value, err);
+        return report_wrong(key, value, err);
     scene->output.fields = is_map || is_film;
     scene->output.fields_film = is_film;
     scene->output.fields_every_U = scene->output.fields_every_t = 0;
     scene->output.fields_every_step = scene->output.fields_at_events = false;
-    return error_is_clean(err);
+    return true;
 }
 
 void scene_value_clear(const SceneKey *key, Scene *scene)
@@ -416,8 +383,8 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
     case KEY_SUPPORTS:
         return set_list(key, value, scene, err);
     case KEY_CONTACT_LAWS:   // read when all that they may leave out is (scene/contact_laws)
-        if (yaml_kind(value->document, value->node) != YAML_LIST) report_wrong(key, value, err);
-        return error_is_clean(err);
+        return yaml_kind(value->document, value->node) == YAML_LIST ||
+               report_wrong(key, value, err);
     case KEY_STATES:   // scene/states
     case KEY_MATERIALS:   // scene/materials
         return true;

@@ -19,9 +19,15 @@ typedef struct BothSides {
 // questions that follow are about the state that this was asked about last.
 bool both_sides_hold(BothSides sides, const State *state, double reach, bool *odd_decays);
 
-bool both_sides_resolve(BothSides sides, const State *state, int32_t k);   // _step_resolves
-bool both_sides_run_away(BothSides sides, const State *state, int32_t resolved);   // _finds_runaway
-bool both_sides_oscillate_less(BothSides sides, const State *state, RungRange range, double growth);
-bool both_sides_exclude_runaway(BothSides sides, const State *state, RungRange range);
+// What the certificate is asked about the rungs of a range; the first two about its first alone.
+typedef enum BothSidesAsked {
+    SIDES_RESOLVE,   // certificate_step_resolves
+    SIDES_FIND_NO_RUNAWAY,   // not certificate_finds_runaway, known to hold on that rung
+    SIDES_OSCILLATE_LESS,   // certificate_oscillates_less than `growth`
+    SIDES_EXCLUDE_RUNAWAY   // certificate_excludes_runaway
+} BothSidesAsked;
+
+bool both_sides_ask(BothSides sides, const State *state, BothSidesAsked asked, RungRange range,
+                    double growth);
 
 #endif

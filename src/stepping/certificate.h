@@ -36,6 +36,9 @@
 //     is at least u*(C - W - N)u: it cannot be 0.)
 //   * The third test takes N with Re lambda >= a |lambda|, |lambda| >= s, for all s from 1/h on.
 //
+// A state that grows by itself makes poles of W(s) on the right: the tests of det J ask that none
+// is real and as fast as 1/h.
+//
 // All leave out that pressure follows slip. Dampers of soft rod nodes
 // belong to C; their springs are left out, which only makes the tests stricter. Called by
 // stepping/step_control.

@@ -53,11 +53,7 @@ double energy_turnover(const EnergyLedger *ledger)
 void energy_archive(EnergyLedger *ledger, Archive *archive)
 {
     archive_section(archive, "energy");
-    archive_number(archive, &ledger->rod_work);
-    archive_number(archive, &ledger->load_work);
-    archive_number(archive, &ledger->viscous);
-    archive_number(archive, &ledger->frictional);
-    archive_number(archive, &ledger->elastic);
-    archive_number(archive, &ledger->kinetic);
-    archive_number(archive, &ledger->stored_at_start);
+    archive_numbers_of(archive, &ledger->rod_work, &ledger->load_work, &ledger->viscous,
+                       &ledger->frictional, &ledger->elastic, &ledger->kinetic,
+                       &ledger->stored_at_start);
 }

@@ -340,19 +340,18 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
     ledger->load_work += fill_state(scheme, state);
     energy_store(state, ledger);
     if (!isfinite(ledger->elastic) || !isfinite(ledger->kinetic))
-        FAIL(err, ERROR_COMPUTE,
-             "the explicit steps of %g have blown up before t = %g: they are longer than is stable",
-             scheme->def.step, state->time);
+        return FAULT(
+            err, ERROR_COMPUTE,
+            "the explicit steps of %g have blown up before t = %g: they are longer than is stable",
+            scheme->def.step, state->time);
     scheme->residual = centred_residual(scheme, state);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
 {
     archive_section(archive, "explicit steps");
-    archive_number(archive, &scheme->time);
-    archive_number(archive, &scheme->rod_way);
+    archive_numbers_of(archive, &scheme->time, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
     archive_numbers(archive, scheme->mesh.now,

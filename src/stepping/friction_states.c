@@ -30,12 +30,13 @@ bool friction_states_create(const Block *block, FrictionStates *states, Error *e
     states->laws = block->stage_laws;
     for (int32_t i = 0; i < count; i++) states->act = states->act || acts(&states->laws[i]);
     states->rate = NEW_ARRAY(double, (TABLEAU_STAGES_MAX + 1) * count * STATES_MAX, err);
+    states->mu_state = NEW_ARRAY(double, count *STATES_MAX, err);
     return error_is_clean(err);
 }
 
 void friction_states_destroy(FrictionStates *states)
 {
-    memory_free(states->rate);
+    memory_free_all(states->rate, states->mu_state);
     *states = (FrictionStates){0};
 }
 
@@ -58,20 +59,20 @@ static double *rates_of(const FrictionStates *states, int32_t stage, int32_t i)
            ((int64_t)(stage + 1) * states->interface->contact_count + i) * STATES_MAX;
 }
 
-static void keep_rates(const FrictionStates *states, int32_t stage, const double *velocity,
-                       const State *state)
+static void keep_rates(const FrictionStates *states, int32_t stage, const State *state)
 {
     for (int32_t i = 0; i < states->interface->contact_count; i++) {
         FrictionRates rates;
-        double speed = slip_size(states->interface, i, velocity);
-        friction_rates(&states->laws[i], speed, state_of(state, i), &rates);
-        memcpy(rates_of(states, stage, i), rates.rate, (size_t)rates.states * sizeof(double));
+        state_friction(state, states->interface, &states->laws[i], i, &rates);
+        size_t bytes = (size_t)rates.states * sizeof(double);
+        memcpy(rates_of(states, stage, i), rates.rate, bytes);
+        memcpy(states->mu_state + (int64_t)i * STATES_MAX, rates.mu_state, bytes);
     }
 }
 
 void friction_states_begin(FrictionStates *states, const State *from)
 {
-    if (states->laws) keep_rates(states, -1, from->slip_rate, from);
+    if (states->laws) keep_rates(states, -1, from);
 }
 
 void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
@@ -102,30 +103,26 @@ bool friction_states_press(FrictionStates *states, const double *velocity, const
     return changed;
 }
 
-void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
-                               State *to)
+void friction_states_end_stage(FrictionStates *states, int32_t stage, State *to)
 {
     if (!states->laws) return;
     for (int32_t i = 0; i < states->interface->contact_count; i++)
-        friction_state(&states->laws[i], slip_size(states->interface, i, velocity),
+        friction_state(&states->laws[i], slip_size(states->interface, i, to->slip_rate),
                        state_of(to, i));
-    keep_rates(states, stage, velocity, to);
+    keep_rates(states, stage, to);
 }
 
-double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step,
-                             const State *to)
+double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step)
 {
     double largest = 0;
     if (!states->laws || states->frozen) return 0;
     for (int32_t i = 0; i < states->interface->contact_count; i++) {
-        double speed = slip_size(states->interface, i, to->slip_rate);
-        FrictionRates rates;
-        friction_rates(&states->laws[i], speed, state_of(to, i), &rates);
-        for (int32_t k = 0; k < rates.states; k++) {
+        const double *mu_state = states->mu_state + (int64_t)i * STATES_MAX;
+        for (int32_t k = 0; k < friction_states(&states->laws[i], 0); k++) {
             double error = 0;
             for (int32_t j = 0; j <= tableau->stages; j++)
                 error += tableau->error[j] * rates_of(states, j - 1, i)[k];
-            error = fabs(step * error * rates.mu_state[k]) * states->slip_per_mu;
+            error = fabs(step * error * mu_state[k]) * states->slip_per_mu;
             if (!isfinite(error)) return INFINITY;
             largest = fmax(largest, error);
         }
@@ -158,8 +155,7 @@ void friction_states_archive(FrictionStates *states, Archive *archive)
         if (!states->laws[i].remembers) continue;
         memcpy(from, memory->from, sizeof from);
         archive_numbers(archive, from, memory->states);
-        archive_number(archive, &memory->pressure);
-        archive_number(archive, &reach);
+        archive_numbers_of(archive, &memory->pressure, &reach);
         if (archive_reads(archive)) friction_set_stage(&states->laws[i], from, reach);
     }
 }

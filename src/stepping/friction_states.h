@@ -21,6 +21,8 @@ typedef struct FrictionStates {
     double slip_per_mu;   // that drives it: an error of mu counts as one of u so large, length
     double *rate;   // [TABLEAU_STAGES_MAX + 1, contact_count, STATES_MAX] g at the start of the
         // step and in its stages; owned
+    double
+        *mu_state;   // [contact_count, STATES_MAX] mu_theta at the end of the last of them; owned
 } FrictionStates;
 
 bool friction_states_create(const Block *block, FrictionStates *states, Error *err);
@@ -36,13 +38,11 @@ void friction_states_start_stage(FrictionStates *states, const Tableau *tableau,
 // Laws that ask for pressure are handed that of the reactions at hand. true: mu has changed by more
 // than rounding, and the contact problem has to be solved once more.
 bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction);
-// velocity: v of the stage on the interface. Its states go into `to`.
-void friction_states_end_stage(FrictionStates *states, int32_t stage, const double *velocity,
-                               State *to);
+// `to` has the velocities and reactions of the stage; its states go there, too.
+void friction_states_end_stage(FrictionStates *states, int32_t stage, State *to);
 
-// The largest error of mu that the local error of a state makes, as a length; `to` ends the step.
-double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step,
-                             const State *to);
+// The largest error of mu that the local error of a state makes, as a length; all stages are over.
+double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step);
 
 // The stages under way: the judge asks for the last one.
 // Whether mu, not negative, and states are numbers at each node in the stage under way, `at` these

@@ -11,14 +11,15 @@
 // the soft ends of its strip are led by it. Last, where friction remembers, z of each slipping
 // tangent: what friction remembers of its slip, a way that fades, dz/dt = v - fading z, so that
 // friction falls by memory z. Its part c of x comes back as (s y - c)/(s + fading), and to the
-// right side is added -memory c/(s (s + fading)); W is W(s). Of each shift's space only pairs whose
-// residual is below RESIDUAL_LIMIT are believed; neighbouring shifts see some of them twice, and
-// keep_rate drops the second.
+// right side is added -memory c/(s (s + fading)); W is W(s). Of several states each has its z, its
+// theta' over a scale of its own; (s - g_theta)^-1 stands for 1/(s + fading). Of each shift's space
+// only pairs whose residual is below RESIDUAL_LIMIT are believed; neighbouring shifts see some of
+// them twice, and keep_rate drops the second.
 #include "stepping/growth.h"
 
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction_response.h"
 #include "stepping/weakening_ratio.h"
 
 #include <math.h>
@@ -37,9 +38,10 @@ struct Growth {
     BulkOperator *system;   // not owned, like the next
     const Interface *interface;
     bool on_spring;   // the rod has a way of its own
-    bool remembers;   // some law has a state
+    int32_t states;   // of a node, at most
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
+    double near;   // the one whose space is searched
     InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
     MovingSet moving;   // of the state asked about
     double *matrix;   // [interface_count^2] of the moving unknowns
@@ -58,7 +60,7 @@ struct Growth {
 static int64_t state_size(const Growth *growth)
 {
     return 2 * (int64_t)growth->system->dof_count + growth->on_spring +
-           (growth->remembers ? growth->interface->count : 0);
+           (int64_t)growth->states * growth->interface->count;
 }
 
 // From the slowest oscillation of the block, a quarter wave over its length, to about c over the
@@ -97,7 +99,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     growth->system = block->system;
     growth->interface = block->interface;
     growth->on_spring = block->system->machine.stiffness > 0;
-    growth->remembers = friction_remembers(block->law, block->interface->contact_count);
+    growth->states = friction_states(block->law, block->interface->contact_count);
     TRY(moving_set_create(block, &growth->moving, err));
     TRY(allocate(growth, err));
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
@@ -192,7 +194,7 @@ static void put_rod(const Growth *growth, double way, double *to)
     }
 }
 
-// The z of x.
+// The z of x: [states] of each row.
 static double *memories_of(const Growth *growth, const double *x)
 {
     return (double *)x + 2 * (int64_t)growth->system->dof_count + growth->on_spring;
@@ -202,9 +204,14 @@ static double *memories_of(const Growth *growth, const double *x)
 static void pull_memories(const Growth *growth, double s, const double *from)
 {
     const double *c = memories_of(growth, from);
-    for (int32_t r = 0; growth->moving.remembers && r < growth->moving.count; r++) {
+    for (int32_t r = 0; growth->moving.remembers && r < growth->moving.count;
+         r++, c += growth->states) {
         const MovingUnknown *row = &growth->moving.list[r];
-        growth->step[r] -= row->memory * c[r] / (s * (s + row->fading));
+        if (row->node >= 0)
+            growth->step[r] += friction_respond(&growth->moving.rates[row->node], s, 0, c, NULL) /
+                               s;
+        else
+            growth->step[r] -= row->memory * *c / (s * (s + row->fading));
     }
 }
 
@@ -213,10 +220,13 @@ static void put_memories(const Growth *growth, double s, const double *from, dou
 {
     const double *c = memories_of(growth, from);
     double *z = memories_of(growth, to);
-    memset(z, 0, (size_t)growth->interface->count * sizeof *z);
-    for (int32_t r = 0; r < growth->moving.count; r++) {
+    memset(z, 0, (size_t)growth->states * (size_t)growth->interface->count * sizeof *z);
+    for (int32_t r = 0; r < growth->moving.count; r++, c += growth->states, z += growth->states) {
         const MovingUnknown *row = &growth->moving.list[r];
-        if (row->memory != 0) z[r] = (s * growth->step[r] - c[r]) / (s + row->fading);
+        if (row->node >= 0)
+            friction_respond(&growth->moving.rates[row->node], s, growth->step[r], c, z);
+        else if (row->memory != 0)
+            *z = (s * growth->step[r] - *c) / (s + row->fading);
     }
 }
 
@@ -243,7 +253,7 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
     moving_set_turn_vector(&growth->moving, false, growth->step);
     pull_memories(growth, s, from);
     dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
-    if (growth->remembers) put_memories(growth, s, from, to);
+    if (growth->states > 0) put_memories(growth, s, from, to);
     moving_set_turn_vector(&growth->moving, true, growth->step);
     memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
     for (int32_t r = 0; r < growth->moving.count; r++)
@@ -353,14 +363,15 @@ static void scale_mode(const Growth *growth, double *re, double *im)
     }
 }
 
-// Keeps lambda where it is new and among the rightmost; returns its place or -1.
-static int32_t keep_rate(GrowthRates *rates, GrowthRate found)
+// Keeps lambda where it is new and among the rightmost; returns its place or -1. A shift far from
+// it, after those that are near, knows it less well.
+static int32_t keep_rate(GrowthRates *rates, GrowthRate found, double shift)
 {
     int32_t place = 0;
-    double size = hypot(found.re, found.im);
+    double same = SAME_RATE * hypot(found.re, found.im) +
+                  RESIDUAL_LIMIT * hypot(found.re - shift, found.im);
     for (int32_t k = 0; k < rates->count; k++) {
-        if (hypot(rates->rate[k].re - found.re, rates->rate[k].im - found.im) <= SAME_RATE * size)
-            return -1;
+        if (hypot(rates->rate[k].re - found.re, rates->rate[k].im - found.im) <= same) return -1;
         if (rates->rate[k].re >= found.re) place = k + 1;
     }
     if (place >= GROWTH_KEPT) return -1;
@@ -374,7 +385,7 @@ static int32_t keep_rate(GrowthRates *rates, GrowthRate found)
 static void take_pair(Growth *growth, int32_t count, GrowthRate found, const double *re,
                       const double *im, GrowthRates *rates)
 {
-    if (keep_rate(rates, found) == 0) {
+    if (keep_rate(rates, found, growth->near) == 0) {
         lift_mode(growth, count, re, growth->mode_re);
         memset(growth->mode_im, 0, (size_t)growth->interface->count * sizeof(double));
         if (im) lift_mode(growth, count, im, growth->mode_im);
@@ -397,6 +408,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
     int32_t count = 0;
     double rest = 0, s = growth->shift[k];
     int64_t rows = VECTORS_LIMIT + 1;
+    growth->near = s;
     if (!factor_moving(growth, k)) return true;   // s is itself a rate; other shifts see it
     TRY(build_basis(growth, k, &count, &rest, err));
     for (int32_t j = 0; j < count; j++)

@@ -46,11 +46,11 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
 {
     const Interface *side = &half->half.interface;
     *half = (HalfStep){0};
-    TRY(contact_half_find(block->interface, &half->half, err));
-    if (side->contact_count == 0) goto cleanup;
+    if (!contact_half_find(block->interface, &half->half, err)) return false;
+    if (side->contact_count == 0) return true;
     bool alike = create_rod(block->rod, &half->half, &half->rod, err);
-    TRY(create_state(side, &half->state, err));
-    TRY(contact_solver_create(side, contact_solver_def(), &half->solver, err));
+    if (!create_state(side, &half->state, err)) return false;
+    if (!contact_solver_create(side, contact_solver_def(), &half->solver, err)) return false;
     half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
@@ -58,15 +58,14 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     half->odd_bound = NEW_ARRAY(double, side->count, err);
     half->odd_velocity = NEW_ARRAY(double, side->count, err);
     half->odd_reaction = NEW_ARRAY(double, side->count, err);
-    TRY(contact_newton_create(side, &half->newton, err));
+    if (!contact_newton_create(side, &half->newton, err)) return false;
     Block one = {.interface = side, .law = &half->law, .rod = &half->rod};
     for (int32_t odd = 0; alike && odd < 2; odd++) {
         Certificate *certificate = odd ? &half->odd : &half->even;
-        TRY(certificate_halve(whole, &half->half, &one, odd, certificate, err));
+        if (!certificate_halve(whole, &half->half, &one, odd, certificate, err)) return false;
         alike = certificate->damping_contact.schur != NULL;
     }
     half->exists = alike;
-cleanup:
     return error_is_clean(err);
 }
 

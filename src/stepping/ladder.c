@@ -190,11 +190,10 @@ bool ladder_archive(Ladder *ladder, int64_t last, int64_t last_halved, Archive *
         bool built = ladder->rung[k] != NULL;
         archive_count(archive, &ladder->accepted[k]);
         archive_flag(archive, &built);
-        TRY(archive_check(archive, false, err));
+        if (!archive_check(archive, false, err)) return false;
         if (!built && ladder->rung[k]) drop_rung(ladder, k);
         if (!built) continue;
-        TRY(archive_contact(ladder, k, each, archive, err));
+        if (!archive_contact(ladder, k, each, archive, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -2,7 +2,7 @@
 #include "stepping/moving_set.h"
 
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction_response.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
     set->friction = NEW_ARRAY(double, count, err);
     set->turned = NEW_ARRAY(int32_t, count, err);
     set->direction = NEW_ARRAY(double, count, err);
-    if (friction_states(block->law, block->interface->contact_count) > 1)
+    if (friction_remembers(block->law, block->interface->contact_count))
         set->rates = NEW_ARRAY(FrictionRates, block->interface->contact_count, err);
     return error_is_clean(err);
 }
@@ -64,11 +64,11 @@ static void add_across(MovingSet *set, int32_t t, int32_t n, double damper)
 static void keep_memory(MovingSet *set, const FrictionRates *rates, int32_t i, double pressing,
                         MovingUnknown *moving)
 {
-    if (rates->states == 1) {
+    if (rates->states == 1 && rates->rate_state[0][0] <= 0) {
         moving->memory = -rates->mu_state[0] * rates->rate_speed[0] * pressing;
         moving->fading = -rates->rate_state[0][0];
         set->remembers = set->remembers || moving->memory != 0;
-    } else if (rates->states > 1) {
+    } else if (rates->states > 0) {
         moving->node = i;
         set->remembers = true;
         set->rates[i] = *rates;
@@ -79,10 +79,9 @@ static void keep_memory(MovingSet *set, const FrictionRates *rates, int32_t i, d
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
 {
     int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
-    const FrictionLaw *law = friction_at(set->law, i);
     double speed = slip_size(set->interface, i, state->slip_rate);
     FrictionRates rates;
-    friction_rates(law, speed, state->theta + (int64_t)i * STATES_MAX, &rates);
+    state_friction(state, set->interface, friction_at(set->law, i), i, &rates);
     double mu = rates.mu, d[TANGENTS_MAX];
     MovingUnknown *moving = add_unknown(set, t);
     find_direction(set, state, i, d);
@@ -252,6 +251,15 @@ void moving_set_subtract_memory(const MovingSet *set, double reach, double narro
         if (moving->node >= 0)
             *diagonal -= factor * friction_weakens_most(&set->rates[moving->node], reach);
     }
+}
+
+bool moving_set_is_calm(const MovingSet *set, double reach)
+{
+    for (int32_t a = 0; set->remembers && a < set->count; a++) {
+        int32_t i = set->list[a].node;
+        if (i >= 0 && !friction_states_calm(&set->rates[i], reach)) return false;
+    }
+    return true;
 }
 
 void moving_set_settle(MovingSet *set, double reach)

@@ -29,7 +29,8 @@
 //     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
 //
 // a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
-// `fading`. Of several states w(s) - w is that of a small system (friction/friction_state).
+// `fading`. Of several states w(s) - w is that of a small system (friction/friction_state), as of
+// one that grows by itself.
 //
 // A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).
@@ -49,8 +50,8 @@ typedef struct MovingUnknown {
     double spring;   // of the same: 1 / softness, force / length
     double memory;   // of a slipping tangent: -mu_theta g_v r_n, force / length; 0: no memory
     double fading;   // -g_theta, 1/time
-    int32_t node;   // of a slipping tangent where there are several states, which `memory` and
-        // `fading` do not say; else -1
+    int32_t node;   // of a slipping tangent with several states, or one that grows by itself, which
+        // `memory` and `fading` do not say; else -1
 } MovingUnknown;
 
 typedef struct MovingSet {
@@ -65,7 +66,8 @@ typedef struct MovingSet {
     int32_t count;   // |F|
     bool weakens;   // some weakening is above 0
     bool remembers;   // some memory is not 0
-    FrictionRates *rates;   // [contact_count] of nodes with several states; NULL: no law has; owned
+    FrictionRates *rates;   // [contact_count] of such nodes, mu_state times the pressing force;
+        // NULL: no law remembers; owned
     int32_t turned_count;   // slipping nodes in space
     int32_t *turned;   // [turned_count] which of F is their first unknown; owned, like the next
     double *direction;   // [turned_count * 2] d
@@ -101,6 +103,8 @@ void moving_set_subtract_weakening(const MovingSet *set, double reach, double *m
 // |s| >= 1/reach and Re s >= narrow |s|, 0 <= narrow < 1.
 void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
                                 double *matrix);
+// No state by itself, at held slip, grows at a real rate of 1/reach or more: no pole of W(s).
+bool moving_set_is_calm(const MovingSet *set, double reach);
 // W(s) at s = 1/reach as weakening or damper, in place of what is remembered.
 void moving_set_settle(MovingSet *set, double reach);
 

@@ -2,7 +2,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction_response.h"
 #include "contact/slip.h"
 
 // Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at
@@ -44,10 +44,8 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (k >= contacts) return state->rod_touches[k - contacts] ? -1 : 0;
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
-    double speed = slip_size(record->interface, k, state->slip_rate);
     FrictionRates rates;
-    friction_rates(friction_at(record->law, k), speed, state->theta + (int64_t)k * STATES_MAX,
-                   &rates);
+    state_friction(state, record->interface, friction_at(record->law, k), k, &rates);
     double slope = rates.mu_speed - friction_weakens_at(&rates, record->duration);
     return slope < 0 ? -slope * state->reaction[interface_normal(record->interface, k)]
                      : 0;   // 0: it strengthens

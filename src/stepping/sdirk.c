@@ -272,7 +272,7 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     friction_states_start_stage(&scheme->memory, tableau, trial->step, i, trial->from);
     TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
     if (!trial->outcome->solved) goto cleanup;
-    friction_states_end_stage(&scheme->memory, i, to->slip_rate, to);
+    friction_states_end_stage(&scheme->memory, i, to);
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
     find_viscous(scheme, momentum, elastic, &contact, trial->scaled);
@@ -319,7 +319,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
         if (!outcome->solved) goto cleanup;
     }
     outcome->error = estimate_error(scheme, from, to, trial.step);
-    double forgets = friction_states_error(&scheme->memory, &scheme->tableau, trial.step, to);
+    double forgets = friction_states_error(&scheme->memory, &scheme->tableau, trial.step);
     if (forgets > outcome->error) outcome->error = forgets;
     bool audited = scheme->steps++ % AUDIT_EVERY == 0;
     outcome->residual = audited ? end_residual(scheme, to) : 0;

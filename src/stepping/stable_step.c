@@ -91,12 +91,11 @@ bool stable_step(const Bulk *bulk, double *step, Error *err)
 {
     double viscous = 0, elastic = 0;
     *step = 0;
-    TRY(largest_rate(bulk, bulk->damping, &viscous, err));
-    TRY(largest_rate(bulk, bulk->stiffness, &elastic, err));
+    if (!largest_rate(bulk, bulk->damping, &viscous, err)) return false;
+    if (!largest_rate(bulk, bulk->stiffness, &elastic, err)) return false;
     *step = SAFETY * 4 / (viscous + sqrt(viscous * viscous + 4 * elastic));
     if (!(*step > 0 && isfinite(*step)))
-        FAIL(err, ERROR_COMPUTE, "no stable explicit step: the largest rates are %g and %g",
-             viscous, sqrt(elastic));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_COMPUTE, "no stable explicit step: the largest rates are %g and %g",
+                     viscous, sqrt(elastic));
+    return true;
 }

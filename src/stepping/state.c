@@ -3,7 +3,9 @@
 #include "stepping/state.h"
 
 #include "base/memory.h"
+#include "contact/slip.h"
 
+#include <math.h>
 #include <string.h>
 
 // All zero but the statuses: every contact node sticks. On failure state_destroy frees what was
@@ -56,11 +58,23 @@ void state_copy(const State *from, State *to)
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
 }
 
+void state_friction(const State *state, const Interface *interface, const FrictionLaw *law,
+                    int32_t i, FrictionRates *rates)
+{
+    double speed = slip_size(interface, i, state->slip_rate);
+    const double *theta = state->theta + (int64_t)i * STATES_MAX;
+    if (!friction_feels_pressure(law)) {
+        friction_rates(law, speed, theta, rates);
+        return;
+    }
+    double pressing = fmax(state->reaction[interface_normal(interface, i)], 0);
+    friction_rates_pressed(law, pressing / interface->weight[i], speed, theta, rates);
+}
+
 void state_archive(State *state, Archive *archive)
 {
     archive_section(archive, "state");
-    archive_number(archive, &state->time);
-    archive_number(archive, &state->rod_way);
+    archive_numbers_of(archive, &state->time, &state->rod_way);
     archive_numbers(archive, state->displacement, state->dof_count);
     archive_numbers(archive, state->velocity, state->dof_count);
     archive_numbers(archive, state->elastic_force, state->dof_count);

@@ -6,6 +6,7 @@
 #include "base/archive.h"
 #include "reduction/interface_operator.h"
 #include "contact/contact_problem.h"
+#include "friction/friction_state.h"
 
 // What is stepped: the bulk, where it meets the world, and by which laws. Nothing is owned.
 typedef struct Block {
@@ -39,6 +40,10 @@ typedef struct State {
 bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err);
 void state_destroy(State *state);
 void state_copy(const State *from, State *to);   // of the same sizes
+
+// mu, g and their derivatives at contact node i, by its law and at its pressure.
+void state_friction(const State *state, const Interface *interface, const FrictionLaw *law,
+                    int32_t i, FrictionRates *rates);
 
 void state_archive(State *state, Archive *archive);
 

@@ -160,7 +160,8 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    return growth > 1 && both_sides_oscillate_less(sides_of(control), state, range, growth);
+    return growth > 1 &&
+           both_sides_ask(sides_of(control), state, SIDES_OSCILLATE_LESS, range, growth);
 }
 
 // May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates
@@ -181,7 +182,7 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
     else
         all.first = 0;
     return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
-           both_sides_exclude_runaway(sides_of(control), state, all);
+           both_sides_ask(sides_of(control), state, SIDES_EXCLUDE_RUNAWAY, all, 0);
 }
 
 // Cheapest first. *certified and *odd_decays: of the state the step leads to; where the certificate
@@ -202,7 +203,8 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
         return may_skip_waves(control, &control->next, k) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    bool resolved = both_sides_resolve(sides_of(control), &control->next, k);
+    RungRange own = {k, k + 1};
+    bool resolved = both_sides_ask(sides_of(control), &control->next, SIDES_RESOLVE, own, 0);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
@@ -309,8 +311,9 @@ static void scan_growth(StepControl *control, int32_t k)
                                                       : 0;
     if (control->certified || slipping <= control->scanned + more) return;
     control->scanned = slipping;
+    RungRange known = {k < wave_rung(control) ? -1 : k, k + 1};
     control->grows =
-        both_sides_run_away(sides_of(control), &control->now, k < wave_rung(control) ? -1 : k);
+        !both_sides_ask(sides_of(control), &control->now, SIDES_FIND_NO_RUNAWAY, known, 0);
 }
 
 // `now` and `next` exchange their arrays.
@@ -414,12 +417,9 @@ cleanup:
 
 static void counters_archive(StepCounters *counters, Archive *archive)
 {
-    archive_count(archive, &counters->accepted);
-    archive_count(archive, &counters->rejected_error);
-    archive_count(archive, &counters->rejected_energy);
-    archive_count(archive, &counters->rejected_uncertified);
-    archive_count(archive, &counters->unsolved);
-    archive_count(archive, &counters->stepped_over_oscillations);
+    archive_counts_of(archive, &counters->accepted, &counters->rejected_error,
+                      &counters->rejected_energy, &counters->rejected_uncertified,
+                      &counters->unsolved, &counters->stepped_over_oscillations);
 }
 
 bool step_control_archive(StepControl *control, Archive *archive, Error *err)
@@ -431,8 +431,7 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     certificate_archive(&control->certificate, archive);
     half_step_archive(&control->half, archive);
     archive_section(archive, "step control");
-    archive_number(archive, &control->outcome.residual);
-    archive_number(archive, &control->last_step);
+    archive_numbers_of(archive, &control->outcome.residual, &control->last_step);
     archive_flag(archive, &control->certified);
     archive_flag(archive, &control->odd_decays);
     archive_flag(archive, &control->lopsided);

@@ -19,9 +19,10 @@ import cases  # noqa: E402
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
 PATIENCE = 60 * float(os.environ.get("AMONTONS_PATIENCE", 1))
 STUDY = cases.STUDY.replace("scene: scene.yaml", "scene: plain.yaml")
+AGES = "law: ageing, healing: 0.01, healing_time: 1, slip_distance: 1e-3, "   # so that there are states
 FILM = ["--seconds", "0.1", "--size", "640x360", "--quiet"]
 INPUTS = {
-    "scene.yaml": cases.SCENE.replace("figures: []", "figures: [force]\n  fields: {every_U: 4e-4}"),
+    "scene.yaml": cases.SCENE.replace("law: linear-weakening, ", AGES).replace("figures: []", "figures: [force]\n  fields: {every_U: 4e-4}"),
     "plain.yaml": cases.SCENE.replace("history: true", "history: false").replace("block.geo, set: {nx: 6, nz: 4}", "block.msh"),
     "study.yaml": STUDY + "rank: {by: results.mu_max}\nplot: {x: load.pressure, y: results.mu_max}\n",
     "fit.yaml": "scene: plain.yaml\nset: {time.until: {U: 0.004}}\nsearch: {material.young: {log: [0.8, 1.2]}}\n"
@@ -43,6 +44,7 @@ COMMANDS = {
     "accuracy": ["run", "plain.yaml", "-o", "bar", "--to", "50%", "--quiet", "--set", "mesh={file: block.geo}",
                  "time.until={U: 0.008}", "output.history=true", "output.figures=[force]"],
     "plot": ["render", "plot.yaml"],
+    "states": ["render", "out", "--figure", "state-map"],
     "data": ["render", "out", "--figure", "slip-map", "--figure", "precursors", "--figure", "front-speed", "--compare", "lengths.csv"],
     "pdf": ["render", "out", "--format", "pdf", "--figure", "force"],
     "svg": ["render", "out", "--format", "svg", "--figure", "force"],

@@ -90,6 +90,19 @@ class OwnMemory(Driven):
             if "rate" not in name and "law" not in name:   # these show theta, formulas psi
                 self.assertLess(numpy.abs(found[0][3] - found[1][3]).max(), 1e-4 * numpy.abs(found[0][3]).max(), name)
 
+    def test_frozen(self):
+        """A state that stays is a number in mu(v): to rounding."""
+        law = "(mu_K + (mu_S - mu_K) * max(0, 1 - v / v_c)) * (0.5 + 0.5 * sqrt(THETA / 50))"
+        series = ("series/time", "series/mu", "interface/slip", "interface/status")
+        self.run_scene("number", f"friction={{law: formula, {GIVEN} formula: '{law.replace('THETA', '50')}'}}", "time.until.U=0.004")
+        self.run_scene("frozen", f"friction={{law: formula, {GIVEN} formula: '{law.replace('THETA', 'theta')}', "
+                       "state: {theta: {rate: '0 * v', start: 50}}}", "time.until.U=0.004")
+        wanted, found = self.history("number", *series), self.history("frozen", *series)
+        self.assertEqual(len(wanted[0]), len(found[0]))
+        for a, b in zip(wanted, found):
+            self.assertLess(numpy.abs(a.astype(float) - b).max(), 1e-7 * numpy.abs(a).max())
+        self.assertTrue((self.history("frozen", "interface/state")[0] == 50).all())
+
     def test_two_states(self):
         """A limit cycle at 0.65 of the critical stiffness, by formulas and by the plug-in."""
         (self.folder / "two.yaml").write_text(STIFF.format(source=SOURCE, friction=TWO))

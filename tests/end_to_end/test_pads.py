@@ -218,6 +218,7 @@ class Pads(unittest.TestCase):
                 ("mesh.set.fillet=0.08", "fillet must be below pad_height = 0.05"),
                 ("mesh.set={n: 4, fill: 0.9, pad_height: 0.1, fillet: 0.02}", "half a gap = 0.0166667"),
                 ("mesh.set.size_contact=0.2", "half of the shortest pad, which is 0.15 long"),
+                ("mesh.set={size_contact: 0.02, refine: 0.1}", "size_contact / refine must be at most half"),
                 ("mesh.set.pads=4", "pads")):
             code, out, err = amontons("run", self.scene, "-o", self.path("result"), "--overwrite",
                                       "--set", setting)

@@ -255,6 +255,26 @@ class Run(Sound):
         self.assertEqual(page.all("td", data_path="results.mu_M"), [])
         self.assertRegex(page.source, r"\d+ of \d+ steps of the history are shown")
 
+    def test_without_mu_M(self):
+        """271 peaks none of which counts, as of a run that is run in all the time: the page says that there is no mu_M and why, and
+        calls no peak one of it."""
+        why = "what slidings of the whole block there were belong to the start or run-in"
+        folder = self.copy("no-mu")
+        none = {"mu_M": None, "mu_M_error": None, "mu_M_known_to": None, "mu_M_peaks": 271}
+        told = json.loads((folder / "run.json").read_text())
+        for words, reason in ((f"none: {why}", why), (None, "the block as a whole did not slide after the start")):
+            told["results"] |= none | {"mu_M_is": words}
+            (folder / "run.json").write_text(json.dumps(told, indent=2))
+            report(folder)
+            page = Page(folder / "report.html")
+            self.check_sound(page)
+            self.assertIn(f"There is no μM: {reason}.", page.all("p", class_="lead")[0].text)
+            rows = {row.children[1].attributes["data-path"]: [c.text for c in row.children]
+                    for row in page.all("tr") if len(row.children) > 2 and "data-path" in row.children[1].attributes}
+            self.assertEqual(rows["results.mu_M"][1], "none")
+            self.assertEqual(rows["results.mu_M_peaks"][:2], ["peaks behind the start", "271"])
+            self.assertNotRegex(page.all("section", id="numbers")[0].text, "count[, ]* for")
+
     def test_damage_is_told(self):
         """A picture that cannot be drawn costs its place, not the page."""
         folder = self.copy("damaged")

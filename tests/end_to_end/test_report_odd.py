@@ -56,6 +56,7 @@ class Odd(unittest.TestCase):
         page = self.page("run")
         self.assertIn("<img", page)
         self.assertIn("\u202fm", page)      # U in metres
+        self.assertIn("There is no <i>μ</i><sub>M</sub>: the block as a whole did not slide in this run.", page)
         (self.folder / "run/run.gif").write_bytes(b"GIF89a")
         self.assertIn("image/gif", self.page("run"))
         (self.folder / "run/history.h5").write_bytes(b"damaged")

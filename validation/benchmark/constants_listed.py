@@ -147,6 +147,7 @@ NOT_A_CHOICE = {
     "friction/friction_memory.h": {"STATES_MAX": SIZE},
     "friction/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
     "friction/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
+    "friction/friction_response.c": {"DECADES": "looks", "DECADE": "looks", "HALVINGS": "all digits"},
     "friction/friction_start.c": {
         "SLIGHT": "as in friction/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
@@ -165,8 +166,10 @@ NOT_A_CHOICE = {
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
+    "record/contact_arrays.c": {"SLIGHT": "as in friction/friction_look.c"},
     "stepping/friction_states.c": {"PRESSED": "of mu: the contact problem's own rounding"},
     "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double",
+                               "BETWEEN_MEMORIES": "proven: 1.1242, rungs double",
                                "SETTLED": "digits that tell a ratio from 1, with room"},
     "contact/contact_discs.c": {
         "CHORD_GAIN": "as in contact/contact_solver.c", "STEPS": "of 15, 20 and 30 the second: 435 collected problems",
@@ -297,7 +300,6 @@ NOT_A_CHOICE = {
         "SPACE_ENTRIES": "the same",
         "SPACE_COLUMNS": "counted"},
     "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
-    "study/stability/remembers.c": {"LONG": "of D_c; a stage so long ends in the steady state"},
     "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},
     "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
@@ -307,9 +309,8 @@ NOT_A_CHOICE = {
 def places(constant, text):
     """Where the value of `constant` stands in the text of its file: spans; one is right."""
     if constant.is_key:
-        entry = re.search(rf'\{{"{re.escape(constant.name)}",[^}}]*\}}', text)
-        values = list(re.finditer(rf'"({NUMBER})"', entry[0])) if entry else []   # the last: default
-        return [tuple(entry.start() + k for k in values[-1].span(1))] if values else []
+        entry = rf'NUMBER\({re.escape(constant.name)},\s*"[^"]*",\s*\w+,\s*"({NUMBER})"'
+        return [found.span(1) for found in re.finditer(entry, text)]
     before = r"(?<![\w\])])" if constant.name[0] != "[" else ""
     pattern = rf"{before}{re.escape(constant.name)} =\s*({NUMBER})(?=\s*[,;}}\n])"
     return [found.span(1) for found in re.finditer(pattern, text)]

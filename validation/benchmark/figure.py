@@ -1,13 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Log-log figures of the benchmarks, drawn by `amontons render` from a plot file."""
 import json
+import re
 import subprocess
+import sys
+import tempfile
+from pathlib import Path
 
 import numpy
 
-from measured_run import PROGRAM
+from measured_run import PROGRAM, ROOT
+
+sys.path.append(str(ROOT / "docs/examples"))
+from shown import keep_picture   # noqa: E402
 
 MARKERS = ("circle", "square", "triangle", "down")
+NUMBER = r"[\d.]+(?:e[-+]\d+)?"
+MU = "~{\u03bc}_{M}"
 
 
 def draw(path, title, x_label, y_label, curves, guide=None):
@@ -25,6 +34,24 @@ def draw(path, title, x_label, y_label, curves, guide=None):
     file = path.with_suffix(".yaml")
     file.write_text(json.dumps(plot, indent=1, ensure_ascii=False) + "\n")
     subprocess.run([str(PROGRAM), "render", str(file)], check=True, stdout=subprocess.DEVNULL)
+
+
+def draw_page(page, figures):
+    """The figures of a page, from its tables, beside it. figures: name -> (heading that the table stands below, label of x, of y,
+    what a row of cells gives: [(curve, x, y)], as they are written)."""
+    text = page.read_text()
+    for name, (heading, x_label, y_label, of_row) in figures.items():
+        if f"({name}.png)" not in text:
+            continue
+        lines = text[text.index(f"## {heading}"):].split("\n|", 1)[1].split("\n\n")[0].splitlines()
+        curves = {}
+        for line in lines[2:]:   # below the head
+            for curve, *cells in of_row([cell.strip() for cell in line.strip("|").split("|")]):
+                if all(re.fullmatch(NUMBER, cell) and float(cell) > 0 for cell in cells):
+                    curves.setdefault(curve, []).append([float(cell) for cell in cells])
+        with tempfile.TemporaryDirectory() as folder:
+            draw(Path(folder, name), None, x_label, y_label, {curve: tuple(zip(*at)) for curve, at in curves.items() if len(at) > 1})
+            keep_picture(Path(folder, f"{name}.png"), page.parent / f"{name}.png")
 
 
 def fitted_exponent(x, y):

@@ -20,7 +20,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from figure import draw, fitted_exponent
+from figure import draw_page, fitted_exponent
 from measured_run import PROGRAM, ROOT, commit, markdown_table, run
 
 SCENE = ROOT / "validation/paper/fig1.yaml"
@@ -265,30 +265,24 @@ SERIES = {"cells": cells_series, "contact": contact_series, "L": length_series,
 TABLES = {"sweep": sweep_rates, "phases": phase_table}
 
 
-# Of each figure: its axis, and what column of its table (the first is 0) is shown by what name, in what unit.
+def over_first(heading, x_label, y_label, columns):
+    """Columns (the first is 0) over the first, each under its name; in ms: as seconds."""
+    def of_row(row):
+        return [(name, row[0], row[k] if not milli or row[k] == "" else f"{float(row[k]) / 1e3:g}") for name, k, milli in columns]
+    return heading, x_label, y_label, of_row
+
+
 FIGURES = {
-    "cells": ("cells along the block ~{n}", {"reduction (s)": (3, 1), "reduction (MB)": (4, 1), "reduced stage (s)": (5, 1e-3),
-                                             "reduced factor (s)": (6, 1), "full path (MB)": (7, 1), "full stage (s)": (8, 1e-3),
-                                             "full factor (s)": (9, 1)}),
-    "contact": ("contact nodes", {"stage (s)": (3, 1e-3), "factor (s)": (5, 1), "memory (MB)": (2, 1)}),
-    "L": ("length ~{L} / ~{L}_{0}", {"steps": (1, 1), "processor time (s)": (4, 1)}),
-    "P": ("pressure ~{P}_{ext} / ~{E}", {"steps": (1, 1), "processor time (s)": (4, 1)}),
-    "V": ("rod velocity ~{V} / (~{L}_{0} / ~{t}_{0})", {"steps": (1, 1), "processor time (s)": (4, 1)}),
+    "growth-cells": over_first("Cells along the block", "cells along the block ~{n}", "time (s), memory (MB)", (
+        ("reduction (s)", 3, False), ("reduction (MB)", 4, False), ("reduced stage (s)", 5, True), ("reduced factor (s)", 6, False),
+        ("full path (MB)", 7, False), ("full stage (s)", 8, True), ("full factor (s)", 9, False))),
+    "growth-contact": over_first("Contact nodes", "contact nodes", "time (s), memory (MB)", (
+        ("stage (s)", 3, True), ("factor (s)", 5, False), ("memory (MB)", 2, False))),
+    **{f"growth-{name}": over_first(heading, label, "steps, time (s)", (("steps", 1, False), ("processor time (s)", 4, False)))
+       for name, heading, label in (("L", "Length of the block", "length ~{L} / ~{L}_{0}"),
+                                    ("P", "Pressure, the rod's way", "pressure ~{P}_{ext} / ~{E}"),
+                                    ("V", "Speed of the rod", "rod velocity ~{V} / (~{L}_{0} / ~{t}_{0})"))},
 }
-
-
-def draw_page(page):
-    """The figures of a page that is there, from its tables."""
-    text = page.read_text()
-    for name, (x_label, columns) in FIGURES.items():
-        if f"(growth-{name}.png)" not in text:
-            continue
-        part = text[:text.index(f"(growth-{name}.png)")].rsplit("### ", 1)[1]
-        table = part[part.index("\n|"):].split("\n\n")[0].strip().splitlines()[2:]
-        cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in table]
-        curves = {label: tuple(zip(*[(float(row[0]), factor * float(row[column])) for row in cells
-                                     if row[column].replace(".", "").isdigit()])) for label, (column, factor) in columns.items()}
-        draw(page.parent / f"growth-{name}", None, x_label, "as the legend names it", curves)
 
 
 def main():
@@ -300,7 +294,7 @@ def main():
     parser.add_argument("--draw", type=Path, help="the figures of this growth.md anew, from its tables; nothing is computed")
     options = parser.parse_args()
     if options.draw:
-        draw_page(options.draw)
+        draw_page(options.draw, FIGURES)
         return
     options.output.mkdir(parents=True, exist_ok=True)
     parts = [f"## How cost grows\n\nversion {commit()}; set A of the paper, Q4; processor time.\n"]
@@ -310,7 +304,7 @@ def main():
         else:
             parts.append(TABLES[name](options.quick))
         (options.output / "growth.md").write_text("\n".join(parts))
-    draw_page(options.output / "growth.md")
+    draw_page(options.output / "growth.md", FIGURES)
     print(f"{options.output}/growth.md")
 
 

@@ -29,7 +29,7 @@ from pathlib import Path
 import h5py
 import numpy
 
-from figure import draw
+from figure import draw_page
 from measured_run import ROOT, commit, markdown_table, run
 
 HERE = Path(__file__).resolve().parent
@@ -189,21 +189,18 @@ HEAD = ["mesh", "program", "step", "steps", "ms a step", "mu: off amontons' same
         "mu: off converged, before slip", "second peak", "cpu s to U = 0.006", "how", "ratio"]
 
 
-def curves_of(found):
-    """Seconds against cells, a curve a program; found: {(cells, order): answers}."""
-    names = {}
-    for (cells, order), answers in found.items():
-        for one in answers:
-            if order == 1:
-                names.setdefault(one.name, []).append((cells, one.seconds))
-    return {name: tuple(zip(*points)) for name, points in names.items()}
+FIGURES = {"peers": ("Other programs on the same mesh", "cells along the block", "processor time to ~{U} = 0.006 (s)",
+                     lambda row: [(row[1], row[0].split("x")[-1], row[8])] if row[0].startswith("T3") else [])}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/peers")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--draw", type=Path, help="the figure of this peers.md anew, from its table; nothing is computed")
     options = parser.parse_args()
+    if options.draw:
+        return draw_page(options.draw, FIGURES)
     options.output.mkdir(parents=True, exist_ok=True)
     missing = [name for name, there in (("FreeFEM", shutil.which("FreeFem++")),
                                         ("GetFEM", have_getfem())) if not there]
@@ -211,15 +208,11 @@ def main():
         print(f"{name} is left out: apt-get install {MISSING[name]}")
     meshes = [(10, 1, False)] if options.quick else [(10, 1, True), (20, 1, True),
                                                      (10, 2, False), (40, 1, False)]
-    rows, wrong, found = [], [], {}
+    rows, wrong = [], []
     for cells, order, whole in meshes:
         converged, fixed, answers = compare(cells, order, whole, missing)
         more, differing = rows_of(f"T{3 * order} {cells}x{cells}", converged, fixed, answers)
-        rows, wrong, found[cells, order] = rows + more, wrong + differing, answers
-    curves = {name: points for name, points in curves_of(found).items() if len(points[0]) > 1}
-    if curves:
-        draw(options.output / "peers", "Processor time to U = 0.006", "cells along the block",
-             "seconds", curves)
+        rows, wrong = rows + more, wrong + differing
     notes = [f"- {name} is left out: `apt-get install {MISSING[name]}`" for name in missing]
     notes += [f"- DIFFERENT: {line}" for line in wrong]
     text = (f"## Other programs on the same mesh\n\nversion {commit()}; set A, L = 1, P = 0.003, to "
@@ -230,8 +223,9 @@ def main():
             "friction that falls with the slip rate: it is solved again with mu(v) until that "
             "stays. `ratio`: seconds over those of amontons' defaults.\n\n"
             + "\n".join(notes + [""]) + markdown_table(HEAD, rows)
-            + "\n" + "\n![seconds against cells](peers.png)\n" * bool(curves))
+            + "\n" + "\n![seconds against cells](peers.png)\n" * (len(meshes) > 1))
     (options.output / "peers.md").write_text(text)
+    draw_page(options.output / "peers.md", FIGURES)
     print(f"{options.output}/peers.md")
     return 1 if wrong else 0
 

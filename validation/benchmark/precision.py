@@ -24,6 +24,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import tempfile
 from pathlib import Path
@@ -31,7 +32,7 @@ from pathlib import Path
 import h5py
 import numpy
 
-from figure import draw, fitted_exponent
+from figure import MU, draw_page, fitted_exponent
 from measured_run import PROGRAM, ROOT, commit, markdown_table, run
 
 SCENE = ROOT / "validation/paper/fig1.yaml"
@@ -151,16 +152,6 @@ class Part:
         head = ["case", "nodes", *ERRORS, "steps", "stages", "cpu s", "front"]
         return f"### {self.title}\n\n{self.said}\n\n" + markdown_table(head, self.lines())
 
-    def curves(self, x_of, error):
-        """series -> (x, error), by size."""
-        found = {}
-        for _, series, _, run_found, errors in self.done():
-            if series and errors[error] > 0 and math.isfinite(errors[error]):
-                found.setdefault(series, ([], []))
-                found[series][0].append(x_of(run_found))
-                found[series][1].append(errors[error])
-        return {name: pair for name, pair in found.items() if len(pair[0]) > 1}
-
     def orders(self, over):
         """Fitted exponents of each series, error ~ size^-order."""
         lines = []
@@ -258,23 +249,28 @@ def rest_parts(quick):
     return [reduction, waves]
 
 
-def figures(space, time, folder):
-    seconds, steps = (lambda f: f["seconds"]), (lambda f: f["steps"])
-    places = lambda f: f["nodes"]
-    for error, name in (("mu_M", "mu"), ("slip", "slip")):
-        draw(folder / f"precision-{name}", f"Error of {error} against work, P = 0.006",
-             "processor time, s", f"relative error of {error}", space.curves(seconds, error))
-    draw(folder / "precision-smooth", "Error of mu before anything slips fast",
-         "contact nodes", "relative error", space.curves(places, "smooth"))
-    draw(folder / "precision-time", "Error of the slip map against steps, Q4 40x40", "steps",
-         "relative error, same mesh", time.curves(steps, "slip"))
+def drawn(heading, x_label, y_label, x, y):
+    """Columns of a table; a curve is of the cases that differ in the mesh's size, or in the tolerance, alone."""
+    return heading, x_label, y_label, lambda row: [(re.sub(r" \d+x\d+|, .*", "", row[0]), row[x], row[y])]
+
+
+FIGURES = {
+    "precision-mu": drawn("Meshes and elements", "processor time (s)", f"relative error of {MU}", 9, 2),
+    "precision-slip": drawn("Meshes and elements", "processor time (s)", "relative error of slip", 9, 5),
+    "precision-smooth": drawn("Meshes and elements", "contact nodes", f"relative error of {MU[:-4]} before fast slip", 1, 6),
+    "precision-time": drawn("Schemes and step tolerances", "steps", "relative error of the slip map", 7, 5),
+}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/precision")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--draw", type=Path, help="the figures of this precision.md anew, from its tables; nothing is computed")
     options = parser.parse_args()
+    if options.draw:
+        draw_page(options.draw, FIGURES)
+        return
     options.output.mkdir(parents=True, exist_ok=True)
     time = time_part(options.quick)
     rest = [explicit_part(options.quick), *rest_parts(options.quick)]
@@ -291,7 +287,7 @@ def main():
         writer = csv.writer(file)
         for part in (space, time, *rest):
             writer.writerows([part.title, *line] for line in part.lines())
-    figures(space, time, options.output)
+    draw_page(options.output / "precision.md", FIGURES)
     print(f"{options.output}/precision.md")
 
 

@@ -11,19 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-Moduli __real_material_elastic(const Material *material);
-Moduli __wrap_material_elastic(const Material *material);
-Moduli __real_material_viscous(const Material *material);
-Moduli __wrap_material_viscous(const Material *material);
-InterfaceOperator *__real_interface_operator_create(BulkOperator *system, OperatorTerms terms,
-                                                    Error *err);
-InterfaceOperator *__wrap_interface_operator_create(BulkOperator *system, OperatorTerms terms,
-                                                    Error *err);
-
-void __real_boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
-                                 double *weight);
-void __wrap_boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
-                                 double *weight);
+REPLACED(material_elastic);
+REPLACED(material_viscous);
+REPLACED(interface_operator_create);
+REPLACED(boundary_add_weights);
 
 Mistake mistake_made(void)
 {
@@ -32,9 +23,11 @@ Mistake mistake_made(void)
         MISTAKES(X)
 #undef X
     };
-    const char *wanted = getenv("AMONTONS_MISTAKE");
-    for (size_t k = 0; wanted && k < sizeof names / sizeof names[0]; k++)
-        if (strcmp(wanted, names[k]) == 0) return (Mistake)k;
+    static volatile int known = -1;   // hot functions ask
+    const char *wanted = known < 0 ? getenv("AMONTONS_MISTAKE") : NULL;
+    for (int k = 0; wanted && k < (int)(sizeof names / sizeof names[0]); k++)
+        if (strcmp(wanted, names[k]) == 0) known = k;
+    if (known >= 0) return (Mistake)known;
     fprintf(stderr, "AMONTONS_MISTAKE=%s: there is no such mistake\n", wanted ? wanted : "");
     exit(3);
 }

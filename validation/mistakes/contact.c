@@ -18,14 +18,9 @@
 #include <math.h>
 #include <string.h>
 
-double __real_friction_coefficient(const FrictionLaw *law, double speed);
-double __wrap_friction_coefficient(const FrictionLaw *law, double speed);
-double __real_friction_slope(const FrictionLaw *law, double speed);
-double __wrap_friction_slope(const FrictionLaw *law, double speed);
-bool __real_contact_solve(ContactSolver *solver, const ContactProblem *problem,
-                          ContactSolution *solution);
-bool __wrap_contact_solve(ContactSolver *solver, const ContactProblem *problem,
-                          ContactSolution *solution);
+REPLACED(friction_coefficient);
+REPLACED(friction_slope);
+REPLACED(contact_solve);
 
 // Width of the smoothed law, velocity; in `amontons static` length. A hundredth of the rod's speed
 // in set A, a thousandth of the displacements of the static cases.

@@ -51,13 +51,29 @@
     X(MISTAKE_MEMORY_BLIND, "memory-blind")                                                        \
     X(MISTAKE_MEMORY_CLOCK, "memory-clock")                                                        \
     X(MISTAKE_MEMORY_FRESH, "memory-fresh")                                                        \
-    X(MISTAKE_MEMORY_EVOLUTION, "memory-evolution")
+    X(MISTAKE_MEMORY_EVOLUTION, "memory-evolution")                                                \
+    X(MISTAKE_STATES_START, "states-start")                                                        \
+    X(MISTAKE_STATES_FRESH, "states-fresh")                                                        \
+    X(MISTAKE_STATES_LAGGED, "states-lagged")                                                      \
+    X(MISTAKE_STATES_KEPT, "states-kept")                                                          \
+    X(MISTAKE_STATES_APART, "states-apart")                                                        \
+    X(MISTAKE_STATES_PRESSURE, "states-pressure")                                                  \
+    X(MISTAKE_STATES_CUT, "states-cut")                                                            \
+    X(MISTAKE_STATES_DERIVATIVE, "states-derivative")                                              \
+    X(MISTAKE_STATES_GROWS, "states-grows")                                                        \
+    X(MISTAKE_STATES_ALONE, "states-alone")                                                        \
+    X(MISTAKE_STATES_UNSOLVED, "states-unsolved")                                                  \
+    X(MISTAKE_STATES_CLOCK, "states-clock")                                                        \
+    X(MISTAKE_STATES_STEADY, "states-steady")
 
 typedef enum Mistake {
 #define X(symbol, name) symbol,
     MISTAKES(X)
 #undef X
 } Mistake;
+
+// The library's own NAME as its header has it, and what stands in its place.
+#define REPLACED(name) __typeof__(name) __real_##name, __wrap_##name
 
 // By the environment; an unknown name ends the program, for a control that makes no mistake would
 // be worse than none.

@@ -6,6 +6,7 @@
 #include "reduction/machine.h"
 #include "fem/mesh.h"
 #include "friction/friction_pace.h"
+#include "friction/friction_start.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
@@ -21,35 +22,33 @@
 #include <math.h>
 #include <string.h>
 
-// The library's own NAME, and what stands in its place.
-#define REPLACED(type, name, ...)                                                                  \
-    type __real_##name(__VA_ARGS__);                                                               \
-    type __wrap_##name(__VA_ARGS__)
-
-REPLACED(double, scene_material_number, const Scene *scene, const SceneMaterial *region, int32_t k);
-REPLACED(bool, shape_key, const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE],
-         Error *err);
-REPLACED(bool, model_lay_laws, Model *model, Error *err);
-REPLACED(bool, model_lay_gaps, Model *model, Error *err);
-REPLACED(double, mesh_gap, const Mesh *mesh, int32_t node);
-REPLACED(double, scene_profile_at, const SceneProfile *profile, double x, double y);
-REPLACED(bool, scene_hash, const Scene *scene, bool (*counts)(const char *key), Hash *hash,
-         Error *err);
-REPLACED(double, load_factor, const LoadCourse *course, double time);
-REPLACED(double, load_next, const LoadCourse *course, double time);
-REPLACED(double, rod_course_way, const RodCourse *course, double time);
-REPLACED(bool, machine_soften, const Machine *machine, double reach, int32_t count, double *schur,
-         MachineColumn *column, Error *err);
-REPLACED(void, machine_refer, MachineColumn *column, double *g);
-REPLACED(bool, window_take_back, Window *window, const Observation *seen, Error *err);
-REPLACED(void, window_archive, Window *window, Archive *archive);
-REPLACED(bool, kept_states_archive, KeptStates *kept, Archive *archive, Error *err);
-REPLACED(bool, saved_state_take_back, Simulation *simulation, const SavedState *state, Error *err);
-REPLACED(double, memory_coefficient, const FrictionMemory *memory, double speed, double *slope);
-REPLACED(double, memory_state, const FrictionMemory *memory, double speed);
-REPLACED(double, memory_rested, const FrictionMemory *memory, double rest);
-REPLACED(void, moving_set_find, MovingSet *set, const State *state, bool with_open);
-REPLACED(FrictionLaw, friction_paced, const FrictionLaw *law, double pace);
+REPLACED(scene_material_number);
+REPLACED(shape_key);
+REPLACED(model_lay_laws);
+REPLACED(model_lay_gaps);
+REPLACED(mesh_gap);
+REPLACED(scene_profile_at);
+REPLACED(scene_hash);
+REPLACED(load_factor);
+REPLACED(load_next);
+REPLACED(rod_course_way);
+REPLACED(machine_soften);
+REPLACED(machine_refer);
+REPLACED(window_take_back);
+REPLACED(window_archive);
+REPLACED(kept_states_archive);
+REPLACED(saved_state_take_back);
+REPLACED(memory_coefficient);
+REPLACED(memory_state);
+REPLACED(memory_rested);
+REPLACED(moving_set_find);
+REPLACED(friction_paced);
+REPLACED(friction_start);
+REPLACED(friction_find_steady);
+REPLACED(friction_set_pressure);
+REPLACED(formula_partials);
+REPLACED(memory_solve_states);
+REPLACED(state_archive);
 
 static bool made(Mistake mistake)
 {
@@ -184,15 +183,19 @@ bool __wrap_saved_state_take_back(Simulation *simulation, const SavedState *stat
 double __wrap_memory_coefficient(const FrictionMemory *memory, double speed, double *slope)
 {
     FrictionMemory other = *memory;
-    if (made(MISTAKE_MEMORY_LAGGED)) other.reach = 0;
+    bool lagged = memory->kind < MEMORY_FORMULAS ? made(MISTAKE_MEMORY_LAGGED)
+                                                 : made(MISTAKE_STATES_LAGGED);
+    if (lagged) other.reach = 0;
     return __real_memory_coefficient(&other, speed, slope);
 }
 
-double __wrap_memory_state(const FrictionMemory *memory, double speed)
+void __wrap_memory_state(const FrictionMemory *memory, double speed, double *state)
 {
     FrictionMemory other = *memory;
+    bool kept = memory->kind < MEMORY_FORMULAS ? made(MISTAKE_MEMORY_KEPT)
+                                               : made(MISTAKE_STATES_KEPT);
     if (made(MISTAKE_MEMORY_EVOLUTION)) other.slip_law = false;
-    return __real_memory_state(&other, made(MISTAKE_MEMORY_KEPT) ? 0 : speed);
+    __real_memory_state(&other, kept ? 0 : speed, state);
 }
 
 double __wrap_memory_rested(const FrictionMemory *memory, double rest)
@@ -200,18 +203,81 @@ double __wrap_memory_rested(const FrictionMemory *memory, double rest)
     return __real_memory_rested(memory, made(MISTAKE_MEMORY_FRESH) ? 1e-9 * rest : rest);
 }
 
-// g_theta of the other sign, or no memory at all, in what is linearised.
+// g_theta of the other sign, without what states do to each other, or no memory at all, in what is
+// linearised.
 void __wrap_moving_set_find(MovingSet *set, const State *state, bool with_open)
 {
     __real_moving_set_find(set, state, with_open);
     for (int32_t a = 0; a < set->count; a++) {
+        int32_t i = set->list[a].node;
         if (made(MISTAKE_MEMORY_GROWS)) set->list[a].fading *= -1;
         if (made(MISTAKE_MEMORY_BLIND)) set->list[a].memory = 0;
+        for (int32_t k = 0; i >= 0 && k < STATES_MAX; k++)
+            for (int32_t j = 0; j < STATES_MAX; j++) {
+                if (made(MISTAKE_STATES_GROWS)) set->rates[i].rate_state[k][j] *= -1;
+                if (made(MISTAKE_STATES_ALONE) && j != k) set->rates[i].rate_state[k][j] = 0;
+            }
     }
+}
+
+// What is remembered answers at once.
+bool __wrap_memory_solve_states(const FrictionRates *rates, double reach, double *x)
+{
+    return made(MISTAKE_STATES_UNSOLVED) || __real_memory_solve_states(rates, reach, x);
 }
 
 // The quasi-static path remembers as its own slow rod would.
 FrictionLaw __wrap_friction_paced(const FrictionLaw *law, double pace)
 {
-    return __real_friction_paced(law, made(MISTAKE_MEMORY_CLOCK) ? 1 : pace);
+    bool own = made(MISTAKE_STATES_CLOCK) && friction_is_own(law);
+    return __real_friction_paced(law, own || made(MISTAKE_MEMORY_CLOCK) ? 1 : pace);
+}
+
+// --- laws of one's own --------------------------------------------------------------------------
+
+// With twice the states of equilibrium; without the rest before.
+bool __wrap_friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
+                           const char **key, Error *err)
+{
+    FrictionSource other = *source;
+    if (made(MISTAKE_STATES_FRESH)) other.rest = 0;
+    bool started = __real_friction_start(&other, memory, law, key, err);
+    for (int32_t k = 0; made(MISTAKE_STATES_START) && k < memory->states; k++)
+        memory->start[k] *= 2;
+    return started;
+}
+
+// Of what `stability` lets slip.
+bool __wrap_friction_find_steady(FrictionMemory *memory, double speed)
+{
+    return made(MISTAKE_STATES_STEADY) || __real_friction_find_steady(memory, speed);
+}
+
+double __wrap_friction_set_pressure(FrictionLaw *law, double pressure, double speed)
+{
+    return made(MISTAKE_STATES_PRESSURE) ? 0 : __real_friction_set_pressure(law, pressure, speed);
+}
+
+// Rates of states (formula k > 0, by the ends before it) do not know the others; derivatives by the
+// second state are left out. Variables: v, p and the states.
+double __wrap_formula_partials(const Formula *formula, const int32_t *ends, const double *x,
+                               int32_t count, double *slope)
+{
+    double other[FORMULA_VARIABLES_MAX];
+    int32_t k = 0;
+    while (ends[-k] > 0) k++;
+    memcpy(other, x, (size_t)count * sizeof *x);
+    for (int32_t j = 2; made(MISTAKE_STATES_APART) && k > 0 && j < count; j++)
+        if (j != k + 1) other[j] = 0;
+    double value = __real_formula_partials(formula, ends, other, count, slope);
+    if (made(MISTAKE_STATES_DERIVATIVE) && count > 3) slope[3] = 0;
+    return value;
+}
+
+// The first state of a node alone is kept.
+void __wrap_state_archive(State *state, Archive *archive)
+{
+    __real_state_archive(state, archive);
+    for (int32_t k = 0; made(MISTAKE_STATES_CUT) && k < state->contact_count * STATES_MAX; k++)
+        if (archive_reads(archive) && k % STATES_MAX > 0) state->theta[k] = 0;
 }

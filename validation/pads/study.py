@@ -7,7 +7,7 @@
 
 DIR (default results/pads) gets a folder a sweep, tables.md and figures/*.png; what is there already
 is not computed again. Answers with error bars are those of bars.py, which it calls (17 minutes of processor time).
---publish copies tables and figures beside this file, for README.md. --draw: figures of mu alone, from the tables beside this file.
+--publish copies tables and figures beside this file, for README.md. --draw: the figures alone, from the tables beside this file (one run of a second is computed).
 Needs h5py (python3-h5py) for the figure of the loads in time.
 """
 import argparse
@@ -22,9 +22,10 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(HERE.parent))
+sys.path[:0] = [str(HERE.parent), str(ROOT / "docs/examples")]
 sys.dont_write_bytecode = True
 import bars   # noqa: E402
+from shown import keep_picture   # noqa: E402
 
 SWEEPS = ("count-b", "height-b", "gap-b", "fine-b", "check-b", "check",   # long ones first
           "height", "plain-b", "grooves", "count", "fill", "gap", "plain")
@@ -32,6 +33,7 @@ FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape", "shape-b")
 SET_A, SET_B = (0.001, 0.003, 0.006, 0.012), (1.5e-5, 5.75e-5, 2.3e-4)   # pressures
 COUNTS = range(1, 13)
 MU = "~{\u03bc}"
+MARKERS = ("circle", "square", "triangle", "down", "circle", "square", "triangle")   # from the fifth on open
 
 
 def number(text):
@@ -120,7 +122,7 @@ class Study:
         path = self.folder / "figures" / f"{name}.yaml"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(content, indent=1, ensure_ascii=False), encoding="utf-8")
-        subprocess.run([self.program, "render", path], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([self.program, "render", path, "--title", "none"], check=True, stdout=subprocess.DEVNULL)
 
     def table(self, title, head, rows):
         self.lines += [f"### {title}", "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
@@ -159,8 +161,13 @@ def near(a, b):
     return abs(a / b - 1) < 1e-9
 
 
-def with_bars(label, rows, x, over, color, **more):
-    """mu_hold over `over`, (value, bar); open where nothing is known of its error."""
+def marked(color):
+    """Of a curve of that colour: it is told without it, too."""
+    return {"color": color, "marker": MARKERS[color - 1], "filled": color < 5}
+
+
+def with_bars(label, rows, x, over, color):
+    """mu_hold over `over`, (value, bar); crosses where nothing is known of its error."""
     series = []
     for known in (True, False):
         at = [row for row in rows if (row["mu_hold"][1] is not None) == known]
@@ -169,9 +176,9 @@ def with_bars(label, rows, x, over, color, **more):
         y = [row["mu_hold"][0] / over[0] for row in at]
         error = [y[k] * math.hypot(row["mu_hold"][1] / row["mu_hold"][0], over[1] / over[0]) if known else 0
                  for k, row in enumerate(at)]
-        series.append({"label": label if not series else "", "x": [row[x] for row in at], "y": y, "color": color,
+        series.append({"label": label if not series else "", "x": [row[x] for row in at], "y": y, **marked(color),
                        "low": [v - e for v, e in zip(y, error)], "high": [v + e for v, e in zip(y, error)],
-                       "marker": "circle", "line": "none", "filled": known, **({} if known else {"marker": "cross"}), **more})
+                       "line": "none", **({} if known else {"marker": "cross"})})
     return series
 
 
@@ -198,10 +205,10 @@ def draw_count(study, name, tables, answers, pressures):
         content += with_bars(f"~{{P}} = {stress(P)}", at_pressure(of_pads, P), "mesh.set.n", (1, 0), color)
         content += [one_mesh([row for row in at_pressure(table, P) if row["n"] != "none"], "n", 1, color),
                     level(whole[0], [0.2, 12.4], color),
-                    {"x": [0.2], "y": [whole[0]], "low": [whole[0] - whole[1]], "high": [whole[0] + whole[1]], "color": color,
-                     "marker": "square", "line": "none"}]
+                    {"x": [0.2], "y": [whole[0]], "low": [whole[0] - whole[1]], "high": [whole[0] + whole[1]], **marked(color),
+                     "line": "none"}]
     content[-3]["label"], content[-2]["label"] = "one mesh", "without gaps"
-    study.plot(name, title=f"mu_hold against the number of pads, set {'A' if name == 'count' else 'B'}", height=0.8,
+    study.plot(name, title=f"mu_hold against the number of pads, set {'A' if name == 'count' else 'B'}", height=0.8, legend="below",
                x={"label": "pads ~{n}", "range": [0, 12.6]},
                y={"label": f"{MU}_{{hold}}", "range": [0.2, 0.4] if name == "count" else [0.4, 1.1]}, series=content)
 
@@ -222,13 +229,12 @@ def draw_shape(study, tables, found):
                  lambda row: row.get("mesh.set.grooves", row.get("grooves")) == 7
                  and row.get("mesh.set.width", row.get("width")) == 0.05)):
             color += 1
-            content += with_bars(f"~{{P}} = {stress(P)}, {what}", [row for row in at_pressure(rows, P) if keep(row)], x, whole, color,
-                                 marker="circle" if "pads" in what else "square")
+            content += with_bars(f"~{{P}} = {stress(P)}, {what}", [row for row in at_pressure(rows, P) if keep(row)], x, whole, color)
             content.append(one_mesh([row for row in at_pressure(table, P) if keep(row)], y, single, color))
     content[-1]["label"] = "one mesh"
-    study.plot("shape", title="mu_hold over that of the block without gaps", height=0.85,
+    study.plot("shape", title="mu_hold over that of the block without gaps", height=0.75, legend="below",
                x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
-               y={"label": f"{MU}_{{hold}} over that without gaps", "range": [0.5, 1.1]}, series=content + [level(1, [0, 0.155], 0)])
+               y={"label": f"{MU}_{{hold}} over that without gaps", "range": [0.75, 1.1]}, series=content + [level(1, [0, 0.155], 0)])
 
 
 def draw_shape_b(study, tables):
@@ -240,11 +246,39 @@ def draw_shape_b(study, tables):
         for n in (2, 4):
             rows = [{**row, "x": row["pad_height"] / 0.04}
                     for row in at_pressure(tables["Varied: pad_height (set B)"], P) if row["n"] == n]
-            content.append({**one_mesh(rows, "x", whole, len(content) + 1), "label": f"~{{P}} = {stress(P)}, {n} pads",
-                            "marker": "circle" if n == 2 else "square", "filled": False})
+            color = len(content) + 1
+            content.append({**one_mesh(rows, "x", whole, color), "label": f"~{{P}} = {stress(P)}, {n} pads", **marked(color)})
     study.plot("shape-b", title="mu_hold over that of the block without gaps, set B: one mesh each, no bars", height=0.7,
                x={"label": "height of pads / ~{L}", "range": [0, 0.16]},
                y={"label": f"{MU}_{{hold}} over that without gaps", "range": [0.7, 1.05]}, series=content + [level(1, [0, 0.155], 0)])
+
+
+def draw_load(study, tables):
+    content = []
+    for name, pressures in (("A", SET_A[1:]), ("B", SET_B[1:2])):
+        table = next(rows for title, rows in tables.items() if title.startswith("Loss of stability") and
+                     f"({'pads' if name == 'A' else 'pads-b'}.yaml)" in title)
+        for P in pressures:
+            rows = at_pressure(table, P)
+            content.append({"label": f"{name}, ~{{P}} = {stress(P)}", "x": [row["n"] for row in rows], **marked(len(content) + 1),
+                            "y": [row["weakening / resistance"] for row in rows], "line": "thin"})
+    study.plot("load", title="Weakening over what the trailing pad resists alone", height=0.7,
+               x={"label": "pads ~{n}", "range": [0.4, 12.6]},
+               y={"label": "weakening / resistance", "scale": "log"}, series=content + [level(1, [0.6, 12.4], 0)])
+
+
+def draw_drag(study, tables):
+    """Of pads by their height, of grooves (dashed) by their depth."""
+    table = next(rows for title, rows in tables.items() if title.startswith("Drag"))
+    content = []
+    for contact in dict.fromkeys(row["contact"] for row in table):
+        rows = [row for row in table if row["contact"] == contact]
+        content.append({"label": contact.replace("1 pads", "1 pad"), "x": [row["height"] for row in rows],
+                        "y": [row["drag, trailing pad"] for row in rows], **marked(len(content) + 1),
+                        "line": "dashed" if "grooves" in contact else "thin"})
+    study.plot("drag", title="Drag of the trailing pad against height of pads, depth of grooves", height=0.7,
+               x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
+               y={"label": "drag of the trailing pad"}, series=content)
 
 
 def draw(study, page):
@@ -257,6 +291,9 @@ def draw(study, page):
                                           found["The block without gaps of set B, with error bars"]), SET_B)
     draw_shape(study, tables, found)
     draw_shape_b(study, tables)
+    draw_load(study, tables)
+    draw_drag(study, tables)
+    study_transfer(study)
 
 
 # --- how many pads --------------------------------------------------------------------------------
@@ -302,58 +339,31 @@ def runaway_table(study, scene, found, points):
                  "weakening / resistance", "drag", "drag x length"], rows)
 
 
-def study_load(study, a, b):
-    content = []
-    for color, (found, P, name) in enumerate(
-            [(a, P, "A") for P in SET_A[1:]] + [(b, P, "B") for P in SET_B[1:2]], start=1):
-        n = [k for k in COUNTS if (P, k) in found]
-        content.append({"label": f"{name}, ~{{P}} = {stress(P)}", "x": n, "color": color,
-                        "y": [found[P, k]["pads"][0]["load"] for k in n],
-                        "marker": "circle" if name == "A" else "square", "line": "thin"})
-    study.plot("load", title="Weakening over what the trailing pad resists alone", height=0.7,
-               x={"label": "pads ~{n}", "range": [0.4, 12.6]},
-               y={"label": "weakening / resistance", "scale": "log"},
-               series=content + [level(1, [0.6, 12.4], 0)])
-
-
 def study_drag(study, grooves):
     """Drag of a pad in the middle: by its height, its number, and the depth of grooves."""
-    heights, rows, content = (0.0125, 0.025, 0.05, 0.075, 0.1, 0.15), [], []
-    for color, n in enumerate((1, 2, 4, 8), start=1):
+    heights, rows = (0.0125, 0.025, 0.05, 0.075, 0.1, 0.15), []
+    for n in (1, 2, 4, 8):
         found = study.stabilities([("pads", {"load.pressure": 0.006, "mesh.set.n": n, "mesh.set.pad_height": h})
                                    for h in heights])
-        x, y = [], []
         for h, one in zip(heights, found):
             if one is None:
                 continue
             first, middle = one["pads"][0], one["pads"][n // 2]
             rows.append([f"{n} pads", h, first["drag"], middle["drag"], first["drag"] * first["length"],
                          first["load"], one["mu_M"]])
-            x.append(h)
-            y.append(first["drag"])
-        content.append({"label": f"~{{n}} = {n}", "x": x, "y": y, "color": color, "marker": "circle",
-                        "line": "thin"})
-    for color, count in enumerate((3, 7), start=5):
+    for count in (3, 7):
         depths = sorted({p.mesh["depth"] for p in grooves if near(p.mesh["width"], 0.05)})
         found = study.stabilities([("grooved", {"load.pressure": 0.006, "mesh.set.grooves": count,
                                                 "mesh.set.depth": d}) for d in depths])
-        x, y = [], []
         for d, one in zip(depths, found):
             if one is None:
                 continue
             first, middle = one["pads"][0], one["pads"][count // 2]
             rows.append([f"{count} grooves", d, first["drag"], middle["drag"],
                          first["drag"] * first["length"], first["load"], one["mu_M"]])
-            x.append(d)
-            y.append(first["drag"])
-        content.append({"label": f"{count} grooves", "x": x, "y": y, "color": color, "marker": "square",
-                        "line": "dashed"})
     study.table("Drag (viscous shear of the softest slip over its rate, eta1/L0) by height, P = 0.006",
                 ["contact", "height", "drag, trailing pad", "drag, middle pad", "drag x length",
                  "weakening / resistance", "mu, stability"], rows)
-    study.plot("drag", title="Drag of the trailing pad against height of pads, depth of grooves", height=0.7,
-               x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.19]},
-               y={"label": "drag of the trailing pad"}, series=content)
 
 
 def study_loads(study, points):
@@ -394,7 +404,7 @@ def study_transfer(study):
                for pad in range(n)]
     content.append({"label": "block", "x": [float(U[k]) for k in kept], "color": 0,
                     "y": [float(mu[k]) for k in kept], "marker": "none", "line": "dashed"})
-    study.plot("transfer", title="Shear over load of each pad from sliding to sliding", height=0.7,
+    study.plot("transfer", title="Shear over load of each pad from sliding to sliding", height=0.7, legend="below",
                x={"label": "~{U} / (~{P} ~{L} / ~{E})"}, y={"label": "shear / load", "range": [0, 0.65]},
                series=content)
 
@@ -484,7 +494,7 @@ def publish(folder):
         shutil.copy(folder / "tables.md", HERE / "tables.md")
     for name in FIGURES:
         if (folder / "figures" / f"{name}.png").exists():
-            shutil.copy(folder / "figures" / f"{name}.png", HERE / f"{name}.png")
+            keep_picture(folder / "figures" / f"{name}.png", HERE / f"{name}.png")
 
 
 def main():
@@ -512,10 +522,8 @@ def compute(study):
     a, b = runaways(study, "pads", SET_A, 10), runaways(study, "pads-b", SET_B, 1)
     runaway_table(study, "pads", a, points["count"])
     runaway_table(study, "pads-b", b, points["count-b"])
-    study_load(study, a, b)
     study_drag(study, points["grooves"])
     study_loads(study, points["count"])
-    study_transfer(study)
     study_shapes(study, points, points["plain"])
     study_check(study, points["check"], "Set A")
     study_check(study, points["count-b"] + points["check-b"] + points["fine-b"], "Set B")

@@ -9,7 +9,7 @@ from interface import same
 
 BLUE, ORANGE, GREEN, PURPLE, OCHRE, SKY, GREY = range(1, 8)
 MARKERS = {0: "square", 1: "circle", 2: "triangle"}
-P_LABEL, MU_LABEL = "~{P}_{ext}", "~{μ}_{M}"
+P_LABEL, MU_LABEL = "~{P}_{ext} / ~{E}", "~{μ}_{M}"
 
 
 def plain(values):
@@ -24,7 +24,7 @@ def curves_of_pressure(rows, material, filled):
     for k, length in enumerate(sorted({row["mesh.set.length"] for row in rows})):
         at = [row for row in rows if row["mesh.set.length"] == length and row["mu_M"] != "none"]
         known = [(row["load.pressure"], *row["mu_M"]) for row in at if row["mu_M"][1] is not None]
-        series.append({"label": f"~{{L}} = {length:g}", "x": [P for P, _, _ in known], "y": [mu for _, mu, _ in known],
+        series.append({"label": f"~{{L}} / ~{{L}}_{{0}} = {length:g}", "x": [P for P, _, _ in known], "y": [mu for _, mu, _ in known],
                        "low": [mu - bar for _, mu, bar in known], "high": [mu + bar for _, mu, bar in known], "line": "none",
                        "color": k + 1, "marker": MARKERS[k], "filled": filled})
         unknown += [(row["load.pressure"], row["mu_M"][0]) for row in at if row["mu_M"][1] is None]

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures of a result, or of a sweep, beside the same data drawn by matplotlib (docs/examples/redraw.py; of a sweep here): one sheet to
-look at, and of each what can be measured. Needs python3-matplotlib, python3-h5py, python3-pil and poppler. What a stranger said of the
+look at, both in colour, in grey print and as an eye without green cones sees them; and of each what can be measured. Needs python3-matplotlib, python3-h5py, python3-pil and poppler. What a stranger said of the
 sheets stands in README.md.
 
     validation/pictures/beside.py RESULT [SHEET.png]
@@ -11,7 +11,8 @@ What was asked of them before any was drawn, and who judges it:
 
     1  letters of 7 to 9 pt at the printed size, sub- and superscripts 5    measured: sizes of fonts in the PDF, whole points
     2  no empty third          measured: largest empty rectangle over the page, of 48 x 48 parts
-    3  prints in grey          lightness falls all along the bar (tests/end_to_end/test_render.py); marks differ in shape, by eye
+    3  prints in grey          lightness falls all along the bar (tests/end_to_end/test_render.py); curves differ in marks: counted
+       eyes without green      as they see it, on the sheet
     4  every mark in a legend, or named where it stands   by eye, on the sheet
     5  names of axes have symbol and unit               by eye
     6  no title that was not asked for                  by eye
@@ -34,6 +35,8 @@ SOURCE = Path(__file__).resolve().parents[2]
 PROGRAM = SOURCE / "build/bin/amontons"
 NAMES = ("force", "slip-map", "contact-density")
 PARTS, DPI = 48, 220
+# Linear RGB as an eye without green cones sees it: Machado, Oliveira, Fernandes, IEEE Trans. Vis. Comput. Graph. 15, 1291 (2009).
+WITHOUT_GREEN = np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]])
 WIDTH = 86 / 25.4   # inches
 plt.rcParams.update({"font.size": 8, "axes.linewidth": 0.5, "lines.linewidth": 0.8, "savefig.dpi": 600})
 
@@ -63,6 +66,23 @@ def empty_share(image):
             for last in range(first, PARTS):
                 best = max(best, (last - first + 1) * above[first:last + 1].min())
     return best / PARTS**2
+
+
+def views(image):
+    """In colour, in grey, and without green cones."""
+    part = np.asarray(image, float) / 255
+    linear = np.where(part <= 0.04045, part / 12.92, ((part + 0.055) / 1.055) ** 2.4)
+    seen = np.clip(linear @ WITHOUT_GREEN.T, 0, 1)
+    seen = np.where(seen <= 0.0031308, 12.92 * seen, 1.055 * seen ** (1 / 2.4) - 0.055)
+    return [image, image.convert("L").convert("RGB"), Image.fromarray(np.uint8(np.round(255 * seen)))]
+
+
+def marks_differ(description):
+    """Of a plot: how many of its curves with a name can be told by their marks and lines alone."""
+    if not description.exists():
+        return ""
+    marks = [(one["marker"], one.get("filled", True), one["line"]) for one in json.loads(description.read_text()).get("series", []) if one["label"]]
+    return f"{sum(marks.count(mark) == 1 for mark in marks)} of {len(marks)}"
 
 
 def values(folder, numbers):
@@ -131,20 +151,22 @@ def main():
     result, sheet = Path(sys.argv[1]), Path(sys.argv[2] if len(sys.argv) > 2 else "beside.png")
     names = draw(result)
     rows = []
-    print(f"{'':28s}   kB   letters, pt   empty")
+    print(f"{'':28s}   kB   letters, pt   empty   told by marks")
     for name in names:
         pair = [result / "figures" / f"{name}{end}.pdf" for end in ("", "-redrawn")]
-        rows.append([picture(pdf) for pdf in pair])
-        for pdf, image in zip(pair, rows[-1]):
+        drawn = [picture(pdf) for pdf in pair]
+        rows.append([view for image in drawn for view in views(image)])
+        for pdf, image in zip(pair, drawn):
             least, most = letters(pdf)
-            print(f"{pdf.name:28s} {pdf.stat().st_size / 1e3:5.0f}   {least:.0f} to {most:.0f}        {empty_share(image):.2f}")
+            told = marks_differ(pdf.with_suffix(".json")) if pdf is pair[0] else ""
+            print(f"{pdf.name:28s} {pdf.stat().st_size / 1e3:5.0f}   {least:.0f} to {most:.0f}        {empty_share(image):.2f}    {told}")
     width, height = max(i.width for row in rows for i in row), [max(i.height for i in row) for row in rows]
-    page = Image.new("RGB", (2 * width + 40, sum(height) + 40 * len(rows)), "white")
+    page = Image.new("RGB", (6 * (width + 40), sum(height) + 40 * len(rows)), "white")
     for k, row in enumerate(rows):
         for side, image in enumerate(row):
             page.paste(image, (side * (width + 40), sum(height[:k]) + 40 * k))
     page.save(sheet)
-    print(f"left ours, right matplotlib: {sheet}")
+    print(f"left ours, right matplotlib, each in colour, in grey and without green: {sheet}")
 
 
 if __name__ == "__main__":

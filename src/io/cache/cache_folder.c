@@ -53,12 +53,10 @@ bool cache_folder_limit(int64_t *bytes, Error *err)
         *bytes = (int64_t)size;
         return true;
     }
-    FAIL(err, ERROR_INPUT,
-         "AMONTONS_CACHE_LIMIT: found `%.40s`; allowed: a number of bytes, as in 500000000, 500M "
-         "or 10G",
-         given);
-cleanup:
-    return false;
+    return REFUSE(err,
+                  "AMONTONS_CACHE_LIMIT: found `%.40s`; allowed: a number of bytes, as in "
+                  "500000000, 500M or 10G",
+                  given);
 }
 
 // 32 digits and letters, and an ending that only we use.

@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/transfer.h"
 #include "io/cache/cache_folder.h"
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
@@ -69,11 +70,7 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
         const struct timespec times[2] = {{.tv_nsec = UTIME_NOW}, {.tv_nsec = UTIME_OMIT}};
         futimens(descriptor, times);
         *bytes = memory_bytes(what.st_size, err);
-        while (*bytes && *size < what.st_size) {
-            ssize_t got = read(descriptor, (char *)*bytes + *size, (size_t)(what.st_size - *size));
-            if (got <= 0) break;
-            *size += got;
-        }
+        if (*bytes) *size = transfer_read(descriptor, *bytes, what.st_size, -1);
     }
     close(descriptor);
     return error_is_clean(err);

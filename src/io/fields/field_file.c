@@ -19,32 +19,30 @@ static bool check_arrays(const FieldArray *arrays, int32_t count, Error *err)
 {
     for (int32_t k = 0; k < count; k++) {
         if (!arrays[k].name || !arrays[k].values || arrays[k].components < 1)
-            FAIL(err, ERROR_LIBRARY, "array %d has no name, no values or no components", k);
+            return FAULT(err, ERROR_LIBRARY, "array %d has no name, no values or no components", k);
         for (int32_t other = 0; other < k; other++)
             if (strcmp(arrays[k].name, arrays[other].name) == 0)
-                FAIL(err, ERROR_LIBRARY, "two arrays are called %s", arrays[k].name);
+                return FAULT(err, ERROR_LIBRARY, "two arrays are called %s", arrays[k].name);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // VTK checks nothing, and would read past the end.
 static bool check_grid(const FieldGrid *grid, FieldFormat format, Error *err)
 {
-    if (grid->offsets[0] != 0) FAIL(err, ERROR_LIBRARY, "the first offset is not 0");
+    if (grid->offsets[0] != 0) return FAULT(err, ERROR_LIBRARY, "the first offset is not 0");
     for (int64_t e = 0; e < grid->cell_count; e++)
         if (grid->offsets[e + 1] < grid->offsets[e])
-            FAIL(err, ERROR_LIBRARY, "cell %lld has a negative number of nodes", (long long)e);
+            return FAULT(err, ERROR_LIBRARY, "cell %lld has a negative number of nodes",
+                         (long long)e);
     for (int64_t k = 0; k < grid->offsets[grid->cell_count]; k++)
         if (grid->connectivity[k] < 0 || grid->connectivity[k] >= grid->point_count)
-            FAIL(err, ERROR_LIBRARY, "the connectivity names node %lld of %lld",
-                 (long long)grid->connectivity[k], (long long)grid->point_count);
+            return FAULT(err, ERROR_LIBRARY, "the connectivity names node %lld of %lld",
+                         (long long)grid->connectivity[k], (long long)grid->point_count);
     if (format == FIELD_VTU && !grid->cell_types)
-        FAIL(err, ERROR_LIBRARY, "the cells have no types");
-    TRY(check_arrays(grid->point_arrays, grid->point_array_count, err));
-    TRY(check_arrays(grid->cell_arrays, grid->cell_array_count, err));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "the cells have no types");
+    return check_arrays(grid->point_arrays, grid->point_array_count, err) &&
+           check_arrays(grid->cell_arrays, grid->cell_array_count, err);
 }
 
 // The sink of the module: the bytes of the whole file, once.

@@ -73,30 +73,28 @@ static bool find_kind(double type, uint8_t *kind)
 static bool take_indices(const FieldPart *part, int64_t end, int32_t **indices, Error *err)
 {
     memory_free(*indices);   // of an array that is there twice
-    TRY(*indices = NEW_ARRAY(int32_t, part->count, err));
+    if (!(*indices = NEW_ARRAY(int32_t, part->count, err))) return false;
     for (int64_t k = 0; k < part->count; k++) {
         if (!(part->values[k] >= 0 && part->values[k] < (double)end))
-            FAIL(err, ERROR_FILE, "its %s are damaged", part->name);
+            return FAULT(err, ERROR_FILE, "its %s are damaged", part->name);
         (*indices)[k] = (int32_t)part->values[k];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool take_kinds(const FieldPart *part, FieldFrame *frame, Error *err)
 {
     memory_free(frame->kind);
-    TRY(frame->kind = NEW_ARRAY(uint8_t, part->count, err));
+    if (!(frame->kind = NEW_ARRAY(uint8_t, part->count, err))) return false;
     for (int64_t k = 0; k < part->count; k++)
         if (!find_kind(part->values[k], &frame->kind[k]))
-            FAIL(err, ERROR_FILE, "it has cells that are no elements of a block");
+            return FAULT(err, ERROR_FILE, "it has cells that are no elements of a block");
     for (int32_t e = 0; e < frame->element_count; e++)
         if (part->count != frame->element_count ||
             frame->first_node[e + 1] - frame->first_node[e] !=
                 element_node_count((ElementKind)frame->kind[e]))
-            FAIL(err, ERROR_FILE, "its cells have the wrong number of nodes");
-cleanup:
-    return error_is_clean(err);
+            return FAULT(err, ERROR_FILE, "its cells have the wrong number of nodes");
+    return true;
 }
 
 // All elements have the dimension of the first one; from VTK's order of nodes to gmsh's.
@@ -107,13 +105,12 @@ static bool take_order(FieldFrame *frame, Error *err)
         ElementKind kind = (ElementKind)frame->kind[e];
         int32_t *nodes = frame->element_nodes + frame->first_node[e], vtk[ELEMENT_NODES_MAX];
         if (element_dim(kind) != frame->dim)
-            FAIL(err, ERROR_FILE, "it has cells of two and of three dimensions");
+            return FAULT(err, ERROR_FILE, "it has cells of two and of three dimensions");
         memcpy(vtk, nodes, (size_t)element_node_count(kind) * sizeof *vtk);
         for (int32_t k = 0; k < element_node_count(kind); k++)
             nodes[element_vtk_node(kind, k)] = vtk[k];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 enum { PLANE_STRESSES = 3 };   // of a node; in space twice as many
@@ -124,12 +121,11 @@ static bool take_values(const FieldPart *part, int32_t components, const FieldFr
     memory_free(*values);
     *values = NULL;
     if (part->components != components || part->count != frame->node_count)
-        FAIL(err, ERROR_FILE, "its array %s is not one of %d numbers a node", part->name,
-             components);
-    TRY(*values = NEW_ARRAY(double, components * part->count, err));
+        return FAULT(err, ERROR_FILE, "its array %s is not one of %d numbers a node", part->name,
+                     components);
+    if (!(*values = NEW_ARRAY(double, components * part->count, err))) return false;
     memcpy(*values, part->values, (size_t)(components * part->count) * sizeof(double));
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Grid before fields, points first: as the module hands them on. What is not known is passed over.
@@ -145,7 +141,8 @@ static bool take_part(void *context, const FieldPart *part, Error *err)
         {"points", 3, &frame->position},      {"displacement", 3, &frame->displacement},
         {"velocity", 3, &frame->velocity},    {"stress_elastic", stresses, &frame->stress_elastic},
         {"stress", stresses, &frame->stress}, {"von_mises", 1, &frame->von_mises}};
-    if (part->count > COUNT_MAX) FAIL(err, ERROR_FILE, "it has more than %d nodes", COUNT_MAX);
+    if (part->count > COUNT_MAX)
+        return FAULT(err, ERROR_FILE, "it has more than %d nodes", COUNT_MAX);
     if (strcmp(part->name, "points") == 0) frame->node_count = (int32_t)part->count;
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         if (strcmp(arrays[k].name, part->name) == 0)
@@ -156,15 +153,14 @@ static bool take_part(void *context, const FieldPart *part, Error *err)
     }
     if (strcmp(part->name, "connectivity") == 0) {
         bool whole = part->count == frame->first_node[frame->element_count];
-        if (!whole) FAIL(err, ERROR_FILE, "its cells are damaged");
+        if (!whole) return FAULT(err, ERROR_FILE, "its cells are damaged");
         return take_indices(part, frame->node_count, &frame->element_nodes, err);
     }
     if (strcmp(part->name, "types") == 0) {
-        TRY(take_kinds(part, frame, err));
-        TRY(take_order(frame, err));
+        if (!take_kinds(part, frame, err)) return false;
+        if (!take_order(frame, err)) return false;
         frame->stresses = frame->dim > 2 ? 2 * PLANE_STRESSES : PLANE_STRESSES;
     }
-cleanup:
     return error_is_clean(err);
 }
 

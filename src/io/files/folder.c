@@ -12,7 +12,7 @@ bool folder_make(const char *path, Error *err)
 {
     char part[PATH_MAX];
     if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part)
-        FAIL(err, ERROR_INPUT, "the path of the folder %.80s... is too long", path);
+        return REFUSE(err, "the path of the folder %.80s... is too long", path);
     for (char *slash = part + 1; *slash; slash++) {
         if (*slash != '/') continue;
         *slash = 0;
@@ -21,11 +21,10 @@ bool folder_make(const char *path, Error *err)
     }
     if (mkdir(part, 0777) != 0 && errno != EEXIST) {
         bool wrong_name = errno == ENAMETOOLONG || errno == ENOTDIR;   // no disk can help it
-        FAIL(err, wrong_name ? ERROR_INPUT : ERROR_FILE, "cannot make the folder %s: %s", path,
-             strerror(errno));
+        return FAULT(err, wrong_name ? ERROR_INPUT : ERROR_FILE, "cannot make the folder %s: %s",
+                     path, strerror(errno));
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Both by their real paths: one ".." for each name of the folder's that is not the file's too.

@@ -42,12 +42,11 @@ bool open_check(const char *path, Error *err)
 {
     struct stat status;
     if (stat(path, &status) != 0)
-        FAIL(err, errno == ENOENT || errno == ENOTDIR ? ERROR_INPUT : ERROR_FILE,
-             "cannot read %s: %s", path, strerror(errno));
+        return FAULT(err, errno == ENOENT || errno == ENOTDIR ? ERROR_INPUT : ERROR_FILE,
+                     "cannot read %s: %s", path, strerror(errno));
     if (kind_of(&status) && !is_of_shell(path, &status))
-        FAIL(err, ERROR_INPUT, "%s is %s, not a file", path, kind_of(&status));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s is %s, not a file", path, kind_of(&status));
+    return true;
 }
 
 // O_NONBLOCK: what was a file a moment ago is not waited for either.

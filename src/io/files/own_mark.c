@@ -84,10 +84,9 @@ bool own_mark_check(const char *path, Error *err)
     struct stat status;   // a folder's name cannot be given to a file
     bool taken = mark && lstat(path, &status) == 0 && !S_ISDIR(status.st_mode);
     if (taken && !is_marked(path, mark))
-        FAIL(err, ERROR_INPUT,
-             "%s is there, and nothing says that amontons wrote it: name another file or folder "
-             "(-o), or move it away",
-             path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s is there, and nothing says that amontons wrote it: name another file or "
+                      "folder (-o), or move it away",
+                      path);
+    return true;
 }

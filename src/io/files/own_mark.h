@@ -43,6 +43,7 @@
     X("*.lock", "")                                                                                \
     X("figures/force.csv", "F_T/F_N\n")                                                            \
     X("figures/slip-map.csv", ",x")                                                                \
+    X("figures/state-map.csv", ",least ")                                                          \
     X("figures/precursors.csv", "F_T/F_N,l/L\n")                                                   \
     X("figures/front-speed.csv", "x/L,v/c_R\n")                                                    \
     X("figures/*-compared.csv", ",computed")                                                       \

@@ -4,6 +4,7 @@
 #include "io/files/part_file.h"
 
 #include "base/clock.h"
+#include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/open_file.h"
 #include "io/files/own_mark.h"
@@ -36,42 +37,40 @@ static bool open_part(PartFile *file, const char *path, OpenAs as, double wait, 
     double until = clock_seconds() + wait;
     while (!file->open) {
         file->descriptor = open_to_write(file->part, as, why);
-        if (file->descriptor < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+        if (file->descriptor < 0) return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, why);
         file->open = true;
         // Not every file system can lock; only a lock that another process holds is an error.
         if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             part_file_leave(file);
             if (clock_seconds() < until && nanosleep(&PAUSE, NULL) == 0) continue;
             file->taken = true;
-            FAIL(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
-                 file->part);
+            return FAULT(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
+                         file->part);
         }
         if (!file_is_named(file->part, file->descriptor)) part_file_leave(file);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool name_part(PartFile *file, const char *path, Error *err)
 {
     *file = (PartFile){0};
     if (!part_file_name(path, file->part))
-        FAIL(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"", path);
+        return FAULT(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"",
+                     path);
     snprintf(file->path, sizeof file->path, "%s", path);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool create_part(PartFile *file, const char *path, double wait, Error *err)
 {
-    TRY(open_part(file, path, OPEN_PART, wait, err));
+    if (!open_part(file, path, OPEN_PART, wait, err)) return false;
     if (ftruncate(file->descriptor, 0) != 0) {
         int cause = errno;
         part_file_leave(file);
-        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
+        return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool part_file_create(PartFile *file, const char *path, Error *err)
@@ -93,38 +92,27 @@ bool part_file_try(PartFile *file, const char *path, Error *err)
 
 bool part_file_reopen(PartFile *file, const char *path, Error *err)
 {
-    TRY(name_part(file, path, err));
+    if (!name_part(file, path, err)) return false;
     if (rename(path, file->part) != 0 && errno != ENOENT)
-        FAIL(err, ERROR_FILE, "cannot go on with %s: %s", path, strerror(errno));
-    TRY(open_part(file, path, OPEN_THERE, LOCK_WAIT, err));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "cannot go on with %s: %s", path, strerror(errno));
+    return open_part(file, path, OPEN_THERE, LOCK_WAIT, err);
 }
 
 bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
 {
-    TRY(name_part(file, path, err));
+    if (!name_part(file, path, err)) return false;
     const char *name = finished ? path : file->part;
-    TRY((file->descriptor = open_to_read(name, err)) >= 0);
+    file->descriptor = open_to_read(name, err);
+    if (file->descriptor < 0) return false;
     file->open = true;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
 {
-    const char *next = bytes;
-    while (size > 0) {   // a signal or a nearly full disk cuts a write short
-        ssize_t written = write(file->descriptor, next, (size_t)size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0)
-            FAIL(err, ERROR_FILE, "cannot write %s: %s", file->path,
-                 written < 0 ? strerror(errno) : "nothing was written");
-        next += written;
-        size -= written;
-    }
-cleanup:
-    return error_is_clean(err);
+    int cause = transfer_write(file->descriptor, bytes, size, -1);
+    if (cause) return FAULT(err, ERROR_FILE, "cannot write %s: %s", file->path, strerror(cause));
+    return true;
 }
 
 // fsync before rename: a power cut could otherwise leave the name without its bytes.
@@ -132,14 +120,13 @@ bool part_file_commit(PartFile *file, Error *err)
 {
     // EINVAL: a file system that cannot sync, which is no error.
     if (fsync(file->descriptor) != 0 && errno != EINVAL)
-        FAIL(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(errno));
+        return FAULT(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(errno));
     if (rename(file->part, file->path) != 0)
-        FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
-             strerror(errno));
+        return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
+                     strerror(errno));
     open_part_is_whole(file->descriptor);   // behind: until then another writer sees a part
     part_file_leave(file);   // there is no part any more: this only closes
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool part_file_put(const char *path, const void *bytes, int64_t size, Error *err)

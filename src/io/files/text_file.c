@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A shell may hand over a pipe (/dev/fd/63), which has no size beforehand: so the size is checked
-// before reading and meanwhile.
+// meanwhile.
 #include "io/files/text_file.h"
 
 #include "base/memory.h"
@@ -9,29 +9,14 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
-// A mesh of 100 MB given by mistake is refused, not read.
+// A mesh of 100 MB given by mistake is refused.
 static bool check_size(const char *path, int64_t size, int32_t size_max, Error *err)
 {
     if (size > size_max)
-        FAIL(err, ERROR_INPUT, "%s has more than the %d bytes a text of this kind may have", path,
-             size_max);
-cleanup:
-    return error_is_clean(err);
-}
-
-// A wrong name is ERROR_INPUT; what the system refuses is ERROR_FILE.
-static bool check_kind(const char *path, int32_t size_max, Error *err)
-{
-    struct stat status;
-    if (stat(path, &status) != 0)
-        FAIL(err, errno == ENOENT || errno == ENOTDIR ? ERROR_INPUT : ERROR_FILE,
-             "cannot read %s: %s", path, strerror(errno));
-    if (S_ISDIR(status.st_mode)) FAIL(err, ERROR_INPUT, "%s is a folder, not a file", path);
-    TRY(check_size(path, status.st_size, size_max, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s has more than the %d bytes a text of this kind may have", path,
+                      size_max);
+    return true;
 }
 
 // The buffer grows as bytes come in.
@@ -39,20 +24,18 @@ static bool read_stream(FILE *stream, const char *path, int32_t size_max, char *
                         int32_t *size, Error *err)
 {
     int32_t capacity = 4096;
-    TRY((*bytes = memory_array(capacity + 1, 1, err)));
+    if (!(*bytes = memory_array(capacity + 1, 1, err))) return false;
     for (;;) {
         *size += (int32_t)fread(*bytes + *size, 1, (size_t)(capacity - *size), stream);
         if (*size < capacity) break;
-        TRY(check_size(path, *size, size_max, err));
+        if (!check_size(path, *size, size_max, err)) return false;
         char *longer = memory_resize(*bytes, capacity, 2 * (int64_t)capacity + 1, 1, err);
-        TRY(longer);
+        if (!longer) return false;
         *bytes = longer;
         capacity *= 2;
     }
-    if (ferror(stream)) FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
-    TRY(check_size(path, *size, size_max, err));
-cleanup:
-    return error_is_clean(err);
+    if (ferror(stream)) return FAULT(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    return check_size(path, *size, size_max, err);
 }
 
 bool text_file_read(const char *path, int32_t size_max, char **bytes, int32_t *size, Error *err)
@@ -60,7 +43,6 @@ bool text_file_read(const char *path, int32_t size_max, char **bytes, int32_t *s
     *bytes = NULL;
     *size = 0;
     FILE *stream = NULL;
-    TRY(check_kind(path, size_max, err));
     TRY(stream = open_stream(path, err));
     TRY(read_stream(stream, path, size_max, bytes, size, err));
     if (*size >= 3 && memcmp(*bytes, "\xEF\xBB\xBF", 3) == 0) {

@@ -6,6 +6,8 @@
 // last flush: what HDF5 writes there goes to the journal first (array_disk_settle).
 #include "io/hdf5/array_disk.h"
 
+#include "base/transfer.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -101,20 +103,10 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
 {
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
-    char *next = buffer;
-    haddr_t from = address;
-    size_t whole = size;
-    while (size > 0) {
-        ssize_t count = pread(disk->file->descriptor, next, size, (off_t)address);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) note_failure(disk, errno);
-        if (count <= 0) break;
-        next += count;
-        address += (haddr_t)count;
-        size -= (size_t)count;
-    }
-    memset(next, 0, size);   // past the end, or unreadable
-    int cause = array_journal_overlay(&disk->journal, (int64_t)from, buffer, whole);
+    int64_t got = transfer_read(disk->file->descriptor, buffer, (int64_t)size, (int64_t)address);
+    if (got < (int64_t)size && errno != 0) note_failure(disk, errno);
+    memset((char *)buffer + got, 0, size - (size_t)got);   // past the end, or unreadable
+    int cause = array_journal_overlay(&disk->journal, (int64_t)address, buffer, size);
     if (cause != 0) note_failure(disk, cause);
     return disk->reading && disk->failure != 0 ? -1 : 0;
 }
@@ -133,21 +125,13 @@ static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t 
 {
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
-    const char *next = buffer;
     bool over = address < disk->kept;
     // HDF5 checks the length when it closes: keep it as if all had been written.
     if (address + size > disk->end_of_file) disk->end_of_file = address + size;
     if (over && disk->failure == 0) write_over(disk, address, size, buffer);
-    while (size > 0 && disk->failure == 0 && !over) {
-        ssize_t count = pwrite(disk->file->descriptor, next, size, (off_t)address);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) {
-            note_failure(disk, count < 0 ? errno : ENOSPC);
-            break;
-        }
-        next += count;
-        address += (haddr_t)count;
-        size -= (size_t)count;
+    if (disk->failure == 0 && !over) {
+        int cause = transfer_write(disk->file->descriptor, buffer, (int64_t)size, (int64_t)address);
+        if (cause != 0) note_failure(disk, cause);
     }
     return 0;
 }
@@ -177,11 +161,11 @@ bool array_disk_open(ArrayDisk *disk, const PartFile *file, bool anew, Error *er
     if (cause == 0) sync_file(disk);
     if (cause == 0) cause = disk->failure;
     if (cause == 0) cause = array_journal_create(&disk->journal, file->path);
-    if (cause != 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", file->part, strerror(cause));
+    if (cause != 0)
+        return FAULT(err, ERROR_FILE, "cannot write %s: %s", file->part, strerror(cause));
     if (fstat(file->descriptor, &status) == 0)
         disk->kept = disk->end_of_file = (haddr_t)status.st_size;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool array_disk_look(ArrayDisk *disk, const PartFile *file, bool finished, Error *err)
@@ -190,10 +174,9 @@ bool array_disk_look(ArrayDisk *disk, const PartFile *file, bool finished, Error
     *disk = (ArrayDisk){.file = file, .reading = true};
     int cause = finished ? 0 : array_journal_find(&disk->journal, file->path);
     if (cause != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s.journal: %s", file->path, strerror(cause));
+        return FAULT(err, ERROR_FILE, "cannot read %s.journal: %s", file->path, strerror(cause));
     if (fstat(file->descriptor, &status) == 0) disk->end_of_file = (haddr_t)status.st_size;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // First the new bytes, then the journal, each on the disk before the next.
@@ -217,11 +200,10 @@ bool array_disk_sync(ArrayDisk *disk, Error *err)
 
 bool array_disk_end(ArrayDisk *disk, Error *err)
 {
-    TRY(array_disk_settle(disk, err));
-    TRY(array_disk_sync(disk, err));
+    if (!array_disk_settle(disk, err)) return false;
+    if (!array_disk_sync(disk, err)) return false;
     array_journal_remove(&disk->journal);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void array_disk_close(ArrayDisk *disk)
@@ -260,12 +242,12 @@ bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Er
     char cause[HDF5_CAUSE_SIZE];
     // First the disk: what HDF5 says after a lost write follows from that.
     if (disk->failure != 0)
-        FAIL(err, ERROR_FILE, "cannot write %s: %s", disk->file->part, strerror(disk->failure));
+        return FAULT(err, ERROR_FILE, "cannot write %s: %s", disk->file->part,
+                     strerror(disk->failure));
     if (status < 0)
-        FAIL(err, ERROR_LIBRARY, "HDF5 cannot write %s into %s: %s", what, disk->file->part,
-             hdf5_cause(cause));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "HDF5 cannot write %s into %s: %s", what, disk->file->part,
+                     hdf5_cause(cause));
+    return true;
 }
 
 // The stack is walked from where the fault was found; outer entries only say that something failed.

@@ -80,11 +80,10 @@ bool array_file_append(ArrayFile *file, const char *name, const double *values, 
 bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *values,
                       int32_t stride, int64_t rows, Error *err)
 {
-    TRY(array_file_add_series(file, series, err));
+    if (!array_file_add_series(file, series, err)) return false;
     if (stride == 0) return array_file_append(file, series->name, values, rows, err);
     for (int64_t k = 0; k < rows; k++)
-        TRY(array_file_append(file, series->name, values + k * stride, 1, err));
-cleanup:
+        if (!array_file_append(file, series->name, values + k * stride, 1, err)) return false;
     return error_is_clean(err);
 }
 

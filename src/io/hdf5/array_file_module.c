@@ -38,22 +38,18 @@ struct Hdf5File {
 // Whether the file can be written, and all written so far has reached the disk.
 static bool check_writable(const Hdf5File *file, Error *err)
 {
-    if (!file->writing) FAIL(err, ERROR_LIBRARY, "%s is open for reading only", file->path);
-    TRY(array_disk_check(&file->disk, 0, "", err));
-cleanup:
-    return error_is_clean(err);
+    if (!file->writing) return FAULT(err, ERROR_LIBRARY, "%s is open for reading only", file->path);
+    return array_disk_check(&file->disk, 0, "", err);
 }
 
 // First our own buffers, then HDF5's.
 static bool write_all(Hdf5File *file, Error *err)
 {
-    TRY(check_writable(file, err));
+    if (!check_writable(file, err)) return false;
     for (int32_t s = 0; s < file->series_count; s++)
-        TRY(series_hand_over(&file->series[s], &file->disk, err));
+        if (!series_hand_over(&file->series[s], &file->disk, err)) return false;
     herr_t status = H5Fflush(file->id, H5F_SCOPE_LOCAL);
-    TRY(array_disk_check(&file->disk, status, "what was appended", err));
-cleanup:
-    return error_is_clean(err);
+    return array_disk_check(&file->disk, status, "what was appended", err);
 }
 
 static bool hdf5_flush(Hdf5File *file, Error *err)
@@ -150,14 +146,15 @@ static bool choose_existing(Hdf5File *file, const char *path, Error *err)
 {
     char part[PATH_MAX + 8];
     if (!part_file_name(path, part))
-        FAIL(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"", path);
+        return FAULT(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"",
+                     path);
     snprintf(file->path, sizeof file->path, "%s", path);
-    if (access(path, F_OK) == 0) goto cleanup;
+    if (access(path, F_OK) == 0) return true;
     int cause = errno;
     if (access(part, F_OK) != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
+        return FAULT(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path,
+                     strerror(cause));
     snprintf(file->path, sizeof file->path, "%s", part);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -166,12 +163,11 @@ static bool use_disk(Hdf5File *file, const char *path, hid_t access, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     bool finished = strcmp(file->path, path) == 0;
-    TRY(part_file_look(&file->part, path, finished, err));
-    TRY(array_disk_look(&file->disk, &file->part, finished, err));
+    if (!part_file_look(&file->part, path, finished, err)) return false;
+    if (!array_disk_look(&file->disk, &file->part, finished, err)) return false;
     if (!array_disk_use(&file->disk, access, &file->driver))
-        FAIL(err, ERROR_LIBRARY, "cannot read %s: %s", file->path, hdf5_cause(cause));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "cannot read %s: %s", file->path, hdf5_cause(cause));
+    return true;
 }
 
 // Without a lock, so that the file of a running simulation can be read as of its last flush.
@@ -202,14 +198,12 @@ cleanup:
 // HDF5 writes once more when it closes.
 static bool end_writing(Hdf5File *file, Error *err)
 {
-    TRY(write_all(file, err));
+    if (!write_all(file, err)) return false;
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
     herr_t status = H5Fclose(file->id);
     file->id = 0;
-    TRY(array_disk_check(&file->disk, status, "the end", err));
-    TRY(array_disk_end(&file->disk, err));
-cleanup:
-    return error_is_clean(err);
+    return array_disk_check(&file->disk, status, "the end", err) &&
+           array_disk_end(&file->disk, err);
 }
 
 // Where one of these fails the name is not given.
@@ -236,39 +230,36 @@ static void hdf5_abandon(Hdf5File *file)
 // They stand in the root of the file.
 static bool hdf5_set_number(Hdf5File *file, const char *name, double value, Error *err)
 {
-    TRY(check_writable(file, err));
+    if (!check_writable(file, err)) return false;
     herr_t status = attribute_write_number(file->id, name, value);
-    TRY(array_disk_check(&file->disk, status, name, err));
-cleanup:
-    return error_is_clean(err);
+    return array_disk_check(&file->disk, status, name, err);
 }
 
 static bool hdf5_set_text(Hdf5File *file, const char *name, const char *value, Error *err)
 {
-    TRY(check_writable(file, err));
+    if (!check_writable(file, err)) return false;
     herr_t status = attribute_write_text(file->id, name, value);
-    TRY(array_disk_check(&file->disk, status, name, err));
-cleanup:
-    return error_is_clean(err);
+    return array_disk_check(&file->disk, status, name, err);
 }
 
 static bool hdf5_get_number(Hdf5File *file, const char *name, double *value, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    if (H5Aexists(file->id, name) <= 0) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
+    if (H5Aexists(file->id, name) <= 0)
+        return FAULT(err, ERROR_FILE, "%s has no %s", file->path, name);
     if (attribute_read_number(file->id, name, value) < 0)
-        FAIL(err, ERROR_FILE, "%s: %s is no number: %s", file->path, name, hdf5_cause(cause));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "%s: %s is no number: %s", file->path, name,
+                     hdf5_cause(cause));
+    return true;
 }
 
 static bool hdf5_get_text(Hdf5File *file, const char *name, char *value, int32_t size, Error *err)
 {
-    if (H5Aexists(file->id, name) <= 0) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
+    if (H5Aexists(file->id, name) <= 0)
+        return FAULT(err, ERROR_FILE, "%s has no %s", file->path, name);
     if (attribute_read_text(file->id, name, value, size) < 0)
-        FAIL(err, ERROR_FILE, "%s: %s is no text", file->path, name);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "%s: %s is no text", file->path, name);
+    return true;
 }
 
 // --- writing series -----------------------------------------------------------------------------
@@ -319,11 +310,10 @@ static bool hdf5_append(Hdf5File *file, const char *name, const double *values, 
                         Error *err)
 {
     SeriesWriter *series = find_series(file, name);
-    TRY(check_writable(file, err));
-    if (!series) FAIL(err, ERROR_LIBRARY, "%s has no series %s to append to", file->path, name);
-    TRY(series_append(series, &file->disk, values, rows, err));
-cleanup:
-    return error_is_clean(err);
+    if (!check_writable(file, err)) return false;
+    if (!series)
+        return FAULT(err, ERROR_LIBRARY, "%s has no series %s to append to", file->path, name);
+    return series_append(series, &file->disk, values, rows, err);
 }
 
 // A series of a reopened file is opened when it is first cut.
@@ -348,12 +338,10 @@ cleanup:
 static bool hdf5_remove(Hdf5File *file, const char *name, Error *err)
 {
     herr_t status = 0;
-    TRY(check_writable(file, err));
+    if (!check_writable(file, err)) return false;
     if (H5Aexists(file->id, name) > 0) status = H5Adelete(file->id, name);
     if (hdf5_has(file, name)) status = H5Ldelete(file->id, name, H5P_DEFAULT);
-    TRY(array_disk_check(&file->disk, status, name, err));
-cleanup:
-    return error_is_clean(err);
+    return array_disk_check(&file->disk, status, name, err);
 }
 
 // --- reading ------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "io/hdf5/array_journal.h"
 
 #include "base/memory.h"
+#include "base/transfer.h"
 #include "io/files/open_file.h"
 
 #include <errno.h>
@@ -28,19 +29,6 @@ enum { BUFFER = 1 << 16 };
 
 // --- bytes --------------------------------------------------------------------------------------
 
-static int write_at(int descriptor, const void *bytes, size_t size, int64_t at)
-{
-    for (const char *next = bytes; size > 0;) {
-        ssize_t count = pwrite(descriptor, next, size, (off_t)at);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return count < 0 ? errno : ENOSPC;
-        next += count;
-        at += count;
-        size -= (size_t)count;
-    }
-    return 0;
-}
-
 static int read_at(const ArrayJournal *journal, void *bytes, size_t size, int64_t at)
 {
     if (journal->copy) {
@@ -48,15 +36,8 @@ static int read_at(const ArrayJournal *journal, void *bytes, size_t size, int64_
         memcpy(bytes, journal->copy + at, size);
         return 0;
     }
-    for (char *next = bytes; size > 0;) {
-        ssize_t count = pread(journal->descriptor, next, size, (off_t)at);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return count < 0 ? errno : EIO;
-        next += count;
-        at += count;
-        size -= (size_t)count;
-    }
-    return 0;
+    if (transfer_read(journal->descriptor, bytes, (int64_t)size, at) == (int64_t)size) return 0;
+    return errno ? errno : EIO;
 }
 
 // EINVAL: a file system that cannot sync, which is no error.
@@ -98,12 +79,12 @@ static int begin(ArrayJournal *journal)
     journal->holds = true;
     journal->size = sizeof none;
     journal->hash = hash_start();
-    return write_at(journal->descriptor, &none, sizeof none, 0);
+    return transfer_write(journal->descriptor, &none, sizeof none, 0);
 }
 
 static int append(ArrayJournal *journal, const void *bytes, size_t size)
 {
-    int cause = write_at(journal->descriptor, bytes, size, journal->size);
+    int cause = transfer_write(journal->descriptor, bytes, (int64_t)size, journal->size);
     hash_bytes(&journal->hash, bytes, size);
     journal->size += (int64_t)size;
     return cause;
@@ -122,7 +103,7 @@ int array_journal_seal(ArrayJournal *journal)
     Head head = {.size = journal->size};
     memcpy(head.name, NAME, sizeof NAME);
     hash_write(&journal->hash, head.checksum);
-    int cause = write_at(journal->descriptor, &head, sizeof head, 0);
+    int cause = transfer_write(journal->descriptor, &head, sizeof head, 0);
     return cause ? cause : sync_data(journal->descriptor);
 }
 
@@ -164,7 +145,8 @@ int array_journal_apply(ArrayJournal *journal, int descriptor)
         for (int64_t done = 0; cause == 0 && done < piece.size; done += BUFFER) {
             size_t count = (size_t)(piece.size - done < BUFFER ? piece.size - done : BUFFER);
             cause = read_at(journal, buffer, count, at + done);
-            if (cause == 0) cause = write_at(descriptor, buffer, count, piece.address + done);
+            if (cause == 0)
+                cause = transfer_write(descriptor, buffer, (int64_t)count, piece.address + done);
         }
     }
     if (cause == 0) journal->holds = false;

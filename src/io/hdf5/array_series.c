@@ -87,16 +87,17 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
     *writer =
         (SeriesWriter){.type = series->type, .width = series->width, .components = components};
     if (series->width < 1 || series->width % components != 0 || series->type > ARRAY_INT32)
-        FAIL(err, ERROR_LIBRARY, "%s has no values or no type", series->name);
+        return FAULT(err, ERROR_LIBRARY, "%s has no values or no type", series->name);
     writer->chunk_rows = chunk_rows(series->type, series->width);
-    TRY((writer->name = memory_text(series->name, err)));
-    TRY((writer->buffer =
-             memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err)));
+    if (!(writer->name = memory_text(series->name, err))) return false;
+    if (!(writer->buffer =
+              memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err)))
+        return false;
     writer->dataset = create_dataset(writer, id);
     if (writer->dataset < 0)
-        FAIL(err, ERROR_LIBRARY, "HDF5 cannot make %s: %s", writer->name, hdf5_cause(cause));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "HDF5 cannot make %s: %s", writer->name,
+                     hdf5_cause(cause));
+    return true;
 }
 
 // What is stored, as ours; false: no such type.
@@ -152,15 +153,14 @@ bool series_cut(SeriesWriter *writer, const ArrayDisk *disk, int64_t rows, Error
 {
     hsize_t shape[ARRAY_RANK_MAX];
     shape_of(writer, (hsize_t)rows, shape);
-    TRY(series_hand_over(writer, disk, err));
+    if (!series_hand_over(writer, disk, err)) return false;
     if (writer->row_count < rows)
-        FAIL(err, ERROR_FILE, "%s has %lld rows, %lld are to be kept", writer->name,
-             (long long)writer->row_count, (long long)rows);
+        return FAULT(err, ERROR_FILE, "%s has %lld rows, %lld are to be kept", writer->name,
+                     (long long)writer->row_count, (long long)rows);
     herr_t status = writer->row_count > rows ? H5Dset_extent(writer->dataset, shape) : 0;
-    TRY(array_disk_check(disk, status, writer->name, err));
+    if (!array_disk_check(disk, status, writer->name, err)) return false;
     writer->row_count = rows;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void series_destroy(SeriesWriter *writer)
@@ -189,11 +189,10 @@ bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
                           writer->buffer);
     if (to >= 0) H5Sclose(to);
     H5Sclose(from);
-    TRY(array_disk_check(disk, to < 0 ? -1 : status, writer->name, err));
+    if (!array_disk_check(disk, to < 0 ? -1 : status, writer->name, err)) return false;
     writer->row_count += writer->buffered;
     writer->buffered = 0;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The nearest integer within [low, high]; 0 for NaN, whose conversion C leaves undefined.
@@ -237,8 +236,7 @@ bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *va
         writer->buffered += taken;
         values += taken * writer->width;
         rows -= taken;
-        if (taken == room) TRY(series_hand_over(writer, disk, err));
+        if (taken == room && !series_hand_over(writer, disk, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

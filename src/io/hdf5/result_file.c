@@ -84,9 +84,8 @@ static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
 {
     int length = snprintf(path, PATH_MAX, "%s/history.h5", folder);
     if (length < 0 || length >= PATH_MAX)
-        FAIL(err, ERROR_INPUT, "the name of the result folder is too long: %s", folder);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "the name of the result folder is too long: %s", folder);
+    return true;
 }
 
 // --- writing ------------------------------------------------------------------------------------
@@ -119,14 +118,13 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const 
 {
     char words[200];
     bool space = head->tangents > 1, states = row == &series_rows[SERIES_STATE];
+    const char *unit = space ? unit_in_space(row) : row->unit;
+    if (states && head->state_unit) unit = head->state_unit;
     int32_t components = row_components(row, head);
     const char *more = states ? "; then the next state" : "; then the same along y";
     snprintf(words, sizeof words, "%s%s", row->description, components > 1 ? more : "");
-    ArraySeries series = {.name = row->name,
-                          .type = row->type,
-                          .width = width,
-                          .unit = space ? unit_in_space(row) : row->unit,
-                          .description = words};
+    ArraySeries series = {
+        .name = row->name, .type = row->type, .width = width, .unit = unit, .description = words};
     return array_file_add_vectors(file, &series, components, err);
 }
 
@@ -135,19 +133,24 @@ static const ResultHead flat = {.tangents = 1};   // of arrays without direction
 // Texts, and the numbers known by now.
 static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err)
 {
-    TRY(array_file_set_text(file, "title", head->title, err));
-    TRY(array_file_set_text(file, "units", head->units, err));
-    TRY(array_file_set_text(file, "version", head->version, err));
-    if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
-    if (head->state_names && *head->state_names)
-        TRY(array_file_set_text(file, "states", head->state_names, err));
-    if (head->tangents > 1)
-        TRY(array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err));
+    if (!array_file_set_text(file, "title", head->title, err)) return false;
+    if (!array_file_set_text(file, "units", head->units, err)) return false;
+    if (!array_file_set_text(file, "version", head->version, err)) return false;
+    if (head->pads && !array_file_set_text(file, "pads", head->pads, err)) return false;
+    if (head->state_names && *head->state_names &&
+        !array_file_set_text(file, "states", head->state_names, err))
+        return false;
+    if (head->state_unit && head->states > 0 &&
+        !array_file_set_text(file, "state_unit", head->state_unit, err))
+        return false;
+    if (head->tangents > 1 &&
+        !array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err))
+        return false;
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
-        if (k != NUMBER_FORMAT && !isnan(head->numbers[k]))
-            TRY(array_file_set_number(file, number_rows[k].name, head->numbers[k], err));
-cleanup:
-    return error_is_clean(err);
+        if (k != NUMBER_FORMAT && !isnan(head->numbers[k]) &&
+            !array_file_set_number(file, number_rows[k].name, head->numbers[k], err))
+            return false;
+    return true;
 }
 
 // Numbers in a row: one for each contact node or pad, or one.
@@ -221,10 +224,9 @@ bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         bool may_lack = !result_series_written(&(ResultHead){0}, (ResultSeries)k);
         if (may_lack && !array_file_has(file, series_rows[k].name)) continue;
-        TRY(array_file_cut(file, series_rows[k].name, rows, err));
+        if (!array_file_cut(file, series_rows[k].name, rows, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Tables (peaks, events) are known at the end only, and are added then.
@@ -263,21 +265,25 @@ static bool read_column(ArrayFile *file, const char *name, double **values, int3
     int64_t rows = 0;
     int32_t width = 0;
     *count = 0;
-    TRY(array_file_read(file, name, values, &rows, &width, err));
+    if (!array_file_read(file, name, values, &rows, &width, err)) return false;
     if (rows > INT32_MAX || width != 1) {
         memory_free(*values);
         *values = NULL;
-        FAIL(err, ERROR_INPUT, "%s is not one column but %lld rows of %d", name, (long long)rows,
-             width);
+        return REFUSE(err, "%s is not one column but %lld rows of %d", name, (long long)rows,
+                      width);
     }
     *count = (int32_t)rows;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool result_file_has_faces(ArrayFile *file)
 {
     return array_file_has(file, faces_rows[FACES_NODES].name);
+}
+
+bool result_file_remembers(ArrayFile *file)
+{
+    return array_file_has(file, series_rows[SERIES_STATE].name);
 }
 
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
@@ -287,11 +293,10 @@ bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values,
     *rows = *width = 0;
     *values = NULL;
     if (!array_file_has(file, faces_rows[faces].name)) return true;
-    TRY(array_file_read(file, faces_rows[faces].name, values, &count, width, err));
-    if (count > INT32_MAX) FAIL(err, ERROR_FILE, "%s is too long", faces_rows[faces].name);
+    if (!array_file_read(file, faces_rows[faces].name, values, &count, width, err)) return false;
+    if (count > INT32_MAX) return FAULT(err, ERROR_FILE, "%s is too long", faces_rows[faces].name);
     *rows = (int32_t)count;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // length: who reads several takes the shortest.
@@ -328,14 +333,13 @@ bool result_file_read_tables(ArrayFile *file, const ResultTable *tables, int32_t
 {
     for (int32_t k = 0; k < table_count; k++) {
         int32_t rows = 0;
-        TRY(result_file_read_table(file, tables[k], &columns[k], &rows, err));
+        if (!result_file_read_table(file, tables[k], &columns[k], &rows, err)) return false;
         if (k == 0) *count = rows;
         if (rows != *count)
-            FAIL(err, ERROR_FILE, "%s has %d rows, %s %d", table_rows[tables[0]].name, *count,
-                 table_rows[tables[k]].name, rows);
+            return FAULT(err, ERROR_FILE, "%s has %d rows, %s %d", table_rows[tables[0]].name,
+                         *count, table_rows[tables[k]].name, rows);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // NaN: the file does not have it, as an older one may not.

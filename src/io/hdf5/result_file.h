@@ -30,6 +30,7 @@ struct ResultHead {
     bool rod_on_spring;   // SERIES_ROD_WAY is written, too
     int32_t states;   // of a contact node, in SERIES_STATE; 0: there is none
     const char *state_names;   // a line each; NULL or empty: without names
+    const char *state_unit;   // "time", "1" or "its own"; NULL: not known
     int32_t contact_count;
     int32_t tangents;   // directions of slip: 0 or 1 in the plane, 2 in space
     const double *nodes[RESULT_NODES_COUNT];
@@ -54,6 +55,7 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
                             Error *err);
 bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes);   // y and line: in space
 bool result_file_has_faces(ArrayFile *file);
+bool result_file_remembers(ArrayFile *file);   // SERIES_STATE is there
 // *values [rows * width]; an array that is absent has no rows.
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
                             int32_t *width, Error *err);

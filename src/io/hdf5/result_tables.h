@@ -42,8 +42,8 @@ typedef enum ResultColumns {
     X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
       "0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not")                  \
     X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
-      "theta of friction that remembers (`slip-weakening`: part of strength that is there, 1; "    \
-      "one's own: several along a last axis); absent where nothing is remembered")                 \
+      "theta of friction that remembers (`slip-weakening`: phi, part of strength, 1; one's own: "  \
+      "several along a last axis, in their own units); absent where nothing is remembered")        \
     X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
@@ -91,7 +91,7 @@ typedef enum ResultColumns {
       "mean speed of the front along the contact; nan: none")
 
 // Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (their
-// names, a line each), states (names of one's own), warnings (absent: none).
+// names, a line each), states (likewise), state_unit, warnings (absent: none).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_FORMAT, "format", "1",                                                                \

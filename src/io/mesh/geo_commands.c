@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 // FILES_MAX: files that include the next one twice each would be read 2^depth times.
-enum { SCRIPT_BYTES_MAX = 1 << 28, FILES_MAX = 1000 };
+enum { FILES_MAX = 1000 };
 
 // A script and what it includes, on the way through.
 typedef struct Scripts {
@@ -63,10 +63,8 @@ static bool refuse_found(const char *path, const char *other, Scripts *scripts, 
     struct stat status;
     if (access(other, R_OK) != 0 || stat(other, &status) != 0) return true;
     if (!S_ISREG(status.st_mode))
-        FAIL(err, ERROR_INPUT, "%s: includes %s, which is no file", path, other);
-    TRY(refuse_script(other, scripts, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: includes %s, which is no file", path, other);
+    return refuse_script(other, scripts, err);
 }
 
 // `quoted` begins with a quote; the name is relative to the file that includes it.
@@ -85,7 +83,7 @@ static bool refuse_script(const char *path, Scripts *scripts, Error *err)
     int32_t size = 0;
     scripts->files++;
     scripts->depth++;
-    TRY(text_file_read(path, SCRIPT_BYTES_MAX, &text, &size, err));
+    TRY(text_file_read(path, GEO_BYTES_MAX, &text, &size, err));
     if (scripts->depth > GEO_INCLUDE_DEPTH_MAX + 1)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
              GEO_INCLUDE_DEPTH_MAX);
@@ -118,10 +116,10 @@ bool geo_commands_refuse(const char *path, bool is_script, Error *err)
 {
     char options[PATH_MAX];
     Scripts scripts = {0};
-    if (is_script) TRY(refuse_script(path, &scripts, err));
+    if (is_script && !refuse_script(path, &scripts, err)) return false;
     int length = snprintf(options, sizeof options, "%s.opt", path);
-    if (length < (int)sizeof options && access(options, F_OK) == 0)
-        TRY(refuse_found(path, options, &scripts, err));
-cleanup:
-    return error_is_clean(err);
+    if (length < (int)sizeof options && access(options, F_OK) == 0 &&
+        !refuse_found(path, options, &scripts, err))
+        return false;
+    return true;
 }

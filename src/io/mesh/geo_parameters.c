@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "io/files/open_file.h"
+#include "io/files/text_file.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -25,24 +25,6 @@ void geo_parameters_destroy(GeoParameters *known)
 {
     memory_free(known->items);
     *known = (GeoParameters){0};
-}
-
-// The whole file as text, owned by the caller.
-static char *read_text(const char *path, Error *err)
-{
-    char *text = NULL;
-    FILE *file = open_stream(path, err);
-    TRY(file);
-    if (fseek(file, 0, SEEK_END) != 0)
-        FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
-    long size = ftell(file);
-    rewind(file);
-    if (size < 0 || !(text = NEW_ARRAY(char, (int64_t)size + 1, err))) goto cleanup;
-    size_t got = fread(text, 1, (size_t)size, file);
-    text[got] = '\0';
-cleanup:
-    if (file) fclose(file);
-    return text;
 }
 
 // Behind the comment or string that begins at `at`, or `at` itself.
@@ -117,7 +99,7 @@ static bool read_list(const char **at, GeoParameters *known, Error *err)
             const char *name = now;
             now = skip_blank(now + length);
             bool is_text = *now == '=' && is_text_value(now + 1);
-            TRY(add_parameter(known, name, length, is_text, err));
+            if (!add_parameter(known, name, length, is_text, err)) return false;
             expect_name = false;
         } else if (length > 0) {
             now += length;
@@ -131,8 +113,7 @@ static bool read_list(const char **at, GeoParameters *known, Error *err)
         }
     }
     *at = now;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void geo_included_path(const char *path, const char *name, int length, char included[GEO_PATH_SIZE])
@@ -161,10 +142,11 @@ static bool scan_include(const char *path, const char *quoted, int32_t depth, Ge
 static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err)
 {
     char *text = NULL;
+    int32_t size = 0;
     if (depth > GEO_INCLUDE_DEPTH_MAX)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
              GEO_INCLUDE_DEPTH_MAX);
-    if (!(text = read_text(path, err))) goto cleanup;
+    TRY(text_file_read(path, GEO_BYTES_MAX, &text, &size, err));
     // Word by word: a name inside a longer one, a string or a comment must not count.
     const char *at = text;
     while (*at) {
@@ -234,24 +216,23 @@ bool geo_parameters_check(const GeoParameters *known, const char *path, const Me
         bool is_text = given[k].text[0] != '\0';
         if (!item) return fail_unknown(known, path, given[k].name, err);
         if (item->is_text && !is_text)
-            FAIL(err, ERROR_INPUT, "%s: parameter '%s' is a text, found the number %g", path,
-                 item->name, given[k].value);
+            return REFUSE(err, "%s: parameter '%s' is a text, found the number %g", path,
+                          item->name, given[k].value);
         if (!item->is_text && is_text)
-            FAIL(err, ERROR_INPUT, "%s: parameter '%s' is a number, found the text '%s'", path,
-                 item->name, given[k].text);
+            return REFUSE(err, "%s: parameter '%s' is a number, found the text '%s'", path,
+                          item->name, given[k].text);
         if (strpbrk(given[k].text, "\"\n\\"))
-            FAIL(err, ERROR_INPUT,
-                 "%s: the text of parameter '%s' holds a quote, a backslash or a line end", path,
-                 item->name);
+            return REFUSE(err,
+                          "%s: the text of parameter '%s' holds a quote, a backslash or a line end",
+                          path, item->name);
         if (!is_text && !isfinite(given[k].value))
-            FAIL(err, ERROR_INPUT, "%s: parameter '%s' is not a finite number", path, item->name);
+            return REFUSE(err, "%s: parameter '%s' is not a finite number", path, item->name);
         if (!is_text && fabs(given[k].value) > LARGEST)
-            FAIL(err, ERROR_INPUT, "%s: parameter '%s' is %g; at most %g is allowed", path,
-                 item->name, given[k].value, LARGEST);
+            return REFUSE(err, "%s: parameter '%s' is %g; at most %g is allowed", path, item->name,
+                          given[k].value, LARGEST);
         for (int32_t j = 0; j < k; j++)
             if (strcmp(given[j].name, given[k].name) == 0)
-                FAIL(err, ERROR_INPUT, "%s: parameter '%s' is given twice", path, item->name);
+                return REFUSE(err, "%s: parameter '%s' is given twice", path, item->name);
     }
-cleanup:
     return error_is_clean(err);
 }

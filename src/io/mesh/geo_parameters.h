@@ -10,7 +10,7 @@
 #include <limits.h>
 #include <stdint.h>
 
-enum { GEO_INCLUDE_DEPTH_MAX = 8, GEO_PATH_SIZE = 2 * PATH_MAX };
+enum { GEO_INCLUDE_DEPTH_MAX = 8, GEO_PATH_SIZE = 2 * PATH_MAX, GEO_BYTES_MAX = 1 << 28 };
 
 // The file that `Include "name"` means in the script `path`: `name`, of which `length` bytes count,
 // is relative to it.

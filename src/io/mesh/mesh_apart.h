@@ -6,8 +6,8 @@
 
 #include "io/mesh/mesh_raw.h"
 
-// As amontons_gmsh_read (io/mesh/mesh_raw.h). The module is opened in this process, once for all
-// meshes: to load it takes a tenth of a second, to hand it on to a child some milliseconds.
-bool mesh_apart_read(const MeshRawRequest *request, MeshRaw *raw, Error *err);
+// The mesh, in this process where apart is not wanted. The module is opened in this process, once
+// for all meshes: to load it takes a tenth of a second, to hand it on to a child some milliseconds.
+bool mesh_apart_read(const MeshRawRequest *request, MeshFile *mesh, Error *err);
 
 #endif

@@ -14,10 +14,9 @@ bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t p
     Hash hash = computation_hash();
     bool whole = false;
     key[0] = 0;
-    TRY(mesh_source_hash(path, parameters, parameter_count, &hash, &whole, err));
+    if (!mesh_source_hash(path, parameters, parameter_count, &hash, &whole, err)) return false;
     if (whole) hash_write(&hash, key);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void archive_elements(MeshFile *mesh, Archive *archive)
@@ -66,7 +65,7 @@ static void archive_group(MeshGroup *group, const MeshFile *mesh, Archive *archi
     archive_new_indices(archive, &group->elements, group->element_count, 0, mesh->element_count);
 }
 
-static void archive_mesh(void *self, Archive *archive)
+void mesh_archive(void *self, Archive *archive)
 {
     MeshFile *mesh = self;
     archive_length(archive, &mesh->dim);
@@ -86,7 +85,7 @@ bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)
 {
     *mesh = (MeshFile){0};
     bool done =
-        cache_load(&(CacheItem){CACHE_MESH, key, archive_mesh, mesh}, NULL, found, NULL, err);
+        cache_load(&(CacheItem){CACHE_MESH, key, mesh_archive, mesh}, NULL, found, NULL, err);
     if (!*found) mesh_file_destroy(mesh);
     return done;
 }
@@ -94,5 +93,5 @@ bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)
 void mesh_cache_store(const char *key, const MeshFile *mesh)
 {
     MeshFile same = *mesh;
-    cache_store(&(CacheItem){CACHE_MESH, key, archive_mesh, &same}, NULL);
+    cache_store(&(CacheItem){CACHE_MESH, key, mesh_archive, &same}, NULL);
 }

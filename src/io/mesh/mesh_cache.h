@@ -6,6 +6,7 @@
 #ifndef AMONTONS_IO_MESH_MESH_CACHE_H
 #define AMONTONS_IO_MESH_MESH_CACHE_H
 
+#include "base/archive.h"
 #include "base/hash.h"
 #include "io/mesh/mesh_file.h"
 
@@ -18,6 +19,9 @@ bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t p
 
 // Fills `mesh`. *found: false where there is nothing, or nothing that is valid.
 bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err);
+
+// A MeshFile, as the cache has it.
+void mesh_archive(void *mesh, Archive *archive);
 
 // Never an error: what cannot be stored is read by gmsh again.
 void mesh_cache_store(const char *key, const MeshFile *mesh);

@@ -97,13 +97,12 @@ static bool mark_elements(const RawElements *elements, const char *path, NodeTab
         for (int32_t a = 0; a < elements->items[e].count; a++) {
             int32_t at = table_find(table, elements->items[e].nodes[a]);
             if (at < 0)
-                FAIL(err, ERROR_INPUT, "%s: element %lld uses node %lld, which the file lacks",
-                     path, (long long)elements->items[e].number,
-                     (long long)elements->items[e].nodes[a]);
+                return REFUSE(err, "%s: element %lld uses node %lld, which the file lacks", path,
+                              (long long)elements->items[e].number,
+                              (long long)elements->items[e].nodes[a]);
             table->index[at] = 0;
         }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Marks nodes on a surface or curve that are on no element of any kind, which fem/mesh_build
@@ -146,8 +145,9 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
 {
     for (int32_t k = 0; k < table->count; k++)
         if (table->index[k] == 0) table->index[k] = mesh->node_count++;
-    TRY((mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err)));
-    if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) goto cleanup;
+    if (!(mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err)))
+        return false;
+    if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) return false;
     // From the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
     int64_t worst = 0;
@@ -156,8 +156,8 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         const double *from = raw->node_position + 3 * table->source[k];
         double *to = mesh->position + (int64_t)mesh->dim * table->index[k];
         if (!isfinite(from[0]) || !isfinite(from[1]) || !isfinite(from[2]))
-            FAIL(err, ERROR_INPUT, "%s: node %lld has a coordinate that is not a number", path,
-                 (long long)table->number[k]);
+            return REFUSE(err, "%s: node %lld has a coordinate that is not a number", path,
+                          (long long)table->number[k]);
         memcpy(to, from, (size_t)mesh->dim * sizeof(double));
         mesh->node_number[table->index[k]] = table->number[k];
         extent = fmax(extent,
@@ -168,12 +168,11 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         }
     }
     if (fabs(deepest) > PLANE_TOLERANCE * extent)
-        FAIL(err, ERROR_INPUT,
-             "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block with x "
-             "along the drive and y upwards)",
-             path, (long long)worst, deepest);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: is not in gmsh's plane z = 0: node %lld is at z = %g (draw the block "
+                      "with x along the drive and y upwards)",
+                      path, (long long)worst, deepest);
+    return true;
 }
 
 // Elements with indices in place of tags; by offsets, since kinds may be mixed.
@@ -182,10 +181,10 @@ static bool store_elements(const RawElements *elements, const NodeTable *table, 
 {
     int64_t total = 0;
     for (int32_t e = 0; e < elements->count; e++) total += elements->items[e].count;
-    TRY((mesh->element_number = NEW_ARRAY(int64_t, elements->count, err)));
-    if (!(mesh->kind = NEW_ARRAY(uint8_t, elements->count, err))) goto cleanup;
-    TRY((mesh->first_node = NEW_ARRAY(int32_t, (int64_t)elements->count + 1, err)));
-    if (!(mesh->element_nodes = NEW_ARRAY(int32_t, total, err))) goto cleanup;
+    if (!(mesh->element_number = NEW_ARRAY(int64_t, elements->count, err))) return false;
+    if (!(mesh->kind = NEW_ARRAY(uint8_t, elements->count, err))) return false;
+    if (!(mesh->first_node = NEW_ARRAY(int32_t, (int64_t)elements->count + 1, err))) return false;
+    if (!(mesh->element_nodes = NEW_ARRAY(int32_t, total, err))) return false;
     mesh->element_count = elements->count;
     int32_t at = 0;
     for (int32_t e = 0; e < elements->count; e++) {
@@ -197,8 +196,7 @@ static bool store_elements(const RawElements *elements, const NodeTable *table, 
             mesh->element_nodes[at++] = table->index[table_find(table, element->nodes[a])];
     }
     mesh->first_node[elements->count] = at;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- groups -------------------------------------------------------------------------------------
@@ -221,7 +219,8 @@ static bool store_group_nodes(const RawElements *elements, const NodeTable *tabl
                               Error *err)
 {
     int32_t count = 0;
-    TRY((group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * FACE_NODES_MAX, err)));
+    if (!(group->nodes = NEW_ARRAY(int32_t, (int64_t)elements->count * FACE_NODES_MAX, err)))
+        return false;
     for (int32_t k = 0; k < elements->count; k++)
         for (int32_t a = 0; a < elements->items[k].count; a++) {
             int32_t at = table_find(table, elements->items[k].nodes[a]);
@@ -231,8 +230,7 @@ static bool store_group_nodes(const RawElements *elements, const NodeTable *tabl
     for (int32_t k = 0; k < count; k++)
         if (k == 0 || group->nodes[k] != group->nodes[k - 1])
             group->nodes[group->node_count++] = group->nodes[k];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Copies the faces of a boundary, whose nodes mark_boundaries has put into the mesh. Faces of
@@ -242,24 +240,23 @@ static bool store_group_faces(const char *path, const RawElements *faces, const 
 {
     int32_t width = group->dimension + 1;
     for (int32_t k = 0; k < faces->count; k++) width = (int32_t)fmax(width, faces->items[k].count);
-    TRY((group->face_nodes = NEW_ARRAY(int32_t, (int64_t)faces->count * width, err)));
+    if (!(group->face_nodes = NEW_ARRAY(int32_t, (int64_t)faces->count * width, err))) return false;
     group->nodes_per_face = width;
     for (int32_t k = 0; k < faces->count; k++) {
         int32_t nodes = faces->items[k].count, first = faces->items[0].count;
         if (is_quadratic(&faces->items[k]) != is_quadratic(&faces->items[0]))
-            FAIL(err, ERROR_INPUT, "%s: group '%s' mixes %s of %d and %d nodes", path, group->name,
-                 group->dimension == 1 ? "edges" : "faces", first, nodes);
+            return REFUSE(err, "%s: group '%s' mixes %s of %d and %d nodes", path, group->name,
+                          group->dimension == 1 ? "edges" : "faces", first, nodes);
         for (int32_t a = 0; a < width; a++) {
             int32_t at = a < nodes ? table_find(table, faces->items[k].nodes[a]) : -1;
             if (a < nodes && at < 0)
-                FAIL(err, ERROR_INPUT, "%s: group '%s' uses node %lld, which the file lacks", path,
-                     group->name, (long long)faces->items[k].nodes[a]);
+                return REFUSE(err, "%s: group '%s' uses node %lld, which the file lacks", path,
+                              group->name, (long long)faces->items[k].nodes[a]);
             group->face_nodes[k * width + a] = a < nodes ? table->index[at] : -1;
         }
     }
     group->face_count = faces->count;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The element with gmsh's number, which ascend; -1: none, a copy that was dropped.
@@ -278,7 +275,7 @@ static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const
     int32_t most = 0;
     for (int32_t k = 0; k < raw->block_count; k++)
         if (raw_group_holds(from, &raw->blocks[k])) most += (int32_t)raw->blocks[k].count;
-    if (!(group->elements = NEW_ARRAY(int32_t, most, err))) goto cleanup;
+    if (!(group->elements = NEW_ARRAY(int32_t, most, err))) return false;
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
         for (int64_t i = 0; raw_group_holds(from, block) && i < block->count; i++) {
@@ -291,8 +288,7 @@ static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const
         }
     }
     qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), order_int32);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // One group: its name (or its number in decimal), and its faces and nodes.
@@ -327,23 +323,23 @@ cleanup:
 static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
                            const RawElements *body, MeshFile *mesh, Error *err)
 {
-    if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) goto cleanup;
+    if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) return false;
     for (int32_t k = 0; k < raw->group_count; k++) {
         MeshGroup *group = &mesh->groups[mesh->group_count++];
-        TRY(convert_group(raw, path, table, &raw->groups[k], group, err));
-        if (group->dimension == mesh->dim)
-            TRY(store_group_elements(raw, &raw->groups[k], body, mesh, group, err));
+        if (!convert_group(raw, path, table, &raw->groups[k], group, err)) return false;
+        if (group->dimension == mesh->dim &&
+            !store_group_elements(raw, &raw->groups[k], body, mesh, group, err))
+            return false;
         for (const MeshGroup *other = mesh->groups; other < group; other++)
             if (strcmp(other->name, group->name) == 0)
-                FAIL(err, ERROR_INPUT,
-                     "%s: the physical name '%s' is used twice: by group %d of dimension %d and by "
-                     "group %d of dimension %d",
-                     path, group->name, other->number, other->dimension, group->number,
-                     group->dimension);
+                return REFUSE(err,
+                              "%s: the physical name '%s' is used twice: by group %d of dimension "
+                              "%d and by group %d of dimension %d",
+                              path, group->name, other->number, other->dimension, group->number,
+                              group->dimension);
     }
     qsort(mesh->groups, (size_t)mesh->group_count, sizeof *mesh->groups, compare_groups);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err)

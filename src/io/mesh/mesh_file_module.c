@@ -83,12 +83,11 @@ static bool gmsh_begin(Error *err)
     char name[] = "gmsh", *argv[] = {name, NULL};
     int status = 0;
     gmshInitialize(1, argv, 0, &status);
-    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
+    if (status) return FAULT(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
     gmshOptionSetNumber("General.Terminal", 0, &status);
     gmshOptionSetNumber("General.NumThreads", 1, &status);
     gmshLoggerStart(&status);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Ends the session; the next one finds no model, no options and no log of this one.
@@ -154,20 +153,19 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
 {
     int status = 0;
     double algorithm = 0;
-    TRY(gmsh_open(request, err));
-    if (!request->generate) goto cleanup;
+    if (!gmsh_open(request, err)) return false;
+    if (!request->generate) return true;
     if (request->opened) request->opened();
     gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
     if (status == 0 && algorithm == MESH_ADAPT_QUADS)
-        FAIL(err, ERROR_INPUT,
-             "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for quadrilaterals "
-             "Mesh.RecombinationAlgorithm = 3 with it",
-             request->path);
+        return REFUSE(err,
+                      "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for "
+                      "quadrilaterals Mesh.RecombinationAlgorithm = 3 with it",
+                      request->path);
     // Meshing threads that throw would end the program: let them log, and look at the log.
     gmshOptionSetNumber("General.AbortOnError", 0, &status);
     gmshModelMeshGenerate(model_dimension(), &status);
     if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
-cleanup:
     return error_is_clean(err);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh as gmsh's API delivers it, between the gmsh module (io/mesh/mesh_file_module) and
-// io/mesh/mesh_read or io/mesh/mesh_apart, which need not know gmsh's headers; and its conversion
-// to a MeshFile.
+// io/mesh/mesh_apart, which need not know gmsh's headers; and its conversion to a MeshFile.
 #ifndef AMONTONS_IO_MESH_MESH_RAW_H
 #define AMONTONS_IO_MESH_MESH_RAW_H
 
@@ -29,7 +28,7 @@ typedef struct RawGroup {
 } RawGroup;
 
 typedef struct MeshRaw {
-    double version;   // of the .msh format, 2.2 or 4.1; 0: a .geo
+    double version;   // of the request; not the reader's to set
     int64_t node_count;
     int64_t *node_number;   // [node_count] tags; owned
     uint8_t *node_dimension;   // [node_count] of the entity the node is on; owned
@@ -46,6 +45,7 @@ typedef struct MeshRawRequest {
     bool generate;   // a .geo: mesh it, in 3D where it has a volume
     const MeshParameter *parameters;   // [parameter_count] all known to the .geo
     int32_t parameter_count;
+    double version;   // of the .msh format, 2.2 or 4.1; 0: a .geo
     int32_t splits;   // so many times every edge is halved afterwards
     void (*opened)(void);   // called when the file is read and meshing begins; NULL: nobody
 } MeshRawRequest;

@@ -3,9 +3,7 @@
 // model, takes junk for a script, and reads a file that was cut off inside its last number.
 #include "io/mesh/mesh_file.h"
 
-#include "base/apart.h"
 #include "base/memory.h"
-#include "base/module.h"
 #include "base/text.h"
 #include "io/files/open_file.h"
 #include "io/mesh/geo_commands.h"
@@ -31,11 +29,10 @@ static bool check_file(const char *path, Error *err)
 {
     struct stat status;
     if (stat(path, &status) != 0)
-        FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
-    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
-    if (status.st_size == 0) FAIL(err, ERROR_INPUT, "%s: is empty", path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: cannot be read: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode)) return REFUSE(err, "%s: is not a file", path);
+    if (status.st_size == 0) return REFUSE(err, "%s: is empty", path);
+    return true;
 }
 
 // gmsh runs what does not begin like a mesh as a script, whatever its name ends with.
@@ -45,12 +42,11 @@ static bool check_begin(FILE *file, const char *path, Error *err)
     bool mesh = fgets(line, sizeof line, file) &&
                 (strncmp(line, "$MeshFormat", 11) == 0 || strncmp(line, "$Comments", 9) == 0);
     if (!mesh)
-        FAIL(err, ERROR_INPUT,
-             "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
-             path);
+        return REFUSE(
+            err, "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
+            path);
     rewind(file);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Finds $MeshFormat among the first lines and the version on the line after it.
@@ -60,13 +56,10 @@ static bool read_version(FILE *file, const char *path, double *version, Error *e
     for (int32_t k = 0; k < HEAD_LINES && fgets(line, sizeof line, file); k++) {
         if (strncmp(line, "$MeshFormat", strlen("$MeshFormat")) != 0) continue;
         if (!fgets(line, sizeof line, file) || (*version = strtod(line, NULL)) <= 0)
-            FAIL(err, ERROR_INPUT, "%s: is truncated: no version after $MeshFormat", path);
-        goto cleanup;
+            return REFUSE(err, "%s: is truncated: no version after $MeshFormat", path);
+        return true;
     }
-    FAIL(err, ERROR_INPUT, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)",
-         path);
-cleanup:
-    return error_is_clean(err);
+    return REFUSE(err, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)", path);
 }
 
 // True when `mark` occurs from the file's present position on.
@@ -126,15 +119,15 @@ static bool take_refine(const char *path, Parameters *given, int32_t *splits, Er
         double part = frexp(given->list[k].value, &exponent);
         *splits = exponent - 1;
         if (part != 0.5 || *splits < 0 || *splits > SPLITS_MAX)
-            FAIL(err, ERROR_INPUT,
-                 "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
-                 "2, 4, ... %d%s",
-                 path, given->list[k].value, 1 << SPLITS_MAX,
-                 text_ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
+            return REFUSE(
+                err,
+                "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
+                "2, 4, ... %d%s",
+                path, given->list[k].value, 1 << SPLITS_MAX,
+                text_ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
     }
     given->count = kept;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // gmsh would ignore a parameter that the script does not take.
@@ -152,27 +145,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool read_raw(const MeshRawRequest *request, MeshRaw *raw, Error *err)
-{
-    if (apart_is_wanted()) return mesh_apart_read(request, raw, err);
-    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
-    return read && read(request, raw, err);
-}
-
-// By gmsh, and kept for the next time.
-static bool read_anew(const MeshRawRequest *request, double version, const char *key,
-                      MeshFile *mesh, Error *err)
-{
-    MeshRaw raw = {0};
-    TRY(read_raw(request, &raw, err));
-    raw.version = version;
-    TRY(mesh_raw_convert(&raw, request->path, mesh, err));
-    mesh_cache_store(key, mesh);
-cleanup:
-    mesh_raw_destroy(&raw);
-    return error_is_clean(err);
-}
-
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     MeshFile *mesh, Error *err)
 {
@@ -180,7 +152,6 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     bool found = false;
     MeshRawRequest request = {.path = path, .generate = text_ends_with(path, ".geo")};
     Parameters given = {.count = parameter_count};
-    double version = 0;
     *mesh = (MeshFile){0};
     if (!request.generate && !text_ends_with(path, ".msh"))
         FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
@@ -193,7 +164,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     if (request.generate)
         TRY(check_geo(path, &given, &request.splits, err));
     else
-        TRY(check_msh(path, &version, err) && take_refine(path, &given, &request.splits, err));
+        TRY(check_msh(path, &request.version, err) &&
+            take_refine(path, &given, &request.splits, err));
     if (!request.generate && given.count > 0)
         FAIL(
             err, ERROR_INPUT,
@@ -203,10 +175,12 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     request.parameter_count = given.count;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
-    if (found)
+    if (found) {
         mesh->origin = MESH_OF_CACHE;
-    else
-        TRY(read_anew(&request, version, key, mesh, err));
+    } else {
+        TRY(mesh_apart_read(&request, mesh, err));
+        mesh_cache_store(key, mesh);
+    }
 cleanup:
     memory_free(given.list);
     return error_is_clean(err);

@@ -6,13 +6,14 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/text_file.h"
+#include "io/mesh/geo_parameters.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MESH_BYTES_MAX = 1 << 28, OPTIONS_PATH_SIZE = 4096 };
+enum { OPTIONS_PATH_SIZE = 4096 };
 
 static const char *const OUTSIDE[] = {
     "Include",   "Merge",     "ShapeFromFile", "FileName",     "FileExists", "GetEnv",
@@ -52,7 +53,7 @@ bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t
     char *bytes = NULL;
     int32_t size = 0;
     if (!is_file(path)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
-    TRY(text_file_read(path, MESH_BYTES_MAX, &bytes, &size, err));
+    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
     *whole = !has_options(path) && (!is_geo(path) || !reaches_outside(bytes));
     hash_text(hash, is_geo(path) ? "geo" : "msh");
     hash_bytes(hash, bytes, (size_t)size);

@@ -97,9 +97,9 @@ static bool append_block(RawElements *elements, const RawBlock *block, int32_t g
 {
     int64_t total = elements->count + block->count;
     if (total > INT32_MAX / ELEMENT_NODES_MAX)
-        FAIL(err, ERROR_INPUT, "%lld elements are too many", (long long)total);
+        return REFUSE(err, "%lld elements are too many", (long long)total);
     RawElement *items = memory_resize(elements->items, elements->count, total, sizeof *items, err);
-    if (!items) goto cleanup;
+    if (!items) return false;
     elements->items = items;
     for (int64_t k = 0; k < block->count; k++)
         items[elements->count++] =
@@ -109,7 +109,6 @@ static bool append_block(RawElements *elements, const RawBlock *block, int32_t g
                          .kind = kind_of(block),
                          .copies = 1,
                          .groups = groups};
-cleanup:
     return error_is_clean(err);
 }
 
@@ -152,22 +151,22 @@ bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElement
             continue;
         }
         if (kind_of(block) < 0)
-            FAIL(err, ERROR_INPUT,
-                 "%s: element %lld is of a kind that is not supported, %s%s; allowed are %s", path,
-                 (long long)(block->count ? block->number[0] : 0), block->type_name,
-                 why_not(block->gmsh_type), allowed);
+            return REFUSE(
+                err, "%s: element %lld is of a kind that is not supported, %s%s; allowed are %s",
+                path, (long long)(block->count ? block->number[0] : 0), block->type_name,
+                why_not(block->gmsh_type), allowed);
         may_repeat = may_repeat || groups > 1;
-        TRY(append_block(picked, block, groups, err));
+        if (!append_block(picked, block, groups, err)) return false;
     }
     if (picked->count == 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: has no %s elements%s%s%s (%lld nodes, %lld other elements); was it meshed in "
-             "%dD, and is the %s in a physical group?",
-             path, what, by_group ? " in its physical " : "", by_group ? what : "",
-             by_group ? "s" : "", (long long)raw->node_count, (long long)others, dim, what);
+        return REFUSE(err,
+                      "%s: has no %s elements%s%s%s (%lld nodes, %lld other elements); was it "
+                      "meshed in %dD, and is the %s in a physical group?",
+                      path, what, by_group ? " in its physical " : "", by_group ? what : "",
+                      by_group ? "s" : "", (long long)raw->node_count, (long long)others, dim,
+                      what);
     sort_elements(picked, may_repeat);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // copies: how often an element came; groups: how often it should have.
@@ -175,13 +174,12 @@ bool raw_check_copies(const char *path, const char *name, const RawElements *ele
 {
     for (int32_t k = 0; k < elements->count; k++)
         if (elements->items[k].copies < elements->items[k].groups)
-            FAIL(err, ERROR_INPUT,
-                 "%s: group '%s' shares an elementary number with another group, so gmsh cannot "
-                 "tell whose element %lld is; give each group its own (the second tag of an "
-                 "element in format 2.2), or save as format 4.1",
-                 path, name, (long long)elements->items[k].number);
-cleanup:
-    return error_is_clean(err);
+            return REFUSE(err,
+                          "%s: group '%s' shares an elementary number with another group, so gmsh "
+                          "cannot tell whose element %lld is; give each group its own (the second "
+                          "tag of an element in format 2.2), or save as format 4.1",
+                          path, name, (long long)elements->items[k].number);
+    return true;
 }
 
 // Faces of order 3 on are refused here, before the elements, as a message about the group says
@@ -193,12 +191,10 @@ bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, 
         const RawBlock *block = &raw->blocks[k];
         if (!raw_group_holds(from, block)) continue;
         if (block->gmsh_type != GMSH_POINT && kind_of(block) < 0)
-            FAIL(err, ERROR_INPUT,
-                 "%s: group '%s' has elements of a kind that is not supported, %s", path, name,
-                 block->type_name);
-        TRY(append_block(picked, block, raw_block_groups(raw, block), err));
+            return REFUSE(err, "%s: group '%s' has elements of a kind that is not supported, %s",
+                          path, name, block->type_name);
+        if (!append_block(picked, block, raw_block_groups(raw, block), err)) return false;
     }
     sort_elements(picked, true);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

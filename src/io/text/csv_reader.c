@@ -39,10 +39,9 @@ static char *take_cell(char **at, bool *ends)
 static bool add_cell(CsvTable *table, int32_t *count, int32_t *room, const char *cell, Error *err)
 {
     const char **longer = memory_grow(table->cells, *count, room, sizeof *table->cells, err);
-    TRY(longer);
+    if (!longer) return false;
     table->cells = longer;
     table->cells[(*count)++] = cell;
-cleanup:
     return error_is_clean(err);
 }
 

@@ -83,6 +83,13 @@ void html_text(HtmlWriter *html, const char *text)
     }
 }
 
+void html_around(HtmlWriter *html, const char *before, const char *text, const char *after)
+{
+    html_raw(html, before);
+    html_text(html, text);
+    html_raw(html, after);
+}
+
 void html_number(HtmlWriter *html, double value, int32_t digits)
 {
     char words[40];
@@ -125,11 +132,6 @@ void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t si
         html_base64((const uint8_t *)bytes + at, count, text);
         put(html, text, strlen(text));
     }
-}
-
-int64_t html_size(const HtmlWriter *html)
-{
-    return html->out.size;
 }
 
 bool html_finish(HtmlWriter *html, Error *err)

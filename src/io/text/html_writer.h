@@ -19,11 +19,12 @@ void html_raw(HtmlWriter *html, const char *markup);   // as it is, of any lengt
 // Text and values of attributes: & < > " ' are escaped, what is no UTF-8 or not printable becomes
 // U+FFFD.
 void html_text(HtmlWriter *html, const char *text);
+// Text between markup of our own.
+void html_around(HtmlWriter *html, const char *before, const char *text, const char *after);
 // A value as people read it: to `digits`, U+2212 for minus, "1.1 x 10^-4" with the power raised.
 void html_number(HtmlWriter *html, double value, int32_t digits);
 // "data:TYPE;base64,...": a file inside of the page.
 void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t size);
-int64_t html_size(const HtmlWriter *html);   // bytes so far
 bool html_finish(HtmlWriter *html, Error *err);   // fsync, rename; frees `html` either way
 void html_abandon(HtmlWriter *html);   // frees it and leaves no file; NULL is fine
 

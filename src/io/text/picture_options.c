@@ -39,11 +39,10 @@ static bool set_number(const PictureOption *option, const char *value, void *pla
     char *end = NULL;
     double number = strtod(value, &end);
     if (!*value || *end || !(number >= option->low && number <= option->high))
-        FAIL(err, ERROR_INPUT, "%s %.40s: a number from %g to %g is allowed", option->name, value,
-             option->low, option->high);
+        return REFUSE(err, "%s %.40s: a number from %g to %g is allowed", option->name, value,
+                      option->low, option->high);
     *(double *)place = number;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // One end; *rest: behind it.
@@ -64,10 +63,9 @@ static bool check_range(const PictureOption *option, const char *value, Error *e
     double low = read_end(value, &rest, &part[0]);
     double high = *rest == ',' ? read_end(rest + 1, &rest, &part[1]) : NAN;
     if (!isfinite(low + high) || *rest || (part[0] == part[1] && !(high > low)))
-        FAIL(err, ERROR_INPUT, "%s %.40s: two rising numbers are allowed, or percents: 1%%,99%%",
-             option->name, value);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s %.40s: two rising numbers are allowed, or percents: 1%%,99%%",
+                      option->name, value);
+    return true;
 }
 
 static const PictureOption *find_option(const char *name, Error *err)
@@ -86,14 +84,13 @@ cleanup:
 bool picture_option_set(PictureStyle *style, const char *name, const char *value, Error *err)
 {
     const PictureOption *option = find_option(name, err);
-    TRY(option);
+    if (!option) return false;
     void *place = (char *)style + option->offset;
     if (option->kind == OPTION_NUMBER) return set_number(option, value, place, err);
     if (option->kind == OPTION_WORD && !is_among(option->words, value))
-        FAIL(err, ERROR_INPUT, "%s %.40s: one of these is allowed: %s", name, value, option->words);
-    if (option->kind == OPTION_RANGE) TRY(check_range(option, value, err));
+        return REFUSE(err, "%s %.40s: one of these is allowed: %s", name, value, option->words);
+    if (option->kind == OPTION_RANGE && !check_range(option, value, err)) return false;
     *(const char **)place = value;
-cleanup:
     return error_is_clean(err);
 }
 

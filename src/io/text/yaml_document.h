@@ -62,14 +62,14 @@ const char *yaml_key(const YamlDocument *document, YamlNode node);   // of a map
 YamlNode yaml_look_up(const YamlDocument *document, const char *path);
 
 // Sets ERROR_INPUT: "name:line:column: MESSAGE", then the source line with a caret under the value
-// of `node` (yaml_error) or under its key (yaml_key_error).
-void yaml_error(const YamlDocument *document, YamlNode node, Error *err, const char *format, ...)
+// of `node` (yaml_error) or under its key (yaml_key_error). Always false, so that a reader can
+// return it.
+bool yaml_error(const YamlDocument *document, YamlNode node, Error *err, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
+bool yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
                     ...) __attribute__((format(printf, 4, 5)));
 
-// Sets yaml_error's "NAME: found WHAT STANDS THERE; allowed: ALLOWED". Always false, so that a
-// reader can return it.
+// yaml_error of "NAME: found WHAT STANDS THERE; allowed: ALLOWED".
 bool yaml_refuse(const YamlDocument *document, YamlNode node, const char *name, const char *allowed,
                  Error *err);
 

@@ -27,14 +27,14 @@ static int32_t token_position(struct fy_token *token, int32_t otherwise)
 }
 
 // What libfyaml found wrong, at its place.
-static void report_syntax(const Reader *reader, Error *err)
+static bool report_syntax(const Reader *reader, Error *err)
 {
     void *iterator = NULL;
     struct fy_diag_error *found = fy_diag_errors_iterate(reader->diag, &iterator);
     char message[300] = "this is not YAML";
     if (found && found->msg) snprintf(message, sizeof message, "not YAML: %.200s", found->msg);
     int32_t position = token_position(found ? found->fyt : NULL, 0);
-    yaml_error_at(reader->document, position, err, message);
+    return yaml_error_at(reader->document, position, err, message);
 }
 
 // Which event may stand where is libfyaml's to check. After the last one reader->event is NULL.
@@ -42,21 +42,18 @@ static bool next_event(Reader *reader, Error *err)
 {
     fy_parser_event_free(reader->parser, reader->event);
     reader->event = fy_parser_parse(reader->parser);
-    if (fy_parser_get_stream_error(reader->parser)) report_syntax(reader, err);
-    return error_is_clean(err);
+    return !fy_parser_get_stream_error(reader->parser) || report_syntax(reader, err);
 }
 
 // Indices, not pointers, name nodes: the array moves as it grows.
 static bool add_node(YamlDocument *document, YamlKind kind, int32_t position, YamlNode *node,
                      Error *err)
 {
-    if (document->node_count == YAML_NODES_MAX) {
-        yaml_error_at(document, position, err, "more than 20000 values: this is no scene");
-        goto cleanup;
-    }
+    if (document->node_count == YAML_NODES_MAX)
+        return yaml_error_at(document, position, err, "more than 20000 values: this is no scene");
     YamlItem *nodes = memory_grow(document->nodes, document->node_count, &document->node_capacity,
                                   sizeof(YamlItem), err);
-    TRY(nodes);
+    if (!nodes) return false;
     document->nodes = nodes;
     *node = document->node_count++;
     document->nodes[*node] = (YamlItem){.kind = kind,
@@ -65,8 +62,7 @@ static bool add_node(YamlDocument *document, YamlKind kind, int32_t position, Ya
                                         .first = YAML_NO_NODE,
                                         .last = YAML_NO_NODE,
                                         .next = YAML_NO_NODE};
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // As YAML 1.2's core schema has it, without its `Null` and `NULL`.
@@ -89,8 +85,7 @@ static bool check_shown(const YamlDocument *document, YamlNode node, YamlNode be
     snprintf(message, sizeof message,
              "%.60s%sthe character U+%04X, which no page or picture can show", key,
              *key ? ": " : "", code);
-    yaml_error_at(document, item->position, err, message);
-    return false;
+    return yaml_error_at(document, item->position, err, message);
 }
 
 // Block scalars (| and >) count as quoted: `null` in one of them is a word.
@@ -100,18 +95,16 @@ static bool add_scalar(Reader *reader, int32_t position, YamlNode beside, YamlNo
     YamlDocument *document = reader->document;
     struct fy_token *token = fy_event_get_token(reader->event);
     const char *text = token ? fy_token_get_text0(token) : "";
-    if (!text) FAIL(err, ERROR_MEMORY, "no memory for the texts of %s", document->name);
+    if (!text) return FAULT(err, ERROR_MEMORY, "no memory for the texts of %s", document->name);
     enum fy_scalar_style style = token ? fy_token_scalar_style(token) : FYSS_PLAIN;
     if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
         position--;   // libfyaml's mark stands behind the quote
     bool quoted = style != FYSS_PLAIN;
     YamlKind kind = !quoted && is_null(text) ? YAML_NOTHING : YAML_SCALAR;
-    TRY(add_node(document, kind, position, node, err));
+    if (!add_node(document, kind, position, node, err)) return false;
     document->nodes[*node].quoted = quoted;
-    TRY((document->nodes[*node].text = memory_text(text, err)));
-    TRY(check_shown(document, *node, beside, err));
-cleanup:
-    return error_is_clean(err);
+    return (document->nodes[*node].text = memory_text(text, err)) &&
+           check_shown(document, *node, beside, err);
 }
 
 // YAML leaves open what a key twice means; here it is an error with both places.
@@ -153,19 +146,14 @@ static bool begin_node(Reader *reader, YamlNode beside, YamlNode *node, Error *e
     int32_t position = beside == YAML_NO_NODE ? 0 : document->nodes[beside].position;
     struct fy_token *anchor = type == FYET_ALIAS ? reader->event->alias.anchor
                                                  : fy_event_get_anchor_token(reader->event);
-    if (anchor) {
-        yaml_error_at(document, token_position(anchor, position), err,
-                      "anchors and aliases (& and *) are not allowed in a scene");
-        goto cleanup;
-    }
+    if (anchor)
+        return yaml_error_at(document, token_position(anchor, position), err,
+                             "anchors and aliases (& and *) are not allowed in a scene");
     position = token_position(fy_event_get_token(reader->event), position);
-    if (type == FYET_SCALAR)
-        TRY(add_scalar(reader, position, beside, node, err));
-    else
-        TRY(add_node(document, type == FYET_MAPPING_START ? YAML_MAP : YAML_LIST, position, node,
-                     err));
-cleanup:
-    return error_is_clean(err);
+    return type == FYET_SCALAR
+               ? add_scalar(reader, position, beside, node, err)
+               : add_node(document, type == FYET_MAPPING_START ? YAML_MAP : YAML_LIST, position,
+                          node, err);
 }
 
 // What is in a list or a map, up to its end; each value of a map follows its key. `depth`: how many
@@ -174,27 +162,24 @@ static bool read_children(Reader *reader, YamlNode above, int32_t depth, Error *
 {
     YamlDocument *document = reader->document;
     YamlKind kind = yaml_kind(document, above);
-    if (kind != YAML_LIST && kind != YAML_MAP) goto cleanup;
-    if (depth == YAML_DEPTH_MAX) {
-        yaml_error_at(document, document->nodes[above].position, err,
-                      "more than 16 levels of lists and maps");
-        goto cleanup;
-    }
+    if (kind != YAML_LIST && kind != YAML_MAP) return true;
+    if (depth == YAML_DEPTH_MAX)
+        return yaml_error_at(document, document->nodes[above].position, err,
+                             "more than 16 levels of lists and maps");
     for (;;) {
         YamlNode key = YAML_NO_NODE, node = YAML_NO_NODE;
-        TRY(next_event(reader, err));
+        if (!next_event(reader, err)) return false;
         if (reader->event->type == (kind == YAML_MAP ? FYET_MAPPING_END : FYET_SEQUENCE_END)) break;
         if (kind == YAML_MAP) {
-            TRY(begin_node(reader, above, &key, err));
-            TRY(check_key(document, above, key, err));
-            TRY(next_event(reader, err));
+            if (!begin_node(reader, above, &key, err)) return false;
+            if (!check_key(document, above, key, err)) return false;
+            if (!next_event(reader, err)) return false;
         }
-        TRY(begin_node(reader, kind == YAML_MAP ? key : above, &node, err));
+        if (!begin_node(reader, kind == YAML_MAP ? key : above, &node, err)) return false;
         append(document, above, key, node);
-        TRY(read_children(reader, node, depth + 1, err));
+        if (!read_children(reader, node, depth + 1, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // One document at most: its root is node 0.
@@ -203,24 +188,21 @@ static bool read_events(Reader *reader, Error *err)
     int32_t documents = 0;
     YamlNode root = YAML_NO_NODE;
     do {
-        TRY(next_event(reader, err));
+        if (!next_event(reader, err)) return false;
         enum fy_event_type type = reader->event ? reader->event->type : FYET_NONE;
         if (type == FYET_DOCUMENT_START && ++documents == 2) {
             struct fy_token *token = reader->event->document_start.document_start;
-            yaml_error_at(reader->document, token_position(token, 0), err,
-                          "a second document (---): a scene is one document");
-            goto cleanup;
+            return yaml_error_at(reader->document, token_position(token, 0), err,
+                                 "a second document (---): a scene is one document");
         }
         if (type == FYET_SCALAR || type == FYET_ALIAS || type == FYET_SEQUENCE_START ||
             type == FYET_MAPPING_START) {
-            TRY(begin_node(reader, YAML_NO_NODE, &root, err));
-            TRY(read_children(reader, root, 0, err));
+            if (!begin_node(reader, YAML_NO_NODE, &root, err)) return false;
+            if (!read_children(reader, root, 0, err)) return false;
         }
     } while (reader->event);
-    if (root == YAML_NO_NODE)
-        TRY(add_node(reader->document, YAML_NOTHING, reader->document->size, &root, err));
-cleanup:
-    return error_is_clean(err);
+    return root != YAML_NO_NODE ||
+           add_node(reader->document, YAML_NOTHING, reader->document->size, &root, err);
 }
 
 // libfyaml would print its errors; they are asked for instead.
@@ -276,13 +258,11 @@ static bool check_is_text(const YamlDocument *document, Error *err)
             snprintf(message, sizeof message, "the byte 0x%02X: not UTF-8", text[i]);
         if (control || text[i] == 0 || text[i] == 0x7F || length == 0) {
             YamlPlace place = yaml_place(document, i);
-            FAIL(err, ERROR_INPUT, "%s:%d:%d: %s", document->name, place.line, place.column,
-                 message);
+            return REFUSE(err, "%s:%d:%d: %s", document->name, place.line, place.column, message);
         }
         i += length;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Takes over `bytes` ([size + 1], zero-terminated) also when it fails.
@@ -313,12 +293,9 @@ bool yaml_parse(const char *name, const char *text, int32_t skip, YamlDocument *
     *document = NULL;
     size_t length = strlen(text);
     if (length > YAML_BYTES_MAX)
-        FAIL(err, ERROR_INPUT, "%s: longer than %d bytes", name, YAML_BYTES_MAX);
+        return REFUSE(err, "%s: longer than %d bytes", name, YAML_BYTES_MAX);
     char *bytes = memory_text(text, err);
-    TRY(bytes);
-    TRY(parse_bytes(name, bytes, (int32_t)length, skip, document, err));
-cleanup:
-    return error_is_clean(err);
+    return bytes && parse_bytes(name, bytes, (int32_t)length, skip, document, err);
 }
 
 bool yaml_scalar(const char *name, const char *text, YamlDocument **document, Error *err)

@@ -123,28 +123,29 @@ static void write_excerpt(const YamlDocument *document, const YamlPlace *place, 
              place->column - first, "");
 }
 
-void yaml_error_at(const YamlDocument *document, int32_t position, Error *err, const char *message)
+bool yaml_error_at(const YamlDocument *document, int32_t position, Error *err, const char *message)
 {
     char excerpt[6 * SHOWN_WIDTH];
     YamlPlace place = yaml_place(document, position);
     write_excerpt(document, &place, excerpt, sizeof excerpt);
     error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s:%d:%d: %s%s", document->name, place.line,
               place.column, message, excerpt);
+    return false;
 }
 
 // The error's own file and line are this file's: the place in the user's text is in the message.
-void yaml_error(const YamlDocument *document, YamlNode node, Error *err, const char *format, ...)
+bool yaml_error(const YamlDocument *document, YamlNode node, Error *err, const char *format, ...)
 {
     char message[ERROR_MESSAGE_SIZE / 2];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    yaml_error_at(document, document->nodes[node].position, err, message);
+    return yaml_error_at(document, document->nodes[node].position, err, message);
 }
 
 // At the key rather than at its value: for keys that are not known, or stand where they must not.
-void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
+bool yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
                     ...)
 {
     char message[ERROR_MESSAGE_SIZE / 2];
@@ -155,7 +156,7 @@ void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, con
     int32_t key = document->nodes[node].key, position = document->nodes[node].position;
     if (key != YAML_NO_NODE) position = document->nodes[key].position;
     if (node == YAML_ROOT) position = 0;   // of "a.b=1" the key is what yaml_parse skipped
-    yaml_error_at(document, position, err, message);
+    return yaml_error_at(document, position, err, message);
 }
 
 // "`abc`", "a list of 3"
@@ -183,8 +184,7 @@ bool yaml_refuse(const YamlDocument *document, YamlNode node, const char *name, 
 {
     char found[100];
     describe(document, node, found, sizeof found);
-    yaml_error(document, node, err, "%s: found %s; allowed: %s", name, found, allowed);
-    return false;
+    return yaml_error(document, node, err, "%s: found %s; allowed: %s", name, found, allowed);
 }
 
 // Also of one half built.

@@ -36,6 +36,6 @@ typedef struct YamlPlace {
 YamlPlace yaml_place(const YamlDocument *document, int32_t position);
 
 // As yaml_error, at a byte of the text.
-void yaml_error_at(const YamlDocument *document, int32_t position, Error *err, const char *message);
+bool yaml_error_at(const YamlDocument *document, int32_t position, Error *err, const char *message);
 
 #endif

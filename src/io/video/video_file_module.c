@@ -4,6 +4,7 @@
 #include "io/video/video_file_module.h"
 
 #include "base/memory.h"
+#include "base/transfer.h"
 #include "io/files/own_mark.h"
 
 #include <libavcodec/avcodec.h>
@@ -62,16 +63,9 @@ struct VideoStream {
 static int bytes_write(void *self, uint8_t *bytes, int size)
 {
     VideoStream *stream = self;
-    for (int done = 0; done < size;) {
-        ssize_t written = write(stream->descriptor, bytes + done, (size_t)(size - done));
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) {
-            stream->write_errno = written < 0 ? errno : EIO;
-            return AVERROR(stream->write_errno);
-        }
-        done += (int)written;
-    }
-    return size;
+    int cause = transfer_write(stream->descriptor, bytes, size, -1);
+    if (cause) stream->write_errno = cause;
+    return cause ? AVERROR(cause) : size;
 }
 
 static int64_t place_seek(void *self, int64_t offset, int whence)
@@ -86,14 +80,13 @@ static bool check(VideoStream *stream, int code, const char *what, Error *err)
 {
     char words[AV_ERROR_MAX_STRING_SIZE] = "";
     if (stream->write_errno)
-        FAIL(err, ERROR_FILE, "cannot write: %s", strerror(stream->write_errno));
-    if (code == AVERROR(ENOMEM)) FAIL(err, ERROR_MEMORY, "no memory for libav");
+        return FAULT(err, ERROR_FILE, "cannot write: %s", strerror(stream->write_errno));
+    if (code == AVERROR(ENOMEM)) return FAULT(err, ERROR_MEMORY, "no memory for libav");
     if (code < 0) {
         av_strerror(code, words, sizeof words);
-        FAIL(err, ERROR_LIBRARY, "libav %s: %s", what, words);
+        return FAULT(err, ERROR_LIBRARY, "libav %s: %s", what, words);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- begin ---------------------------------------------------------------------------------------
@@ -113,18 +106,18 @@ static bool format_open(VideoStream *stream, const VideoKind *kind, const VideoT
 {
     char url[4200];
     snprintf(url, sizeof url, "file:%s", target->part);
-    TRY(check(stream, avformat_alloc_output_context2(&stream->format, NULL, kind->format, url),
-              "makes no such file", err));
+    if (!check(stream, avformat_alloc_output_context2(&stream->format, NULL, kind->format, url),
+               "makes no such file", err))
+        return false;
     uint8_t *buffer = av_malloc(BUFFER_SIZE);
     if (buffer)
         stream->io =
             avio_alloc_context(buffer, BUFFER_SIZE, 1, stream, NULL, bytes_write, place_seek);
     if (!stream->io) av_free(buffer);
-    TRY(check(stream, stream->io ? 0 : AVERROR(ENOMEM), "", err));
+    if (!check(stream, stream->io ? 0 : AVERROR(ENOMEM), "", err)) return false;
     stream->format->pb = stream->io;
     stream->format->flags |= AVFMT_FLAG_BITEXACT;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Colours of video are those of BT.709, which is what players take for granted of HD.
@@ -170,19 +163,19 @@ static bool frame_create(VideoStream *stream, const VideoKind *kind, const Video
 {
     stream->frame = av_frame_alloc();
     stream->packet = av_packet_alloc();
-    TRY(check(stream, stream->frame && stream->packet ? 0 : AVERROR(ENOMEM), "", err));
+    if (!check(stream, stream->frame && stream->packet ? 0 : AVERROR(ENOMEM), "", err))
+        return false;
     stream->frame->format = kind->pixels;
     stream->frame->width = def->width;
     stream->frame->height = def->height;
-    TRY(check(stream, av_frame_get_buffer(stream->frame, 0), "has no frame", err));
+    if (!check(stream, av_frame_get_buffer(stream->frame, 0), "has no frame", err)) return false;
     if (kind->pixels == AV_PIX_FMT_PAL8) return true;
     stream->scaler = sws_getContext(def->width, def->height, AV_PIX_FMT_BGR0, def->width,
                                     def->height, kind->pixels, SWS_BILINEAR, NULL, NULL, NULL);
-    TRY(check(stream, stream->scaler ? 0 : AVERROR(ENOMEM), "", err));
+    if (!check(stream, stream->scaler ? 0 : AVERROR(ENOMEM), "", err)) return false;
     const int *hd = sws_getCoefficients(SWS_CS_ITU709);
     sws_setColorspaceDetails(stream->scaler, hd, 1, hd, 0, 0, 1 << 16, 1 << 16);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool track_open(VideoStream *stream, const VideoDef *def, Error *err)
@@ -206,7 +199,7 @@ cleanup:
 // The nearest entry of the palette to the middle of each of SIDE^3 cubes of colours.
 static bool palette_fill(VideoStream *stream, const uint8_t *colors, Error *err)
 {
-    TRY(stream->nearest = NEW_ARRAY(uint8_t, SIDE * SIDE * SIDE, err));
+    if (!(stream->nearest = NEW_ARRAY(uint8_t, SIDE * SIDE * SIDE, err))) return false;
     for (int32_t k = 0; k + 1 < PALETTE_SIZE; ++k)   // the last one stays transparent
         stream->palette[k] = 0xff000000u | (uint32_t)colors[3 * k] << 16 |
                              (uint32_t)colors[3 * k + 1] << 8 | colors[3 * k + 2];
@@ -223,8 +216,7 @@ static bool palette_fill(VideoStream *stream, const uint8_t *colors, Error *err)
             stream->nearest[cube] = (uint8_t)k;
         }
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void stream_destroy(VideoStream *stream)
@@ -273,15 +265,14 @@ static bool packets_write(VideoStream *stream, Error *err)
     for (;;) {
         int code = avcodec_receive_packet(stream->codec, stream->packet);
         if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return true;
-        TRY(check(stream, code, "cannot encode a frame", err));
+        if (!check(stream, code, "cannot encode a frame", err)) return false;
         if (stream->packet->duration <= 0) stream->packet->duration = 1;   // frame
         av_packet_rescale_ts(stream->packet, stream->codec->time_base, stream->track->time_base);
         stream->packet->stream_index = stream->track->index;
         code = av_interleaved_write_frame(stream->format, stream->packet);
-        TRY(check(stream, code, "cannot write a frame", err));
+        if (!check(stream, code, "cannot write a frame", err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void frame_index(VideoStream *stream, const uint8_t *pixels, int32_t stride)
@@ -300,17 +291,15 @@ static void frame_index(VideoStream *stream, const uint8_t *pixels, int32_t stri
 static bool stream_add(VideoStream *stream, const uint8_t *pixels, int32_t stride, Error *err)
 {
     AVFrame *frame = stream->frame;
-    TRY(check(stream, av_frame_make_writable(frame), "has no frame", err));
+    if (!check(stream, av_frame_make_writable(frame), "has no frame", err)) return false;
     if (stream->scaler)
         sws_scale(stream->scaler, (const uint8_t *const[]){pixels}, &stride, 0, frame->height,
                   frame->data, frame->linesize);
     else
         frame_index(stream, pixels, stride);
     frame->pts = stream->frames++;
-    TRY(check(stream, avcodec_send_frame(stream->codec, frame), "cannot encode a frame", err));
-    TRY(packets_write(stream, err));
-cleanup:
-    return error_is_clean(err);
+    return check(stream, avcodec_send_frame(stream->codec, frame), "cannot encode a frame", err) &&
+           packets_write(stream, err);
 }
 
 // GIF89a, 24: a comment before the last byte; libav has none.
@@ -325,14 +314,13 @@ static void gif_sign(VideoStream *stream)
 
 static bool stream_finish(VideoStream *stream, Error *err)
 {
-    TRY(check(stream, avcodec_send_frame(stream->codec, NULL), "cannot end the film", err));
-    TRY(packets_write(stream, err));
-    TRY(check(stream, av_write_trailer(stream->format), "cannot end the file", err));
+    if (!check(stream, avcodec_send_frame(stream->codec, NULL), "cannot end the film", err))
+        return false;
+    if (!packets_write(stream, err)) return false;
+    if (!check(stream, av_write_trailer(stream->format), "cannot end the file", err)) return false;
     avio_flush(stream->io);
     if (strcmp(stream->format->oformat->name, "gif") == 0) gif_sign(stream);
-    TRY(check(stream, stream->io->error, "cannot end the file", err));
-cleanup:
-    return error_is_clean(err);
+    return check(stream, stream->io->error, "cannot end the file", err);
 }
 
 __attribute__((visibility("default"))) const VideoModule *amontons_video_module(void)

@@ -44,7 +44,7 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
         char value[2000];
         scene_key_value(&keys[k], scene, value, sizeof value);
         bool absent = !keys[k].standard && !scene->given[k];
-        if (keys[k].may_lack && absent) continue;
+        if (scene_key_may_lack(&keys[k]) && absent) continue;
         fprintf(out, "  %-28s %s%s\n", keys[k].name, absent ? "-" : value,
                 scene->given[k] ? "" : "   (default)");
     }
@@ -80,26 +80,27 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
     InfoOptions none = {0};
     char folder[AMONTONS_PATH_SIZE];
     if (!options) options = &none;
-    if (stat(path, &status) != 0) FAIL(err, ERROR_INPUT, "%s: %s", path, strerror(errno));
+    if (stat(path, &status) != 0) return REFUSE(err, "%s: %s", path, strerror(errno));
     if (!S_ISDIR(status.st_mode) && is_of_result(path, folder))
         return amontons_info(folder, options, out, err);
+    bool told;
     if (S_ISDIR(status.st_mode)) {
         if (options->picture || options->override_count > 0)
-            FAIL(err, ERROR_INPUT,
-                 "%s is a result folder: values are set and meshes drawn of meshes and scenes "
-                 "(`amontons render` draws a result)",
-                 path);
-        TRY(info_result(path, out, err));
+            return REFUSE(err,
+                          "%s is a result folder: values are set and meshes drawn of meshes and "
+                          "scenes (`amontons render` draws a result)",
+                          path);
+        told = info_result(path, out, err);
     } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
-        TRY(info_mesh(path, options, out, err));
+        told = info_mesh(path, options, out, err);
     else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
-        TRY(info_scene(path, options, out, err));
+        told = info_scene(path, options, out, err);
     else
-        FAIL(err, ERROR_INPUT,
-             "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, .yml), a "
-             "result folder, or its run.json or history.h5",
-             path);
-    if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write: %s", strerror(errno));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, "
+                      ".yml), a result folder, or its run.json or history.h5",
+                      path);
+    if (told && (fflush(out) != 0 || ferror(out)))
+        return FAULT(err, ERROR_FILE, "cannot write: %s", strerror(errno));
+    return told;
 }

@@ -96,15 +96,14 @@ static bool read_parameter(const char *word, MeshParameter *parameter, Error *er
     const char *equals = strchr(word, '=');
     *parameter = (MeshParameter){0};
     if (!equals || equals == word || !equals[1])
-        FAIL(err, ERROR_INPUT, "--set %s: a mesh takes name=value, as in --set n=4", word);
+        return REFUSE(err, "--set %s: a mesh takes name=value, as in --set n=4", word);
     if (equals - word >= GROUP_NAME_SIZE || strlen(equals + 1) >= GROUP_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "--set %s: name and value have at most %d bytes each", word,
-             GROUP_NAME_SIZE - 1);
+        return REFUSE(err, "--set %s: name and value have at most %d bytes each", word,
+                      GROUP_NAME_SIZE - 1);
     memcpy(parameter->name, word, (size_t)(equals - word));
     int32_t length = text_number(equals + 1, &parameter->value);
     if (equals[1 + length]) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err)
@@ -160,8 +159,5 @@ bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit,
                           .style = {.overwrite = options->overwrite}};
     RenderMeshFunction render =
         (RenderMeshFunction)module_function("render", "amontons_render_mesh", err);
-    TRY(render);
-    TRY(render(&request, options->picture, err));
-cleanup:
-    return error_is_clean(err);
+    return render && render(&request, options->picture, err);
 }

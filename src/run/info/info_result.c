@@ -184,11 +184,9 @@ bool info_result(const char *folder, FILE *out, Error *err)
         there[k] = access(path, F_OK) == 0;
     }
     if (!there[0] && !there[1] && !there[2])
-        FAIL(err, ERROR_INPUT, "%s: not a result folder: no run.json and no history.h5 in it",
-             folder);
+        return REFUSE(err, "%s: not a result folder: no run.json and no history.h5 in it", folder);
     fprintf(out, "result %s\n", folder);
-    TRY(write_run(folder, out, err));
-    if (there[0] || there[1]) TRY(write_history_safely(folder, out, err));
-cleanup:
-    return error_is_clean(err);
+    if (!write_run(folder, out, err)) return false;
+    if ((there[0] || there[1]) && !write_history_safely(folder, out, err)) return false;
+    return true;
 }

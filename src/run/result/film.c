@@ -2,11 +2,12 @@
 // A film of a stored result, by the render module; where it is asked for, of fields that its run is
 // computed once more for.
 #include "base/apart.h"
-#include "base/memory.h"
 #include "base/module.h"
 #include "render/render.h"
 #include "run/result/film_fields.h"
 #include "run/result/pictures.h"
+
+#include <string.h>
 
 enum { FILM_SECONDS_MAX = 36000 };   // of processor time
 
@@ -38,7 +39,6 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
                       .context = &film};
     FilmFields fields = {0};
     ApartReply reply = {0};
-    double *still = NULL;
     TRY(pictures_check_folder(folder, err));
     if (request->fields) {
         TRY(film_fields_make(folder, request, &fields, err));
@@ -48,11 +48,9 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
         TRY(apart_do(&work, err));
     } else {
         TRY(apart_read(&work, &reply, err));
-        TRY(still = apart_take(&reply, 1, sizeof *still, err));
-        *request->still = *still;
+        memcpy(request->still, reply.bytes, sizeof *request->still);
     }
 cleanup:
-    memory_free(still);
     apart_destroy(&reply);
     film_fields_remove(&fields);
     return error_is_clean(err);

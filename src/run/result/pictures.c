@@ -29,11 +29,9 @@ bool pictures_check_folder(const char *folder, Error *err)
 {
     struct stat status;
     if (stat(folder, &status) != 0)
-        FAIL(err, ERROR_INPUT, "cannot open the result %s: %s", folder, strerror(errno));
-    if (!S_ISDIR(status.st_mode))
-        FAIL(err, ERROR_INPUT, "%s is a file, not a result folder", folder);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "cannot open the result %s: %s", folder, strerror(errno));
+    if (!S_ISDIR(status.st_mode)) return REFUSE(err, "%s is a file, not a result folder", folder);
+    return true;
 }
 
 typedef struct DrawRequest {

@@ -38,14 +38,12 @@ static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
 static bool make_folder(const char *folder, Error *err)
 {
     struct stat what;
-    TRY(folder_make(folder, err));
+    if (!folder_make(folder, err)) return false;
     if (stat(folder, &what) != 0 || !S_ISDIR(what.st_mode))
-        FAIL(err, ERROR_INPUT, "%s is a file, not a folder: choose another result folder (-o)",
-             folder);
+        return REFUSE(err, "%s is a file, not a folder: choose another result folder (-o)", folder);
     if (access(folder, W_OK | X_OK) != 0)
-        FAIL(err, ERROR_FILE, "cannot write into %s: %s", folder, strerror(errno));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "cannot write into %s: %s", folder, strerror(errno));
+    return true;
 }
 
 // `name` without a PART at its end, in `bare` [NAME_MAX + 1].
@@ -61,9 +59,9 @@ static bool move_file(const char *from, const char *to, Error *err)
 {
     int failed = *to ? rename(from, to) : unlink(from);
     if (failed && errno != ENOENT)
-        FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", from, strerror(errno));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "cannot remove the earlier result %s: %s", from,
+                     strerror(errno));
+    return true;
 }
 
 // Those of folder/name, told by `is_own`. A folder that is not there, or a link, is left.
@@ -133,15 +131,14 @@ static bool find_earlier(ResultFolder *folder, char found[PATH_SIZE], Error *err
     for (int32_t k = 0; own_path(folder->path, k, path); k++) {
         if (!open_is_there(path)) continue;
         if (k % 3 == 0 && !own_mark_is_in(path))
-            FAIL(err, ERROR_INPUT,
-                 "%s is there, and is none that a run wrote: choose another folder (-o), or move "
-                 "it away",
-                 path);
+            return REFUSE(err,
+                          "%s is there, and is none that a run wrote: choose another folder (-o), "
+                          "or move it away",
+                          path);
         if (!folder->has_earlier) memcpy(found, path, PATH_SIZE);
         folder->has_earlier = true;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Who holds the lock has written so into its file.
@@ -157,19 +154,17 @@ static bool take_lock(ResultFolder *folder, Error *err)
     }
     if (!folder->lock.busy && !open_is_there(path)) return true;   // a file system without locks
     if (!folder->lock.busy)
-        FAIL(err, ERROR_INPUT, "%s is there, and is no lock of ours: move it away", path);
+        return REFUSE(err, "%s is there, and is no lock of ours: move it away", path);
     FILE *file = open_stream(path, &ignored);
     if (file) {
         if (!fgets(holder, sizeof holder, file)) *holder = 0;
         fclose(file);
     }
     holder[strcspn(holder, "\n")] = 0;
-    FAIL(err, ERROR_INPUT,
-         "%s: another computation is writing its result there (%s): choose another folder (-o), or "
-         "wait until it has ended",
-         folder->path, *holder ? holder : "its process is not known");
-cleanup:
-    return false;
+    return REFUSE(err,
+                  "%s: another computation is writing its result there (%s): choose another folder "
+                  "(-o), or wait until it has ended",
+                  folder->path, *holder ? holder : "its process is not known");
 }
 
 // There is a checkpoint, and no report of a run that came to its end.
@@ -191,14 +186,13 @@ static bool may_go_on(const char *folder)
 static bool move_all(const char *folder, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE] = "";
-    TRY(move_folder(folder, to, "fields", own_file_is_field, err));
-    TRY(move_folder(folder, to, "figures", own_file_is_figure, err));
+    if (!move_folder(folder, to, "fields", own_file_is_field, err)) return false;
+    if (!move_folder(folder, to, "figures", own_file_is_figure, err)) return false;
     for (int32_t k = 0; own_path(folder, k, path); k++) {
         if (*to) own_path(to, k, target);
-        TRY(move_file(path, target, err));
+        if (!move_file(path, target, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
@@ -215,14 +209,13 @@ static bool end_aside(const char *folder, const char *name, const char *to, Erro
     static const char *const inner[] = {"fields", "figures"};
     char path[PATH_SIZE], sub[PATH_SIZE + 16];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    TRY(move_all(path, to, err));
+    if (!move_all(path, to, err)) return false;
     for (size_t k = 0; k < sizeof inner / sizeof *inner; k++) {
         snprintf(sub, sizeof sub, "%s/%s", path, inner[k]);
         rmdir(sub);
     }
     rmdir(path);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool is_folder(const char *folder, const char *name)
@@ -236,14 +229,12 @@ static bool is_folder(const char *folder, const char *name)
 // What a computation that failed, or was killed, has left aside: see above.
 static bool put_back(const char *folder, Error *err)
 {
-    if (is_folder(folder, GONE)) TRY(end_aside(folder, GONE, "", err));
+    if (is_folder(folder, GONE) && !end_aside(folder, GONE, "", err)) return false;
     if (is_folder(folder, EARLIER)) {
-        TRY(move_all(folder, "", err));
-        TRY(rename_aside(folder, EARLIER, ASIDE, err));
+        if (!move_all(folder, "", err)) return false;
+        if (!rename_aside(folder, EARLIER, ASIDE, err)) return false;
     }
-    if (is_folder(folder, ASIDE)) TRY(end_aside(folder, ASIDE, folder, err));
-cleanup:
-    return error_is_clean(err);
+    return !is_folder(folder, ASIDE) || end_aside(folder, ASIDE, folder, err);
 }
 
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
@@ -285,23 +276,21 @@ bool result_folder_clear(ResultFolder *folder, Error *err)
     if (!folder->ours_may_go || !any) return true;
     snprintf(path, sizeof path, "%s/%s", folder->path, ASIDE);
     if (mkdir(path, 0777) != 0)
-        FAIL(err, ERROR_FILE, "cannot make %s for the earlier result: %s", path, strerror(errno));
+        return FAULT(err, ERROR_FILE, "cannot make %s for the earlier result: %s", path,
+                     strerror(errno));
     folder->aside = true;
-    TRY(move_all(folder->path, path, err));
-    TRY(rename_aside(folder->path, ASIDE, EARLIER, err));
+    if (!move_all(folder->path, path, err)) return false;
+    if (!rename_aside(folder->path, ASIDE, EARLIER, err)) return false;
     folder->has_earlier = false;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool result_folder_settle(ResultFolder *folder, Error *err)
 {
     if (!folder->aside) return true;
-    TRY(rename_aside(folder->path, EARLIER, GONE, err));
+    if (!rename_aside(folder->path, EARLIER, GONE, err)) return false;
     folder->aside = false;
-    TRY(end_aside(folder->path, GONE, "", err));
-cleanup:
-    return error_is_clean(err);
+    return end_aside(folder->path, GONE, "", err);
 }
 
 bool result_folder_take_up(ResultFolder *folder, Error *err)
@@ -309,10 +298,10 @@ bool result_folder_take_up(ResultFolder *folder, Error *err)
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/run.json", folder->path);
     if (unlink(path) != 0 && errno != ENOENT)
-        FAIL(err, ERROR_FILE, "cannot remove the earlier report %s: %s", path, strerror(errno));
+        return FAULT(err, ERROR_FILE, "cannot remove the earlier report %s: %s", path,
+                     strerror(errno));
     folder->has_earlier = false;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool result_folder_is_ours(const ResultFolder *folder)

@@ -117,17 +117,18 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
 bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
 {
     *chain = (Chain){.law = model->law};
-    TRY(build_interface(model, points, &chain->interface, err));
-    TRY(build_matrices(model, &chain->interface, &chain->reduced, err));
+    if (!build_interface(model, points, &chain->interface, err)) return false;
+    if (!build_matrices(model, &chain->interface, &chain->reduced, err)) return false;
     double mass = model->density * model->alpha * model->height * model->length;
-    TRY(bulk_operator_reduce(&chain->reduced, model->length, mass, &chain->system, err));
-    TRY(rod_build(&chain->interface, ROD_IS_BONDED, model->velocity, &chain->rod, err));
+    if (!bulk_operator_reduce(&chain->reduced, model->length, mass, &chain->system, err))
+        return false;
+    if (!rod_build(&chain->interface, ROD_IS_BONDED, model->velocity, &chain->rod, err))
+        return false;
     chain->block = (Block){.system = &chain->system,
                            .interface = &chain->interface,
                            .law = &chain->law,
                            .rod = &chain->rod};
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void chain_destroy(Chain *chain)

@@ -121,11 +121,11 @@ static bool write_curves(ArrayFile *file, const Model1dSimulation *simulation, E
         ArraySeries series = {curves[k].name, ARRAY_FLOAT64, 1, curves[k].unit,
                               curves[k].description};
         const char *first = (const char *)simulation->points + curves[k].offset;
-        TRY(array_file_write(file, &series, (const double *)(const void *)first,
-                             sizeof(Model1dPoint) / sizeof(double), simulation->point_count, err));
+        if (!array_file_write(file, &series, (const double *)(const void *)first,
+                              sizeof(Model1dPoint) / sizeof(double), simulation->point_count, err))
+            return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // u_0 and, for each of the table's fronts, u_a.
@@ -137,20 +137,19 @@ static bool write_profiles(ArrayFile *file, const Model1dSimulation *simulation,
                         "displacement after sliding, tau = mu_K p everywhere, U = 0"};
     ArraySeries slip = {"profile/u_a", ARRAY_FLOAT64, simulation->point_count, "length",
                         "adiabatic displacement at each front of points/front, one a column"};
-    TRY(array_file_add_series(file, &position, err));
-    TRY(array_file_add_series(file, &rest, err));
-    TRY(array_file_add_series(file, &slip, err));
+    if (!array_file_add_series(file, &position, err)) return false;
+    if (!array_file_add_series(file, &rest, err)) return false;
+    if (!array_file_add_series(file, &slip, err)) return false;
     for (int32_t i = 0; i < PROFILE_POINTS; i++) {
         double x = model->length * i / (PROFILE_POINTS - 1), u = model1d_rest(model, x);
         double row[MODEL1D_POINTS] = {0};
         for (int32_t k = 0; k < simulation->point_count; k++)
             row[k] = u + model1d_slip(model, simulation->points[k].front, x);
-        TRY(array_file_append(file, position.name, &x, 1, err));
-        TRY(array_file_append(file, rest.name, &u, 1, err));
-        TRY(array_file_append(file, slip.name, row, 1, err));
+        if (!array_file_append(file, position.name, &x, 1, err)) return false;
+        if (!array_file_append(file, rest.name, &u, 1, err)) return false;
+        if (!array_file_append(file, slip.name, row, 1, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // A file that could not be completed never gets its final name.

@@ -30,78 +30,76 @@ static bool check_scene(const Scene *scene, Error *err)
 {
     const char *path = scene->path;
     if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and rod.kind push "
-             "or bonded",
-             path);
+        return REFUSE(err,
+                      "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and "
+                      "rod.kind push or bonded",
+                      path);
     if (scene->rod.program.factor.count > 0 || scene->load.program.factor.count > 0)
-        FAIL(err, ERROR_INPUT, "%s: %s.program: the 1D model has one load and one rod velocity",
-             path, scene->rod.program.factor.count > 0 ? "rod" : "load");
+        return REFUSE(err, "%s: %s.program: the 1D model has one load and one rod velocity", path,
+                      scene->rod.program.factor.count > 0 ? "rod" : "load");
     if (scene->time.until_slidings > 0 || scene->time.until_mu_below > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: time.until: the 1D model ends by U, t or `periodic`, not by slidings or mu_below",
-             path);
+        return REFUSE(
+            err,
+            "%s: time.until: the 1D model ends by U, t or `periodic`, not by slidings or mu_below",
+            path);
     if (scene->rod.stiffness > 0)
-        FAIL(err, ERROR_INPUT, "%s: rod.stiffness: the 1D model's rod goes where it is driven",
-             path);
+        return REFUSE(err, "%s: rod.stiffness: the 1D model's rod goes where it is driven", path);
     if (friction_remembers(&scene->friction, 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: friction.law: the 1D model's closed forms are of friction that depends on slip "
-             "rate alone; `%s` remembers (`amontons run` takes it)",
-             path, friction_law_name(&scene->friction));
+        return REFUSE(err,
+                      "%s: friction.law: the 1D model's closed forms are of friction that depends "
+                      "on slip rate alone; `%s` remembers (`amontons run` takes it)",
+                      path, friction_law_name(&scene->friction));
     if (!(friction_drop(&scene->friction) > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it needs a "
-             "weakening friction.law (this one is `%s`) with friction.mu_static above "
-             "friction.mu_kinetic",
-             path, friction_law_name(&scene->friction));
+        return REFUSE(err,
+                      "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it "
+                      "needs a weakening friction.law (this one is `%s`) with friction.mu_static "
+                      "above friction.mu_kinetic",
+                      path, friction_law_name(&scene->friction));
     if (scene->contact_laws.count > 0 || *scene->own_friction.along)
-        FAIL(err, ERROR_INPUT,
-             "%s: friction.contacts, friction.along: the 1D model has one law along its line",
-             path);
+        return REFUSE(
+            err, "%s: friction.contacts, friction.along: the 1D model has one law along its line",
+            path);
     if (scene->contact.radius > 0 || *scene->contact.gap || *scene->contact.profile)
-        FAIL(err, ERROR_INPUT,
-             "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
-             path);
+        return REFUSE(
+            err, "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
+            path);
     if (scene->materials.count > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: materials: the 1D model's line is of one material (`amontons stability` and "
-             "`run` take regions)",
-             path);
+        return REFUSE(err,
+                      "%s: materials: the 1D model's line is of one material (`amontons stability` "
+                      "and `run` take regions)",
+                      path);
     if (friction_strengthens(&scene->friction))
-        FAIL(err, ERROR_INPUT,
-             "%s: friction.law: the 1D model's closed forms take a line that has slid to be left "
-             "at mu_kinetic; this `%s` strengthens again at faster slip (`amontons stability` and "
-             "`run` take it)",
-             path, friction_law_name(&scene->friction));
+        return REFUSE(err,
+                      "%s: friction.law: the 1D model's closed forms take a line that has slid to "
+                      "be left at mu_kinetic; this `%s` strengthens again at faster slip "
+                      "(`amontons stability` and `run` take it)",
+                      path, friction_law_name(&scene->friction));
     if (!(scene->load.pressure > 0))
-        FAIL(err, ERROR_INPUT, "%s: the 1D model needs load.pressure above 0", path);
+        return REFUSE(err, "%s: the 1D model needs load.pressure above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: the 1D model has a pressure on top and a rod only, no load.tractions or "
-             "load.supports",
-             path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: the 1D model has a pressure on top and a rod only, no load.tractions or "
+                      "load.supports",
+                      path);
+    return true;
 }
 
 // alpha is the paper's fit (0.2); a line of fewer than three nodes has no inside.
 static bool check_options(const Scene *scene, const Model1dOptions *options, Error *err)
 {
     if (!(options->alpha > 0 && options->alpha <= 10))
-        FAIL(err, ERROR_INPUT, "alpha is %g; above 0 up to 10 is allowed", options->alpha);
-    if (options->theory_only) goto cleanup;
+        return REFUSE(err, "alpha is %g; above 0 up to 10 is allowed", options->alpha);
+    if (options->theory_only) return true;
     if (options->nodes < NODES_MIN || options->nodes > NODES_MAX)
-        FAIL(err, ERROR_INPUT, "the line has %d nodes; %d to %d are allowed", options->nodes,
-             NODES_MIN, NODES_MAX);
+        return REFUSE(err, "the line has %d nodes; %d to %d are allowed", options->nodes, NODES_MIN,
+                      NODES_MAX);
     if (scene->time.scheme == SCHEME_EXPLICIT)
-        FAIL(err, ERROR_INPUT,
-             "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask for its "
-             "theory only",
-             scene->path);
+        return REFUSE(err,
+                      "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask "
+                      "for its theory only",
+                      scene->path);
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
-        FAIL(err, ERROR_INPUT, "%s: says not when to stop (time.until)", scene->path);
-cleanup:
+        return REFUSE(err, "%s: says not when to stop (time.until)", scene->path);
     return error_is_clean(err);
 }
 
@@ -162,10 +160,9 @@ static bool translate_scene(const Scene *scene, const Model1dOptions *options, M
                        .young = young,
                        .speed = sqrt(confined / scene->material.density),
                        .law = scene->friction};
-    TRY(measure_block(scene, model, err));
+    if (!measure_block(scene, model, err)) return false;
     model->drive = scene->rod.height > 0 ? scene->rod.height : model->height / 2;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Theory at evenly spaced fronts up to l = L.
@@ -207,7 +204,7 @@ static bool summarise_theory(const Model1d *model, Model1dSummary *summary, Erro
 {
     double length = model->length;
     Model1dLosses losses;
-    TRY(model1d_losses(model, &losses, err));
+    if (!model1d_losses(model, &losses, err)) return false;
     summary->range = model1d_range(model) / length;
     summary->l_sc = model1d_l_sc(model, 0) / length;
     summary->l_c = model1d_l_c(model) / length;
@@ -218,8 +215,7 @@ static bool summarise_theory(const Model1d *model, Model1dSummary *summary, Erro
     summary->l_rod_full = losses.l_rod / length;
     summary->mu_c_full = model1d_mu(model, isnan(losses.l_c) ? length : losses.l_c);
     summary->mu_rod_full = model1d_mu(model, isnan(losses.l_rod) ? length : losses.l_rod);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The first peak is kept apart: it starts from u_0, as in theory; later ones from the stress that

@@ -108,10 +108,9 @@ static bool is_lost(const Model1d *model, Lost lost, double l, double *work, boo
 {
     Model1dRates rates;
     if (!model1d_rates(model, l, MODEL1D_MODES, work, &rates))
-        FAIL(err, ERROR_LIBRARY, "LAPACK found no eigenvalues with the front at l = %g", l);
+        return FAULT(err, ERROR_LIBRARY, "LAPACK found no eigenvalues with the front at l = %g", l);
     *answer = lost(model, &rates);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The shortest front at which it is lost: fronts in geometric progression, then halving; NaN: not
@@ -123,17 +122,16 @@ static bool find_first(const Model1d *model, Lost lost, double *work, double *l,
     bool answer = false;
     for (int32_t k = 1; k <= SCAN_FRONTS && isnan(high); k++) {
         double next = k == SCAN_FRONTS ? model->length : low * grow;
-        TRY(is_lost(model, lost, next, work, &answer, err));
+        if (!is_lost(model, lost, next, work, &answer, err)) return false;
         *(answer ? &high : &low) = next;
     }
     while (high - low > FRONT_ERROR * model->length) {
         double middle = 0.5 * (low + high);
-        TRY(is_lost(model, lost, middle, work, &answer, err));
+        if (!is_lost(model, lost, middle, work, &answer, err)) return false;
         *(answer ? &high : &low) = middle;
     }
     *l = high;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool model1d_losses(const Model1d *model, Model1dLosses *losses, Error *err)

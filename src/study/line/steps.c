@@ -57,18 +57,17 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
         .crossing = simulation->scales.time,
         .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
-    TRY(chain_build(model, simulation->options->nodes, &simulation->chain, err));
-    TRY(step_control_create(&simulation->chain.block, &def, &simulation->control, err));
+    if (!chain_build(model, simulation->options->nodes, &simulation->chain, err)) return false;
+    if (!step_control_create(&simulation->chain.block, &def, &simulation->control, err))
+        return false;
     chain_rest(model, &simulation->chain, &simulation->control.now);
     step_control_restart(&simulation->control);
-    TRY(events_create(&simulation->chain.interface, model->velocity, &simulation->events, err));
-    TRY(drops_create(&simulation->chain.interface, &simulation->events,
-                     scene->time.periodic_tolerance, &simulation->drops, err));
-    TRY(contact_arrays_create(&simulation->chain.interface, &simulation->chain.law,
-                              &simulation->contact, err));
-    if (simulation->options->folder) TRY(open_history(simulation, err));
-cleanup:
-    return error_is_clean(err);
+    return events_create(&simulation->chain.interface, model->velocity, &simulation->events, err) &&
+           drops_create(&simulation->chain.interface, &simulation->events,
+                        scene->time.periodic_tolerance, &simulation->drops, err) &&
+           contact_arrays_create(&simulation->chain.interface, &simulation->chain.law,
+                                 &simulation->contact, err) &&
+           (!simulation->options->folder || open_history(simulation, err));
 }
 
 // l for a rod at U, by halving; U is at most what leads the front through the line.
@@ -115,22 +114,21 @@ static void report_step(const Model1dSimulation *simulation, const Observation *
 static bool record_step(Model1dSimulation *simulation, Error *err)
 {
     Observation seen = observe(&simulation->control, &simulation->scales);
-    TRY(events_record(&simulation->events, &seen, err));
-    TRY(drops_record(&simulation->drops, &seen, err));
-    TRY(contact_arrays_record(&simulation->contact, &seen, err));
-    if (simulation->history.file) TRY(history_record(&simulation->history, &seen, err));
+    if (!events_record(&simulation->events, &seen, err)) return false;
+    if (!drops_record(&simulation->drops, &seen, err)) return false;
+    if (!contact_arrays_record(&simulation->contact, &seen, err)) return false;
+    if (simulation->history.file && !history_record(&simulation->history, &seen, err)) return false;
     compare_step(simulation, &seen);
     report_step(simulation, &seen);
     simulation->last = seen;
     simulation->energy_error = fmax(simulation->energy_error, seen.energy_error);
     simulation->contact_error = fmax(simulation->contact_error, seen.contact_error);
     if (seen.energy_error > simulation->scene->time.energy_tolerance)
-        FAIL(err, ERROR_COMPUTE,
-             "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
-             "missing, time.energy_tolerance allows %g; lower time.tolerance",
-             seen.t, seen.energy_error, simulation->scene->time.energy_tolerance);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_COMPUTE,
+                     "at t = %g the energy ledger does not close: %.3g of the energy turned over "
+                     "is missing, time.energy_tolerance allows %g; lower time.tolerance",
+                     seen.t, seen.energy_error, simulation->scene->time.energy_tolerance);
+    return true;
 }
 
 static bool is_finished(Model1dSimulation *simulation)

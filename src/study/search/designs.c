@@ -20,10 +20,8 @@ bool designs_create(const Study *study, int32_t conditions, char *const *texts, 
                          .aim = -1};
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     designs->aims = designs->conditions * (1 + study->rank.also_count);
-    TRY(designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err));
-    TRY(designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->aims, err));
-cleanup:
-    return error_is_clean(err);
+    return (designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err)) &&
+           (designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->aims, err));
 }
 
 void designs_destroy(Designs *designs)
@@ -118,10 +116,18 @@ void design_words(const Study *study, const Design *design, char words[OPTIMISE_
     }
 }
 
+double design_sure(const Designs *designs, const Design *design)
+{
+    double open = design->has_bar ? design->bar : fabs(design->value);
+    if (!designs->has_bars) return design->value;
+    return designs->lowest ? design->value + open : design->value - open;
+}
+
 bool design_is_better(const Designs *designs, const Design *a, const Design *b)
 {
-    if (isnan(a->value) || isnan(b->value)) return !isnan(a->value);
-    return designs->lowest ? a->value < b->value : a->value > b->value;
+    double one = design_sure(designs, a), other = design_sure(designs, b);
+    if (isnan(one) || isnan(other)) return !isnan(one);
+    return designs->lowest ? one < other : one > other;
 }
 
 // Of the worst: the interval in which the worst of all may be, with the bars of each.
@@ -206,6 +212,7 @@ void designs_judge(Designs *designs, int32_t d)
                                                [OVER_DEVIATION] = judge_deviation,
                                                [OVER_FRONT] = judge_aim};
     judges[designs->study->search.over](designs, points, design);
+    designs->has_bars = designs->has_bars || design->has_bar;
 }
 
 int32_t designs_best(const Designs *designs)
@@ -223,4 +230,11 @@ bool designs_may_equal(const Designs *designs, int32_t best, int32_t d)
     const Design *one = &designs->list[d], *top = &designs->list[best];
     if (d == best || isnan(one->value)) return false;
     return !(fabs(top->value - one->value) > one->bar + top->bar);
+}
+
+bool designs_may_lead(const Designs *designs, int32_t best, int32_t d)
+{
+    double value = designs->list[d].value;
+    double sure = design_sure(designs, &designs->list[best]);
+    return designs->lowest ? value <= sure : value >= sure;
 }

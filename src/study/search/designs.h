@@ -28,6 +28,7 @@ typedef struct DesignPoint {
 typedef struct Designs {
     const Study *study;   // not owned
     bool lowest;   // is best
+    bool has_bars;   // a design has an error bar: what is sure of each counts
     int32_t count;
     int32_t aim;   // of a front: an aim, whose value counts alone; -1: the mean of all conditions
     int32_t aims;   // conditions, and once more for each result of `also`
@@ -58,9 +59,14 @@ StudyAim designs_aim(const Designs *designs, int32_t aim);
 // value and bar of a design from its points, by `over`; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
 int32_t designs_best(const Designs *designs);   // -1: none has a value
-// Whether a is better than b, by values alone.
+// What a design comes to in any case, by its bar; where others have one and it has none, nothing.
+// Without bars its value.
+double design_sure(const Designs *designs, const Design *design);
+// Whether a is better than b, by what is sure of both.
 bool design_is_better(const Designs *designs, const Design *a, const Design *b);
 // Whether design `d` may be as good as `best`, with the bars of both.
 bool designs_may_equal(const Designs *designs, int32_t best, int32_t d);
+// Whether it may be better, its value given: that is not below what is sure of `best`.
+bool designs_may_lead(const Designs *designs, int32_t best, int32_t d);
 
 #endif

@@ -33,10 +33,10 @@ static bool take_results(Search *search, int32_t d, int32_t c, const char *repor
         const Datum *datum = &fit->measured.list[k];
         int64_t at = (int64_t)d * count + k;
         if (datum->condition != c) continue;
-        TRY(measured_find(datum, report, history, &fit->found[at], &fit->own[at], err));
+        if (!measured_find(datum, report, history, &fit->found[at], &fit->own[at], err))
+            return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // NaN where it lacks anything that was measured.
@@ -129,38 +129,37 @@ static bool refine_regions(Fit *fit, Error *err)
     fit->widened = 1;
     for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
         int32_t first = fit->search.designs.count;
-        TRY(make_response(fit, err));
+        if (!make_response(fit, err)) return false;
         find_best(fit);
         fit_find_regions(fit, &stays);
         if ((stays && round > 0) || round == ROUNDS_MAX) break;
-        TRY(add_place(fit, fit->best, err));
+        if (!add_place(fit, fit->best, err)) return false;
         for (int32_t k = 0; k < fit->response.keys; k++) {
-            TRY(add_place(fit, fit->regions[k].low_place, err));
-            TRY(add_place(fit, fit->regions[k].high_place, err));
+            if (!add_place(fit, fit->regions[k].low_place, err)) return false;
+            if (!add_place(fit, fit->regions[k].high_place, err)) return false;
         }
         if (fit->search.designs.count == first) break;
-        TRY(search_compute_from(&fit->search, first, err));
+        if (!search_compute_from(&fit->search, first, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Error *err)
 {
     Search *search = &fit->search;
-    TRY(search_open(search, path, options, true, err));
-    TRY(measured_read(search->study, &fit->measured, err));
+    if (!search_open(search, path, options, true, err)) return false;
+    if (!measured_read(search->study, &fit->measured, err)) return false;
     if (fit->measured.count < search->study->search.key_count)
-        FAIL(err, ERROR_INPUT, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
-             search->study->search.key_count);
+        return REFUSE(err, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
+                      search->study->search.key_count);
     search->judge = (SearchJudge){take_results, judge_misfit, tell_logarithm, fit};
-    TRY(search_begin(search, fit->measured.condition_count, fit->measured.conditions, err));
+    if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
+        return false;
     int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;
-    TRY(fit->found = NEW_ARRAY(double, room, err));
-    TRY(fit->own = NEW_ARRAY(double, room, err));
+    if (!(fit->found = NEW_ARRAY(double, room, err))) return false;
+    if (!(fit->own = NEW_ARRAY(double, room, err))) return false;
     search->planned += search->designs.conditions * 2 * (1 + 2 * search->study->search.key_count);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void summarise(const Fit *fit, FitSummary *summary)

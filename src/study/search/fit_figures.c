@@ -201,10 +201,11 @@ cleanup:
 bool fit_figures(const Fit *fit, Error *err)
 {
     int32_t n = fit->response.keys;
-    TRY(draw_measured(fit, err));
-    for (int32_t k = 0; k < n; k++) TRY(draw_profile(fit, k, err));
+    if (!draw_measured(fit, err)) return false;
+    for (int32_t k = 0; k < n; k++)
+        if (!draw_profile(fit, k, err)) return false;
     for (int32_t k = 0; k < n && n <= PAIRS_KEYS_MAX; k++)
-        for (int32_t i = k + 1; i < n; i++) TRY(draw_region(fit, (int32_t[2]){k, i}, err));
-cleanup:
-    return error_is_clean(err);
+        for (int32_t i = k + 1; i < n; i++)
+            if (!draw_region(fit, (int32_t[2]){k, i}, err)) return false;
+    return true;
 }

@@ -70,7 +70,7 @@ static bool aim_words(const Search *search, int32_t aim, char words[OPTIMISE_WOR
     size_t used = 0;
     words[0] = 0;
     int32_t c = aim % search->designs.conditions;
-    TRY(study_point_scene(study, c, search->scene, err));
+    if (!study_point_scene(study, c, search->scene, err)) return false;
     for (int32_t k = 0; k < study->axis_count; k++) {
         char value[SCENE_TEXT_SIZE];
         double number = 0;
@@ -80,8 +80,7 @@ static bool aim_words(const Search *search, int32_t aim, char words[OPTIMISE_WOR
         if (length < 0 || (size_t)length >= OPTIMISE_WORDS_SIZE - used) break;
         used += (size_t)length;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool front_print(const Search *search, FILE *out, Error *err)
@@ -125,11 +124,10 @@ static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, E
     char words[OPTIMISE_WORDS_SIZE];
     *label =
         label_of_record(search->study->records[designs_aim(&search->designs, aim).record].name);
-    TRY(aim_words(search, aim, words, err));
+    if (!aim_words(search, aim, words, err)) return false;
     size_t used = strlen(label->words);
     if (*words) snprintf(label->words + used, sizeof label->words - used, " at %s", words);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool front_draw(const Search *search, Error *err)

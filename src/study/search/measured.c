@@ -65,7 +65,7 @@ static bool read_column(Table *table, int32_t k, Error *err)
     Column *column = &table->columns[k];
     column->error = -1;
     if (strlen(name) >= STUDY_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "%s: %.60s...: the name of a column is too long", table->path, name);
+        return REFUSE(err, "%s: %.60s...: the name of a column is too long", table->path, name);
     column->kind = COLUMN_ERROR;
     if (is_error(csv, name)) return true;
     column->kind = COLUMN_CONDITION;
@@ -74,38 +74,36 @@ static bool read_column(Table *table, int32_t k, Error *err)
     column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
     if (is_series(name)) return true;
     if (!study_record_path(name))
-        FAIL(err, ERROR_INPUT,
-             "%s: column %s: neither a key of the scene nor a result, as `record` of a study names "
-             "it, nor a series of history.h5, as in series/mu",
-             table->path, name);
+        return REFUSE(err,
+                      "%s: column %s: neither a key of the scene nor a result, as `record` of a "
+                      "study names it, nor a series of history.h5, as in series/mu",
+                      table->path, name);
     if (column->error < 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: column %s: how far is it known? a column %s_error has one standard deviation",
-             table->path, name, name);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err, "%s: column %s: how far is it known? a column %s_error has one standard deviation",
+            table->path, name, name);
+    return true;
 }
 
 static bool read_columns(Table *table, Error *err)
 {
     int32_t along = 0, results = 0, curves = 0;
-    TRY(table->columns = NEW_ARRAY(Column, table->csv.columns, err));
+    if (!(table->columns = NEW_ARRAY(Column, table->csv.columns, err))) return false;
     for (int32_t k = 0; k < table->csv.columns; k++) {
-        TRY(read_column(table, k, err));
+        if (!read_column(table, k, err)) return false;
         along += table->columns[k].kind == COLUMN_ALONG;
         results += table->columns[k].kind == COLUMN_RESULT;
         curves += table->columns[k].kind == COLUMN_RESULT && is_series(csv_name(&table->csv, k));
     }
     if (results == 0)
-        FAIL(err, ERROR_INPUT, "%s: no column is a result, as in mu_M with mu_M_error",
-             table->path);
+        return REFUSE(err, "%s: no column is a result, as in mu_M with mu_M_error", table->path);
     if (along > 1 || (along == 0) != (curves == 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: a curve has one column without an error, the series along which it is read, and "
-             "at least one with an error: series/rod_displacement, series/mu, series/mu_error",
-             table->path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "%s: a curve has one column without an error, the series along which it is read, and "
+            "at least one with an error: series/rod_displacement, series/mu, series/mu_error",
+            table->path);
+    return true;
 }
 
 // --- rows ---------------------------------------------------------------------------------------
@@ -149,35 +147,33 @@ static bool read_number(const Table *table, int32_t row, int32_t column, double 
 {
     *value = csv_value(&table->csv, row, column);
     if (!isfinite(*value))
-        FAIL(err, ERROR_INPUT, "%s:%d: %s: `%.40s` is no number", table->path, row + 2,
-             csv_name(&table->csv, column), csv_cell(&table->csv, row, column));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s:%d: %s: `%.40s` is no number", table->path, row + 2,
+                      csv_name(&table->csv, column), csv_cell(&table->csv, row, column));
+    return true;
 }
 
 static bool read_row(Measured *measured, const Table *table, int32_t row, Error *err)
 {
     Datum datum = {0};
     int32_t along = -1;
-    TRY(find_condition(measured, table, row, &datum.condition, err));
+    if (!find_condition(measured, table, row, &datum.condition, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++)
         if (table->columns[k].kind == COLUMN_ALONG) along = k;
-    if (along >= 0) TRY(read_number(table, row, along, &datum.at, err));
+    if (along >= 0 && !read_number(table, row, along, &datum.at, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++) {
         const char *name = csv_name(&table->csv, k);
         if (table->columns[k].kind != COLUMN_RESULT || !*csv_cell(&table->csv, row, k)) continue;
         snprintf(datum.name, sizeof datum.name, "%s", name);
         snprintf(datum.along, sizeof datum.along, "%s",
                  is_series(name) ? csv_name(&table->csv, along) : "");
-        TRY(read_number(table, row, k, &datum.value, err));
-        TRY(read_number(table, row, table->columns[k].error, &datum.error, err));
+        if (!read_number(table, row, k, &datum.value, err)) return false;
+        if (!read_number(table, row, table->columns[k].error, &datum.error, err)) return false;
         if (!(datum.error > 0))
-            FAIL(err, ERROR_INPUT, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
-                 ERROR_ENDING);
-        TRY(add_datum(measured, &datum, err));
+            return REFUSE(err, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
+                          ERROR_ENDING);
+        if (!add_datum(measured, &datum, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool read_table(Measured *measured, const char *path, Error *err)
@@ -208,8 +204,8 @@ bool measured_read(const Study *study, Measured *measured, Error *err)
     YamlNode node = study->search.measured;
     *measured = (Measured){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
-    YAML_EACH (one, study->file, node) TRY(read_named(study, one, measured, err));
-cleanup:
+    YAML_EACH (one, study->file, node)
+        if (!read_named(study, one, measured, err)) return false;
     return error_is_clean(err);
 }
 

@@ -68,20 +68,17 @@ static bool add_section(Search *search, int32_t best, int32_t k, Error *err)
         int32_t added = -1;
         memcpy(x, search->designs.list[best].x, sizeof x);
         x[k] = search_unscaled(key, least + (most - least) * i / (SECTION_POINTS - 1));
-        TRY(search_add(search, x, &added, err));
+        if (!search_add(search, x, &added, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool compute_sections(Search *search, int32_t best, Error *err)
 {
     int32_t first = search->designs.count;
     for (int32_t k = 0; k < search->study->search.key_count; k++)
-        TRY(add_section(search, best, k, err));
-    TRY(search_compute_from(search, first, err));
-cleanup:
-    return error_is_clean(err);
+        if (!add_section(search, best, k, err)) return false;
+    return search_compute_from(search, first, err);
 }
 
 // --- deciding -----------------------------------------------------------------------------------
@@ -93,14 +90,15 @@ static bool next_accuracy(const Search *search, Design *design)
     const Optimise *self = search->judge.context;
     double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
     double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
+    double has = fmin(asked, came_out);
     if (!design->has_bar || came_out > MISSED_BY_FAR * asked) design->settled = true;
-    if (design->settled || !(limit > 0) || asked <= limit) return false;
-    design->accuracy = fmax(fmin(asked, came_out) / 2, limit);
+    if (design->settled || !(limit > 0) || has <= limit) return false;
+    design->accuracy = fmax(has / 2, limit);
     return true;
 }
 
-// Of those not in `taken` the design that may be the highest, if it may be above the value of the
-// best: one below may still be as good, by the bar of the best, but computing it does not tell.
+// Of those not in `taken` the design that may be the highest, if a smaller bar about its value
+// would make it the best. One that would have to come out above its value, too, is left as it is.
 static int32_t next_leader(const Search *search, int32_t best, const bool *taken)
 {
     double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
@@ -108,7 +106,7 @@ static int32_t next_leader(const Search *search, int32_t best, const bool *taken
     for (int32_t d = 0; d < search->designs.count; d++) {
         const Design *one = &search->designs.list[d];
         double reach = sign * one->value + one->bar;
-        if (taken[d] || !(reach >= sign * search->designs.list[best].value)) continue;
+        if (taken[d] || !designs_may_lead(&search->designs, best, d)) continue;
         if (reach > top) top = reach, leader = d;
     }
     return leader;
@@ -149,10 +147,9 @@ static bool decide(Search *search, Error *err)
         for (int32_t d = 0; d < search->designs.count; d++)
             open = open || designs_may_equal(&search->designs, best, d);
         again = false;
-        if (open) TRY(decide_round(search, best, &again, err));
+        if (open && !decide_round(search, best, &again, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool has_front(const Search *search)
@@ -180,14 +177,13 @@ static bool search_in_parts(Search *search, Error *err)
     for (int32_t part = 1; part <= parts; part++) {
         int32_t until = wanted * part / parts;
         if (has_front(search)) set_aim(search, part - 2);
-        TRY(search_designs(search, until - chosen, err));
+        if (!search_designs(search, until - chosen, err)) return false;
         chosen = until;
         int32_t best = designs_best(&search->designs);
-        if (best >= 0) TRY(compute_sections(search, best, err));
+        if (best >= 0 && !compute_sections(search, best, err)) return false;
     }
     if (has_front(search)) set_aim(search, -1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool finish_search(Search *search, Error *err)
@@ -195,17 +191,16 @@ static bool finish_search(Search *search, Error *err)
     int32_t best = designs_best(&search->designs);
     for (int32_t k = has_front(search) ? BESTS_MAX : 0, last = -1;
          k < BESTS_MAX && best >= 0 && best != last; k++) {
-        TRY(compute_sections(search, best, err));
-        TRY(decide(search, err));
+        if (!compute_sections(search, best, err)) return false;
+        if (!decide(search, err)) return false;
         last = best;
         best = designs_best(&search->designs);
     }
     if (best < 0)
-        FAIL(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
-             search->study->path, search->designs.count,
-             search->study->records[search->study->rank.record].name);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
+                     search->study->path, search->designs.count,
+                     search->study->records[search->study->rank.record].name);
+    return true;
 }
 
 // --- the whole ----------------------------------------------------------------------------------
@@ -213,20 +208,19 @@ cleanup:
 static bool open_study(Optimise *self, const char *path, const SweepOptions *options, Error *err)
 {
     Search *search = &self->search;
-    TRY(search_open(search, path, options, false, err));
+    if (!search_open(search, path, options, false, err)) return false;
     const StudyRank *rank = &search->study->rank;
-    if (!rank->wanted) FAIL(err, ERROR_INPUT, "%s: what is best? say `rank: {by: mu_hold}`", path);
+    if (!rank->wanted) return REFUSE(err, "%s: what is best? say `rank: {by: mu_hold}`", path);
     if (search->study->search.over == OVER_DEVIATION && !rank->lowest)
-        FAIL(err, ERROR_INPUT,
-             "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
+        return REFUSE(
+            err, "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
     if (search->study->search.over == OVER_FRONT && rank->refine > 0)
-        FAIL(err, ERROR_INPUT, "%s: best: `over: front` does not go with `refine`", path);
+        return REFUSE(err, "%s: best: `over: front` does not go with `refine`", path);
     search->judge = (SearchJudge){take_value, judge_design, tell_as_it_is, self};
-    TRY(search_begin(search, 0, NULL, err));
+    if (!search_begin(search, 0, NULL, err)) return false;
     search->planned += search->designs.conditions * count_parts(search) * (SECTION_POINTS - 1) *
                        search->study->search.key_count;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // accuracy.mu of the first design: the study's. Points were refused that have none, where `refine`

@@ -77,13 +77,15 @@ static double design_seconds(const Search *search, int32_t d)
 
 static void print_open(const Search *search, int32_t best, FILE *out)
 {
-    int32_t open = 0, settled = 0;
+    int32_t open = 0, settled = 0, left = 0;
     double seconds = design_seconds(search, best);
     for (int32_t d = 0; d < search->designs.count; d++) {
         char words[OPTIMISE_WORDS_SIZE];
         if (!designs_may_equal(&search->designs, best, d)) continue;
         seconds += design_seconds(search, d);
-        settled += search->designs.list[d].settled;
+        bool leads = designs_may_lead(&search->designs, best, d);
+        left += !leads;
+        settled += leads && search->designs.list[d].settled;
         if (open++ >= OTHERS_SHOWN) continue;
         design_words(search->study, &search->designs.list[d], words);
         fprintf(out, "%s    %s: ", open == 1 ? "  may be as good, within the bars of both:\n" : "",
@@ -101,7 +103,12 @@ static void print_open(const Search *search, int32_t best, FILE *out)
             "for a run (accuracy.within), or a bar asked of what is ranked (accuracy.of), would "
             "tell\n",
             settled);
-    if (open == settled) return;
+    if (left > 0)
+        fprintf(out,
+                "  %d of them would have to come out above their own values, too: left as they "
+                "are\n",
+                left);
+    if (open == settled + left) return;
     if (search->study->rank.refine > 0)
         fprintf(out,
                 "  telling them apart needs a smaller `refine` than %g %% (half the error of all "
@@ -152,8 +159,9 @@ static void print_answer(const void *context, FILE *out)
     int32_t best = answer->best;
     Error ignored = {0};
     if (search->study->search.over == OVER_FRONT) front_print(search, out, &ignored);
-    fprintf(out, "%s, %s of %d designs", quantity(search),
-            search->study->rank.lowest ? "the lowest" : "the highest", summary->designs);
+    fprintf(out, "%s, %s%s of %d designs", quantity(search),
+            search->study->rank.lowest ? "the lowest" : "the highest",
+            designs->has_bars ? " for sure (by its bar)" : "", summary->designs);
     if (designs->conditions > 1)
         fprintf(out, ", %s of %d points each", over[search->study->search.over],
                 designs->conditions);
@@ -233,12 +241,10 @@ cleanup:
 bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err)
 {
     int32_t best = designs_best(&search->designs);
-    TRY(search_answer(search, print_answer, &(Answer){search, summary, best}, err));
-    TRY(draw_course(search, err));
-    if (search->study->search.over == OVER_FRONT) TRY(front_draw(search, err));
+    if (!search_answer(search, print_answer, &(Answer){search, summary, best}, err)) return false;
+    if (!draw_course(search, err)) return false;
+    if (search->study->search.over == OVER_FRONT && !front_draw(search, err)) return false;
     for (int32_t k = 0; k < search->study->search.key_count; k++)
-        TRY(draw_section(search, best, k, err));
-    TRY(search_leave_best(search, best, search->designs.list[best].deciding, err));
-cleanup:
-    return error_is_clean(err);
+        if (!draw_section(search, best, k, err)) return false;
+    return search_leave_best(search, best, search->designs.list[best].deciding, err);
 }

@@ -53,14 +53,13 @@ static bool take_design(Search *search, int32_t d, Error *err)
     const Design *design = &search->designs.list[d];
     for (int32_t c = 0; c < search->designs.conditions; c++) {
         char *report = point_report(search->sweep, design->point + c, err);
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
         bool done = point_status(report) == POINT_DONE;
         search->judge.take(search, d, c, done ? report : NULL, err);
         memory_free(report);
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
     }
     search->judge.judge(search, d);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -168,10 +167,9 @@ bool search_add(Search *search, double *x, int32_t *added, Error *err)
     *added = -1;
     designs_round(search->study, x);
     if (search->designs.count == DESIGNS_MAX || designs_find(&search->designs, x) >= 0) return true;
-    TRY(search_allows(search, x, &allowed, err));
+    if (!search_allows(search, x, &allowed, err)) return false;
     if (allowed) *added = designs_add(&search->designs, x, -1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The scene with `set`, at the first point of `vary`, if all that is searched has a value there
@@ -191,7 +189,8 @@ static bool add_start(Search *search, Error *err)
     return !within || search_add(search, x, &search->start, err);
 }
 
-// What the chooser is told of a design that is refused or comes to nothing.
+// What the chooser is told of a design that is refused or comes to nothing, and the least it is
+// told of one whose bar is nearly its value.
 static double below_the_worst(const Search *search)
 {
     double low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;
@@ -204,15 +203,17 @@ static double below_the_worst(const Search *search)
     return low <= high ? low - REFUSED * (high - low) : 0;
 }
 
-static double told_of(const Search *search, double value)
+// design: -1: none.
+static double told_of(const Search *search, int32_t design)
 {
-    double sign = search->designs.lowest ? -1 : 1;
-    return isnan(value) ? below_the_worst(search) : sign * search->judge.told(value);
+    double sure = NAN, sign = search->designs.lowest ? -1 : 1;
+    if (design >= 0) sure = design_sure(&search->designs, &search->designs.list[design]);
+    return fmax(sign * search->judge.told(sure), below_the_worst(search));
 }
 
-static bool tell(Search *search, int32_t choice, double value, Error *err)
+static bool tell(Search *search, int32_t choice, int32_t design, Error *err)
 {
-    return search->module->tell(search->chooser, choice, told_of(search, value), err);
+    return search->module->tell(search->chooser, choice, told_of(search, design), err);
 }
 
 static double on_lattice(const Search *search, double x, double least, double most)
@@ -245,7 +246,7 @@ static bool choose(Search *search, bool *added, Error *err)
         if (design >= 0)
             search->designs.list[design].choice = number;
         else
-            TRY(tell(search, number, known < 0 ? NAN : search->designs.list[known].value, err));
+            TRY(tell(search, number, known, err));
     }
     *added = design >= 0;
     if (search->designs.count == 0)
@@ -277,7 +278,7 @@ static bool open_chooser(Search *search, Error *err)
         const Design *one = &search->designs.list[d];
         for (int32_t k = 0; k < n; k++)
             places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
-        values[d] = told_of(search, one->value);
+        values[d] = told_of(search, d);
     }
     ChooserSpace space = {n, least, most, whole, keys->seed, count, places, values};
     ChooserModuleFunction module =
@@ -294,21 +295,20 @@ cleanup:
 bool search_designs(Search *search, int32_t count, Error *err)
 {
     bool added = true;
-    TRY(open_chooser(search, err));
-    if (search->designs.count == 0) TRY(add_start(search, err));
-    if (search->designs.count == 1) TRY(search_compute_from(search, 0, err));
+    if (!open_chooser(search, err)) return false;
+    if (search->designs.count == 0 && !add_start(search, err)) return false;
+    if (search->designs.count == 1 && !search_compute_from(search, 0, err)) return false;
     for (int32_t chosen = 0; chosen < count && added;) {
         int32_t first = search->designs.count;
         for (int32_t k = 0; k < search->side_by_side && chosen < count && added; k++) {
-            TRY(choose(search, &added, err));
+            if (!choose(search, &added, err)) return false;
             chosen += added;
         }
-        TRY(search_compute_from(search, first, err));
+        if (!search_compute_from(search, first, err)) return false;
         for (int32_t d = first; d < search->designs.count; d++)
-            TRY(tell(search, search->designs.list[d].choice, search->designs.list[d].value, err));
+            if (!tell(search, search->designs.list[d].choice, d, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- begin and end ------------------------------------------------------------------------------
@@ -323,31 +323,29 @@ bool search_open(Search *search, const char *path, const SweepOptions *options, 
     search->own.out = NULL;
     search->start = -1;
     search->started = clock_seconds();
-    TRY(sweep_open(path, &search->own, &search->sweep, err));
+    if (!sweep_open(path, &search->own, &search->sweep, err)) return false;
     search->study = &search->sweep->study;
     if (search->study->search.node == YAML_NO_NODE)
-        FAIL(err, ERROR_INPUT,
-             "%s: nothing to search: a study for `%s` has `search`, as in `search: {%s}}`", path,
-             fits ? "fit" : "optimise",
-             fits ? "material.eta1: {log: [0.1, 10]" : "mesh.set.n: {whole: [1, 12]");
+        return REFUSE(err,
+                      "%s: nothing to search: a study for `%s` has `search`, as in `search: {%s}}`",
+                      path, fits ? "fit" : "optimise",
+                      fits ? "material.eta1: {log: [0.1, 10]" : "mesh.set.n: {whole: [1, 12]");
     if (search->study->search.fits != fits)
-        FAIL(err, ERROR_INPUT, "%s: %s", path,
-             fits ? "what was measured? say `fit: {measured: measured.csv}`"
-                  : "a study with `fit` is for `amontons fit`");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: %s", path,
+                      fits ? "what was measured? say `fit: {measured: measured.csv}`"
+                           : "a study with `fit` is for `amontons fit`");
+    return true;
 }
 
 bool search_begin(Search *search, int32_t conditions, char *const *texts, Error *err)
 {
     const SweepOptions *options = search->options;
-    TRY(search->scene = NEW_ARRAY(Scene, 1, err));
-    TRY(designs_create(search->study, conditions, texts, &search->designs, err));
+    if (!(search->scene = NEW_ARRAY(Scene, 1, err))) return false;
+    if (!designs_create(search->study, conditions, texts, &search->designs, err)) return false;
     int64_t cores = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
     search->side_by_side = (int32_t)fmax(1, floor((double)cores / search->designs.conditions));
     search->planned = search->designs.conditions * search->study->search.designs;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void search_close(Search *search, Error *err)

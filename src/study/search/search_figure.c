@@ -34,7 +34,7 @@ bool search_draw(const Search *search, const Frame *frame, const Curve *curves, 
 {
     Figure figure = {
         .folder = search->options->folder, .name = frame->name, .title = search->study->title};
-    TRY(figure_begin(&figure, err));
+    if (!figure_begin(&figure, err)) return false;
     figure_write_axis(&figure, "x", &frame->x, frame->x_scale);
     figure_write_axis(&figure, "y", &frame->y, frame->y_scale);
     json_begin_list(figure.json, "series");
@@ -42,6 +42,5 @@ bool search_draw(const Search *search, const Frame *frame, const Curve *curves, 
         figure_write_curve(&figure, &curves[k], err);
     json_end(figure.json);
     figure_end(&figure, err);
-cleanup:
     return error_is_clean(err);
 }

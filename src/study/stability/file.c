@@ -130,16 +130,14 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
                          "l, how far the front is from the trailing end"};
     ArraySeries rate = {"points/rate", ARRAY_FLOAT64, 2, "1/time",
                         "rightmost lambda of exp(lambda t), real and imaginary part"};
-    TRY(array_file_write(file, &x, interface->x, 0, nodes, err));
-    if (interface->y) TRY(array_file_write(file, &y, interface->y, 0, nodes, err));
-    TRY(array_file_write(file, &critical, path->critical_mode, 0, nodes, err));
-    TRY(array_file_write(file, &modes, path->modes, 0, path->count, err));
+    if (!array_file_write(file, &x, interface->x, 0, nodes, err)) return false;
+    if (interface->y && !array_file_write(file, &y, interface->y, 0, nodes, err)) return false;
+    if (!array_file_write(file, &critical, path->critical_mode, 0, nodes, err)) return false;
+    if (!array_file_write(file, &modes, path->modes, 0, path->count, err)) return false;
     const StabilityPoint *points = path->points;
     int32_t stride = sizeof *points / sizeof(double);
-    TRY(array_file_write(file, &front, &points->front, stride, path->count, err));
-    TRY(array_file_write(file, &rate, &points->rate_re, stride, path->count, err));
-cleanup:
-    return error_is_clean(err);
+    return array_file_write(file, &front, &points->front, stride, path->count, err) &&
+           array_file_write(file, &rate, &points->rate_re, stride, path->count, err);
 }
 
 // A file that could not be completed never gets its final name.

@@ -150,12 +150,12 @@ static bool growth_of_part(PadWork *work, int32_t slipping, bool free, double *r
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
         bool inside = a >= first && a <= last, end = free && (a == first || a == last);
+        trial->reaction[interface_normal(work->interface, i)] =
+            work->pressure * work->interface->weight[i] * (end ? 0.5 : 1);
         if (inside)
             stability_let_slip(work->path, trial, i);
         else if (free)
             trial->status[i] = CONTACT_OPEN;
-        trial->reaction[interface_normal(work->interface, i)] =
-            work->pressure * work->interface->weight[i] * (end ? 0.5 : 1);
     }
     TRY(growth_rates(work->path->growth, trial, &rates, err));
     *rate = rates.count > 0 ? rates.rate[0].re : -INFINITY;
@@ -260,8 +260,8 @@ static double critical_stiffness(const PadWork *work, const StabilityPad *pad)
 {
     double sum = 0;
     for (int32_t a = 0; a < work->count; a++) {
-        double pressing = pad->pressure * work->interface->weight[work->nodes[a]];
-        sum += stability_critical_spring(work->path, work->nodes[a], pressing);
+        int32_t i = work->nodes[a];
+        sum += work->interface->weight[i] * stability_critical_spring(work->path, i, pad->pressure);
     }
     return sum / pad->length;
 }

@@ -7,9 +7,12 @@
 
 #include "base/memory.h"
 #include "friction/friction_pace.h"
+#include "friction/friction_response.h"
+#include "friction/friction_start.h"
 #include "friction/friction_state.h"
 
 #include <math.h>
+#include <string.h>
 
 bool stability_set_pace(StabilityPath *path, double velocity, Error *err)
 {
@@ -26,12 +29,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Velocities and states of `state` on a clock that runs `pace` times as fast.
-static void change_clock(const StabilityPath *path, double pace, State *state)
+// Velocities of `state` on a clock that runs `pace` times as fast; what is remembered is the same.
+static void change_clock(double pace, State *state)
 {
-    for (int32_t i = 0; i < state->contact_count; i++)
-        state->theta[i * STATES_MAX] =
-            friction_paced_state(&path->laws[i], state->theta[i * STATES_MAX], pace);
     for (int32_t k = 0; k < state->interface_count; k++) state->slip_rate[k] *= pace;
     for (int32_t k = 0; k < state->dof_count; k++) {
         state->velocity[k] *= pace;
@@ -41,56 +41,61 @@ static void change_clock(const StabilityPath *path, double pace, State *state)
 
 void stability_start_states(StabilityPath *path)
 {
-    if (path->laws) change_clock(path, path->pace, &path->control.now);
+    if (path->laws) change_clock(path->pace, &path->control.now);
 }
 
 void stability_look(StabilityPath *path)
 {
     state_copy(&path->control.now, &path->last);
-    if (path->laws) change_clock(path, 1 / path->pace, &path->last);
+    if (path->laws) change_clock(1 / path->pace, &path->last);
 }
 
-// mu and g of node i at steady slip at V: the state in which a stage of any length ends.
-static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double *state)
+// mu and g of node i at steady slip at V under this pressure; its states. Where none is found: in
+// the states with which the rod began to move.
+static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double pressure,
+                                  double *state)
 {
-    static const double LONG = 1e9;   // slip of such a stage, of the law's own distance
     FrictionLaw law = *friction_at(&path->model->law, i);
+    FrictionMemory *memory = &law.own.memory;
     double speed = path->model->scales.slip_velocity;
-    double distance = law.remembers ? law.own.memory.slip_distance : 0;
     FrictionRates rates;
     friction_start_state(&law, state);
-    friction_set_stage(&law, state, LONG * distance / speed);
-    friction_state(&law, speed, state);
+    if (law.remembers) {
+        memory->pressure = pressure;
+        memcpy(memory->from, memory->start, sizeof memory->from);
+        friction_find_steady(memory, speed);
+        memcpy(state, memory->from, (size_t)memory->states * sizeof(double));
+    }
     friction_rates(&law, speed, state, &rates);
     return rates;
 }
 
 double stability_forgets(const StabilityPath *path, int32_t i)
 {
-    double state[STATES_MAX] = {0};
-    FrictionRates rates = steady_rates(path, i, state);
-    return rates.states > 0 && rates.rate_state[0][0] < 0 ? -rates.rate_state[0][0] : INFINITY;
+    double state[STATES_MAX], re[STATES_MAX], im[STATES_MAX], slowest = INFINITY;
+    double pressure = friction_at(&path->model->law, i)->own.memory.pressure;
+    FrictionRates rates = steady_rates(path, i, pressure, state);
+    friction_own_rates(&rates, re, im);
+    for (int32_t k = 0; k < rates.states; k++)
+        if (re[k] < 0) slowest = fmin(slowest, -re[k]);
+    return slowest;
 }
 
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
 {
     const Interface *interface = &path->model->interface;
     int32_t t = interface_tangent(interface, i);
+    double pressing = trial->reaction[interface_normal(interface, i)];
     trial->status[i] = CONTACT_SLIP_FORWARD;
     for (int32_t c = 0; c < interface->dim - 1; c++) trial->slip_rate[t + c] = 0;
     if (!path->laws) return;
-    steady_rates(path, i, &trial->theta[i * STATES_MAX]);
+    steady_rates(path, i, pressing / interface->weight[i], &trial->theta[i * STATES_MAX]);
     trial->slip_rate[t] = path->model->scales.slip_velocity;
 }
 
-// With w = -mu_v r_n, m = -mu_theta g_v r_n and f = -g_theta slip on a spring k obeys
-// -w s^2 + (k - w f - m) s + k f = 0: stable for w < 0 where k > m + w f, and for w = 0 where k >
-// m.
-double stability_critical_spring(const StabilityPath *path, int32_t i, double pressing)
+double stability_critical_spring(const StabilityPath *path, int32_t i, double pressure)
 {
-    double state[STATES_MAX] = {0};
-    FrictionRates rates = steady_rates(path, i, state);
-    if (!path->laws || rates.mu_speed < 0) return NAN;
-    double memory = -rates.mu_state[0] * rates.rate_speed[0];
-    return fmax(pressing * (memory + rates.mu_speed * rates.rate_state[0][0]), 0);
+    double state[STATES_MAX];
+    FrictionRates rates = steady_rates(path, i, pressure, state);
+    return rates.states > 0 ? pressure * friction_critical_stiffness(&rates) : NAN;
 }

@@ -13,6 +13,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "friction/friction_pace.h"
 #include "friction/friction_state.h"
 #include "contact/slip.h"
 #include "run/result/result_folder.h"
@@ -48,11 +49,6 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
     if (scene->time.scheme == SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
-             scene->path);
-    if (scene->friction.remembers && friction_is_own(&scene->friction))
-        FAIL(err, ERROR_INPUT,
-             "%s: growth rates with friction that remembers are those of the laws that are built "
-             "in; a formula or plug-in with states, or of pressure, goes through `amontons run`",
              scene->path);
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
@@ -206,21 +202,24 @@ static int32_t count_slipping(const Observation *seen)
 static double mu_at_V(const StabilityPath *path, const State *state, double mu)
 {
     const FrictionLaw *law = &path->model->law;
+    const Interface *interface = &path->model->interface;
     double start = path->count > 0 ? path->points[0].mu : mu, lost = 0, pressed = 0;
-    // What creeps does so at V.
-    if (path->options->at_end || friction_creeps(law) || !(friction_drop(law) > 0)) return mu;
+    if (path->options->at_end || !(friction_drop(law) > 0)) return mu;
     // With memory slip rates are those at V already.
     double speed = path->laws ? 1 : path->model->scene->rod.velocity / path->rod.velocity;
     for (int32_t i = 0; i < state->contact_count; i++) {
-        double pressure = state->reaction[interface_normal(&path->model->interface, i)];
+        double pressing = state->reaction[interface_normal(interface, i)];
+        double pressure = pressing / interface->weight[i];
         if (!status_slips(state->status[i])) continue;
-        double rate = speed * slip_size(&path->model->interface, i, state->slip_rate);
+        double rate = speed * slip_size(interface, i, state->slip_rate);
         const FrictionLaw *own = friction_at(law, i);
+        const double *theta = &state->theta[i * STATES_MAX];
         FrictionRates rests, slips;
-        friction_rates(own, 0, &state->theta[i * STATES_MAX], &rests);
-        friction_rates(own, rate, &state->theta[i * STATES_MAX], &slips);
-        lost += pressure * (rests.mu - slips.mu);
-        pressed += pressure * (friction_drop(own) / friction_drop(law));
+        friction_rates_pressed(own, pressure, 0, theta, &rests);
+        friction_rates_pressed(own, pressure, rate, theta, &slips);
+        bool at_V = own->remembers && !friction_weakens_at_once(own);   // on the path already
+        if (!at_V) lost += pressing * (rests.mu - slips.mu);
+        pressed += pressing * (friction_drop(own) / friction_drop(law));
     }
     return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction_drop(law)) : mu;
 }

@@ -51,10 +51,10 @@ void stability_look(StabilityPath *path);
 double stability_forgets(const StabilityPath *path, int32_t i);
 // Node i of `trial` slips forward: slowly, or where friction remembers steadily at the scene's V.
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i);
-// Of a node that slips steadily at V, pressed by `pressing`: the stiffness of a massless body,
-// force / length, below which its slip is not stable; NaN: nothing is remembered, or weakening with
+// Of node i that slips steadily at V under this pressure: the stiffness of a massless body, stress
+// over length, below which its slip is not stable; NaN: nothing is remembered, or weakening with
 // slip rate makes it unstable on any spring.
-double stability_critical_spring(const StabilityPath *path, int32_t i, double pressing);
+double stability_critical_spring(const StabilityPath *path, int32_t i, double pressure);
 
 // pi Re/Im - ln(v_c/V) of point k: from 0 on slip runs away at the scene's V.
 double stability_half_period(const StabilityPath *path, int32_t k);

@@ -61,11 +61,10 @@ static bool choose_all(Sweep *sweep, const Ranking *ranking, int32_t *count, Err
     for (int32_t k = 0; k < ranking->ranked; k++) {
         bool chosen = false;
         if (!is_open(sweep, &ranking->rows[k])) continue;
-        TRY(choose(sweep, &ranking->rows[k], &mesh, &chosen, err));
+        if (!choose(sweep, &ranking->rows[k], &mesh, &chosen, err)) return false;
         *count += chosen;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool refine_begin(Sweep *sweep, SweepPoint **before, int32_t *count, Error *err)
@@ -107,9 +106,10 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
         SweepPoint refined = *point;
         double value = NAN, error = NAN, value_before = NAN, error_before = NAN;
         if (strcmp(refined.hash, before[k].hash) == 0) continue;
-        if (refined.status == POINT_DONE) TRY(read_ranked(sweep, k, &value, &error, err));
+        if (refined.status == POINT_DONE && !read_ranked(sweep, k, &value, &error, err))
+            return false;
         *point = before[k];
-        TRY(read_ranked(sweep, k, &value_before, &error_before, err));
+        if (!read_ranked(sweep, k, &value_before, &error_before, err)) return false;
         if (isnan(error_before)) error_before = INFINITY;
         if (error < error_before) {
             double moved = fabs(value - value_before) / error_before;
@@ -119,7 +119,5 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
         }
         point->settled = !(error < SMALLER * error_before);
     }
-    TRY(points_find_same(sweep, err));
-cleanup:
-    return error_is_clean(err);
+    return points_find_same(sweep, err);
 }

@@ -42,13 +42,13 @@ static bool take_lock(int descriptor)
 static bool refuse_taken_figure(const char *folder, const char *name, Error *err)
 {
     static const char *const endings[] = {"json", "h5", "png"};
-    char path[POINT_PATH_SIZE];
+    char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
     for (size_t k = 0; k < sizeof endings / sizeof endings[0]; k++) {
-        snprintf(path, sizeof path, "%s/figures/%.200s.%s", folder, name, endings[k]);
-        TRY(own_mark_check(path, err));
+        snprintf(path, sizeof path, "%s/figures/%.*s.%s", folder, STUDY_NAME_SIZE - 1, name,
+                 endings[k]);
+        if (!own_mark_check(path, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // What has the name of one of the sweep's tables or figures and is none is told before hours of
@@ -59,13 +59,13 @@ static bool refuse_taken(const Sweep *sweep, Error *err)
     char path[POINT_PATH_SIZE];
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
         snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
-        TRY(own_mark_check(path, err));
+        if (!own_mark_check(path, err)) return false;
     }
-    if (sweep->study.rank.wanted) TRY(refuse_taken_figure(sweep->folder, "ranking", err));
+    if (sweep->study.rank.wanted && !refuse_taken_figure(sweep->folder, "ranking", err))
+        return false;
     for (int32_t k = 0; k < sweep->study.plot_count; k++)
-        TRY(refuse_taken_figure(sweep->folder, sweep->study.plots[k].name, err));
-cleanup:
-    return error_is_clean(err);
+        if (!refuse_taken_figure(sweep->folder, sweep->study.plots[k].name, err)) return false;
+    return true;
 }
 
 // The system removes the lock when the process ends, however it ends.
@@ -74,33 +74,31 @@ static bool take_folder(Sweep *sweep, Error *err)
     char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
         (int)sizeof sweep->folder)
-        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
+        return REFUSE(err, "the path of the sweep's folder is too long");
     snprintf(path, sizeof path, "%s%s", sweep->folder, sweep->study.keep_table ? "" : "/points");
-    TRY(folder_make(path, err));
+    if (!folder_make(path, err)) return false;
     snprintf(path, sizeof path, "%s/lock", sweep->folder);
     sweep->lock = open_to_write(path, OPEN_KEPT, why);
-    if (sweep->lock < 0) FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, why);
+    if (sweep->lock < 0)
+        return FAULT(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, why);
     if (!take_lock(sweep->lock))
-        FAIL(err, ERROR_FILE,
-             "another sweep is running in %s: wait for it, or choose another folder (-o)",
-             sweep->folder);
-    TRY(refuse_taken(sweep, err));
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE,
+                     "another sweep is running in %s: wait for it, or choose another folder (-o)",
+                     sweep->folder);
+    return refuse_taken(sweep, err);
 }
 
 // What `keep: table` cannot do: nothing but numbers is kept.
 static bool check_table(const Sweep *sweep, const Scene *scene, Error *err)
 {
     if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: keep: with `table` points have no folder for a history, fields or figures: say "
-             "`keep: points`",
-             sweep->study.path);
+        return REFUSE(err,
+                      "%s: keep: with `table` points have no folder for a history, fields or "
+                      "figures: say `keep: points`",
+                      sweep->study.path);
     if (sweep->study.rank.refine > 0)
-        FAIL(err, ERROR_INPUT, "%s: keep: `table` does not go with `refine`", sweep->study.path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "%s: keep: `table` does not go with `refine`", sweep->study.path);
+    return true;
 }
 
 static bool open_reports(Sweep *sweep, Error *err)
@@ -130,11 +128,10 @@ static bool find_baseline(const PointsByHash *sorted, int32_t k, PointMesh *mesh
 {
     Sweep *sweep = sorted->sweep;
     char hash[HASH_TEXT_SIZE];
-    TRY(study_baseline_scene(&sweep->study, k, scene, err));
-    TRY(point_hash(scene, mesh, hash, err));
+    if (!study_baseline_scene(&sweep->study, k, scene, err)) return false;
+    if (!point_hash(scene, mesh, hash, err)) return false;
     sweep->points[k].baseline = points_look_up(sorted, hash);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // ERROR_INPUT where no point at all has a baseline: the ranking would have no gains.
@@ -159,17 +156,16 @@ cleanup:
 
 static bool plan_point(Sweep *sweep, int32_t k, Scene *scene, Error *err)
 {
-    TRY(point_scene(sweep, k, scene, err));
-    TRY(point_hash(scene, &sweep->mesh, sweep->points[k].hash, err));
-    TRY(block_counts_note(scene, &sweep->mesh, &sweep->blocks, err));
-    if (sweep->study.keep_table) TRY(check_table(sweep, scene, err));
+    if (!point_scene(sweep, k, scene, err)) return false;
+    if (!point_hash(scene, &sweep->mesh, sweep->points[k].hash, err)) return false;
+    if (!block_counts_note(scene, &sweep->mesh, &sweep->blocks, err)) return false;
+    if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
-             "`set: {accuracy.mu: 3%%}`",
-             sweep->study.path);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, "
+                      "as in `set: {accuracy.mu: 3%%}`",
+                      sweep->study.path);
+    return true;
 }
 
 // Scenes and hashes of the points that the study has more than before: what is wrong with any of
@@ -253,30 +249,25 @@ cleanup:
 bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, Error *err)
 {
     Sweep *sweep = *opened = NEW_ARRAY(Sweep, 1, err);
-    TRY(sweep);
+    if (!sweep) return false;
     sweep->options = options;
     sweep->lock = -1;
     sweep->started = clock_seconds();
     dense_use_one_thread();   // before forking
-    TRY(study_read(path, options->overrides, options->override_count, &sweep->study, err));
-cleanup:
-    return error_is_clean(err);
+    return study_read(path, options->overrides, options->override_count, &sweep->study, err);
 }
 
 // The folder is made when the study has turned out to be right.
 bool sweep_plan(Sweep *sweep, Error *err)
 {
     int32_t first = sweep->point_count;
-    TRY(plan_points(sweep, err));
+    if (!plan_points(sweep, err)) return false;
     if (sweep->lock < 0) {
-        TRY(take_folder(sweep, err));
-        TRY(slurm_end_leftovers(sweep, err));
-        TRY(open_reports(sweep, err));
+        if (!take_folder(sweep, err)) return false;
+        if (!slurm_end_leftovers(sweep, err)) return false;
+        if (!open_reports(sweep, err)) return false;
     }
-    TRY(list_reports(sweep, err));
-    TRY(sweep_take_finished(sweep, first, err));
-cleanup:
-    return error_is_clean(err);
+    return list_reports(sweep, err) && sweep_take_finished(sweep, first, err);
 }
 
 bool sweep_add(Sweep *sweep, const char *designs, Error *err)

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Laws of one's own that remember: steady slip, rest and scales against closed forms; which of them
-// creep; the bound of what coupled states weaken against their worst s; what is refused.
+// creep; what is refused.
 #include "friction/friction_start.h"
 
 #include "friction/friction_state.h"
 #include "own_laws.h"
-#include "random_numbers.h"
-
-#include <complex.h>
 
 static const FrictionStateText AGE = {.name = "theta", .rate = "1 - v * theta / 1e-3"};
 static const char AGED[] = "(0.1 + 0.3 * exp(-v / 1e-2)) * (1 + 0.02 * log(1 + theta / 10))";
@@ -70,58 +67,6 @@ TEST(test_scales)
     assert_near("psi at V_0", start, 0, 1e-12);
     friction_rates(&law, 1e-4, &start, &rates);
     assert_near("f_0", rates.mu, 0.6, 1e-12);
-}
-
-// Beside the real part of -mu_theta (s - G)^-1 g_v on the boundary of where |s| >= 1/reach and
-// Re s >= 0, on which it is the largest: it is no less.
-TEST(test_bound_of_weakening)
-{
-    Random random = {.state = 5};
-    int32_t bounded = 0, coupled = 0;
-    for (int trial = 0; trial < 400; trial++) {
-        int32_t n = 1 + random_index(&random, 3);
-        double reach = exp(random_between(&random, -4, 4)), worst = 0;
-        FrictionRates rates = {.states = n};
-        for (int32_t k = 0; k < n; k++) {
-            rates.mu_state[k] = random_between(&random, -1, 1);
-            rates.rate_speed[k] = random_between(&random, -1, 1);
-            for (int32_t j = 0; j < n; j++)
-                rates.rate_state[k][j] = j == k ? random_between(&random, -2, 0.1)
-                                                : random_between(&random, -0.4, 0.4);
-        }
-        double most = friction_weakens_most(&rates, reach);
-        if (!isfinite(most)) continue;
-        bounded++;
-        coupled += n > 1;
-        for (int32_t step = 0; step < 400; step++) {
-            // A quarter of the circle, then up the imaginary axis.
-            double complex s = step < 200 ? cexp(I * (M_PI / 2 * step / 199.0)) / reach
-                                          : I * exp((step - 200) * 0.05) / reach;
-            double complex matrix[3][3], x[3], sum = 0;
-            for (int32_t k = 0; k < n; k++) {
-                x[k] = rates.rate_speed[k];
-                for (int32_t j = 0; j < n; j++)
-                    matrix[k][j] = (k == j) * s - rates.rate_state[k][j];
-            }
-            for (int32_t k = 0; k < n; k++)   // Gauss: the diagonal is never small here
-                for (int32_t j = k + 1; j < n; j++) {
-                    double complex part = matrix[j][k] / matrix[k][k];
-                    for (int32_t c = k; c < n; c++) matrix[j][c] -= part * matrix[k][c];
-                    x[j] -= part * x[k];
-                }
-            for (int32_t k = n - 1; k >= 0; k--) {
-                for (int32_t c = k + 1; c < n; c++) x[k] -= matrix[k][c] * x[c];
-                x[k] /= matrix[k][k];
-                sum -= rates.mu_state[k] * x[k];
-            }
-            worst = fmax(worst, creal(sum));
-        }
-        if (most < worst * (1 - 1e-9)) fail_msg("trial %d: %g < %g", trial, most, worst);
-        double real = friction_weakens_at(&rates, reach);
-        assert_true(real <= most * (1 + 1e-9));
-    }
-    print_message("%d bounded, %d of several states\n", bounded, coupled);
-    assert_true(bounded > 250 && coupled > 150);
 }
 
 static void check_refused(FrictionSource source, const char *key_wanted, const char *words)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Readings of velocity steps and holds from steps written by hand: mu jumps by A ln(V2/V1) and goes
 // on to its new level over D, and heals by H in each decade of a hold.
-#include "record/program_readings.h"
+#include "record/program_results.h"
 
 #include "seen_by_hand.h"
 
@@ -59,7 +59,7 @@ TEST(test_velocity_step)
 {
     Fixture fixture;
     step_up(&fixture, 0.01, 0);
-    ProgramSums sums = program_readings_sum(&fixture.readings);
+    ProgramSums sums = program_results_sum(&fixture.readings);
     assert_int_equal(sums.steps, 1);
     assert_int_equal(sums.holds, 0);
     assert_true(fabs(sums.direct.value - A) <= 1.01 * sums.direct.error &&
@@ -76,12 +76,12 @@ TEST(test_errors)
 {
     Fixture fixture;
     step_up(&fixture, 0.4, 0);
-    ProgramSums sums = program_readings_sum(&fixture.readings);
+    ProgramSums sums = program_results_sum(&fixture.readings);
     assert_true(fabs(sums.direct.value - A) <= 1.01 * sums.direct.error &&
                 sums.direct.error > 1e-3);
     assert_true(fabs(sums.distance.value - D) <= sums.distance.error);
     step_up(&fixture, 0.01, 0.002);   // more than 2e-3 of mu
-    sums = program_readings_sum(&fixture.readings);
+    sums = program_results_sum(&fixture.readings);
     assert_int_equal(sums.steps, 1);
     assert_true(isnan(sums.direct.value) && isnan(sums.change.value));
 }
@@ -102,7 +102,7 @@ TEST(test_holds)
         time = at[k + 1];
         peak = factor[k] > 0 ? 0 : HEALING * log10(length);
     }
-    ProgramSums sums = program_readings_sum(&fixture.readings);
+    ProgramSums sums = program_results_sum(&fixture.readings);
     assert_int_equal(sums.holds, 3);
     assert_int_equal(sums.steps, 0);
     assert_near("healing per decade", sums.healing.value, HEALING, fmax(sums.healing.error, 1e-9));

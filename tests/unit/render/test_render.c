@@ -87,6 +87,7 @@ TEST(draws_all_and_frees_all)
     assert_true(picture_exists("force.png"));
     assert_true(picture_exists("slip-map.png"));
     assert_true(picture_exists("contact-density.png"));
+    assert_true(picture_exists("state-map.png"));
     assert_false(picture_exists("force.png.part"));
 }
 
@@ -128,8 +129,8 @@ TEST(unknown_figures_are_named)
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
     assert_non_null(strstr(err.message,
-                           "force, slip-map, contact-density, contact-plane, precursors, "
-                           "front-speed, field, field-strip"));
+                           "force, slip-map, contact-density, state-map, contact-plane, "
+                           "precursors, front-speed, field, field-strip"));
 }
 
 GROUP_BETWEEN(result_write, result_remove);

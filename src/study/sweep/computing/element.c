@@ -98,15 +98,14 @@ static bool read_settings(const char *text, ElementSettings *settings, Error *er
     double count = 0;
     bool found = json_find_number(text, "set_count", &count);
     if (!found || !(count >= 0 && count <= STUDY_SETTINGS_MAX))
-        FAIL(err, ERROR_INPUT, "no list of elements as a sweep writes it");
+        return REFUSE(err, "no list of elements as a sweep writes it");
     settings->count = (int32_t)count;
     for (int32_t k = 0; k < settings->count; k++) {
         if (!find(text, "set", k, settings->text[k], SETTING_SIZE))
-            FAIL(err, ERROR_INPUT, "the list of elements lacks setting %d", k);
+            return REFUSE(err, "the list of elements lacks setting %d", k);
         settings->list[k] = settings->text[k];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Cases that a search has added to the study, one text for each round.
@@ -124,10 +123,9 @@ static bool read_designs(const char *text, Study *study, Error *err)
                 study_add_designs(study, design, err);
         memory_free(design);
         if (!found && error_is_clean(err))
-            FAIL(err, ERROR_INPUT, "the list of elements lacks design %d", k);
-        TRY(error_is_clean(err));
+            return REFUSE(err, "the list of elements lacks design %d", k);
+        if (!error_is_clean(err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -157,18 +155,17 @@ static bool read_point(const char *text, int32_t element, Sweep *sweep, int32_t 
     double number = -1;
     snprintf(path, sizeof path, "points.%d", element);
     if (!json_find_number(text, path, &number) || !(number >= 0))
-        FAIL(err, ERROR_INPUT, "the list of elements has no element %d", element);
+        return REFUSE(err, "the list of elements has no element %d", element);
     if (number >= sweep->study.point_count)
-        FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", sweep->study.path);
+        return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     *point = (int32_t)number;
-    TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
+    if (!(sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err))) return false;
     snprintf(path, sizeof path, "accuracies.%d", element);
     json_find_number(text, path, &sweep->points[*point].accuracy);
     snprintf(path, sizeof path, "runs.%d", element);
     if (json_find_number(text, path, &number)) sweep->points[*point].runs = (int32_t)number;
     find(text, "hashes", element, sweep->points[*point].hash, HASH_TEXT_SIZE);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Costs one scene, not the study: an array of thousands does not plan thousands of points each

@@ -51,12 +51,11 @@ static bool key_counts(const char *key)
 bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
     Hash hash = computation_hash();
-    TRY(hash_mesh(scene, mesh, err));
+    if (!hash_mesh(scene, mesh, err)) return false;
     hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
-    TRY(scene_hash(scene, key_counts, &hash, err));
+    if (!scene_hash(scene, key_counts, &hash, err)) return false;
     hash_write(&hash, text);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static int compare_hashes(const void *a, const void *b)
@@ -114,11 +113,10 @@ bool points_find_same(Sweep *sweep, Error *err)
 bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err)
 {
     double accuracy = sweep->points[point].accuracy;
-    TRY(study_point_scene(&sweep->study, point, scene, err));
+    if (!study_point_scene(&sweep->study, point, scene, err)) return false;
     scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // By hash, not by number: a study that is changed finds its old points again.

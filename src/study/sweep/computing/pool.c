@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/transfer.h"
 #include "study/sweep/computing/tally.h"
 
 #include <errno.h>
@@ -50,20 +51,6 @@ typedef struct Pool {
     int32_t next, step;   // point to look at for the next worker; to the one behind it
 } Pool;
 
-// Whether all of it came before the other end was closed.
-static bool read_whole(int socket, void *bytes, size_t size)
-{
-    char *next = bytes;
-    while (size > 0) {
-        ssize_t count = read(socket, next, size);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
-        next += count;
-        size -= (size_t)count;
-    }
-    return true;
-}
-
 static bool send_whole(int socket, const void *bytes, size_t size)
 {
     const char *next = bytes;
@@ -89,7 +76,7 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
     if (getppid() != parent) _exit(1);
     mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
     mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
-    while (read_whole(socket, &point, sizeof point)) {
+    while (transfer_read(socket, &point, sizeof point, -1) == sizeof point) {
         Error err = {0};
         Reply reply = {0};
         char *report = NULL;
@@ -107,13 +94,14 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
 // --- in the parent ------------------------------------------------------------------------------
 
 // The child's pid is compared with ours after the fork (be_child): a parent that died in between
-// would leave it without one.
+// would leave it without one. What streams hold is written before: the child has a copy of them.
 static bool start_worker(Pool *pool, Worker *worker, Error *err)
 {
     int ends[2] = {-1, -1};
     pid_t parent = getpid();
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
-        FAIL(err, ERROR_FILE, "cannot open a socket: %s", strerror(errno));
+        return FAULT(err, ERROR_FILE, "cannot open a socket: %s", strerror(errno));
+    fflush(NULL);
     *worker = (Worker){.process = fork(), .socket = ends[0], .point = -1};
     if (worker->process == 0) {
         close(ends[0]);
@@ -124,10 +112,9 @@ static bool start_worker(Pool *pool, Worker *worker, Error *err)
         int cause = errno;
         worker->process = 0;
         close(ends[0]);
-        FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
+        return FAULT(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Takes what a point left, or else says why it left nothing: the message of its child, or how that
@@ -139,15 +126,13 @@ static bool note_result(Pool *pool, const Worker *of, const char *said, int endi
     double seconds = clock_seconds() - of->started;
     bool left = false;
     process_describe(ending, how, sizeof how);
-    TRY(sweep_take_ended(pool->sweep, of->point, seconds, &left, err));
-    if (left) goto cleanup;
+    if (!sweep_take_ended(pool->sweep, of->point, seconds, &left, err)) return false;
+    if (left) return true;
     if (*said)
         snprintf(message, sizeof message, "%s", said);
     else
         snprintf(message, sizeof message, "the process ended %s, without a word", how);
-    TRY(sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err));
-cleanup:
-    return error_is_clean(err);
+    return sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err);
 }
 
 // Waits for the child, which ends by itself once it has nothing to read, and frees its worker. The
@@ -170,33 +155,31 @@ static bool give_point(Pool *pool, Worker *worker, Error *err)
         pool->next++;
     if (pool->next >= sweep->study.point_count) return true;
     if (worker->process && worker->given == POINTS_EACH) reap(worker);
-    if (!worker->process) TRY(start_worker(pool, worker, err));
+    if (!worker->process && !start_worker(pool, worker, err)) return false;
     worker->point = pool->next;
     pool->next += pool->step;
     worker->given++;
     worker->started = clock_seconds();
     send(worker->socket, &worker->point, sizeof worker->point, MSG_NOSIGNAL);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool fill_workers(Pool *pool, Error *err)
 {
     for (int32_t k = 0; k < pool->size; k++) {
         Worker *worker = &pool->workers[k];
-        if (!worker->process || worker->point < 0) TRY(give_point(pool, worker, err));
+        if ((!worker->process || worker->point < 0) && !give_point(pool, worker, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // *report: what follows the reply; NULL: nothing. false: the child has ended.
 static bool receive(int socket, Reply *reply, char **report, Error *err)
 {
-    if (!read_whole(socket, reply, sizeof *reply)) return false;
+    if (transfer_read(socket, reply, sizeof *reply, -1) != sizeof *reply) return false;
     if (reply->size <= 0) return true;
     *report = memory_array((int64_t)reply->size + 1, 1, err);
-    return *report && read_whole(socket, *report, (size_t)reply->size);
+    return *report && transfer_read(socket, *report, reply->size, -1) == reply->size;
 }
 
 // The next point is handed out before the result of the last is looked at.
@@ -235,9 +218,8 @@ static bool read_workers(Pool *pool, int32_t *running, Error *err)
     if (*running == 0) return true;
     if (poll(pool->polled, (nfds_t)pool->size, WAKE_MS) <= 0) return true;
     for (int32_t k = 0; k < pool->size; k++)
-        if (pool->polled[k].revents) TRY(read_worker(pool, &pool->workers[k], err));
-cleanup:
-    return error_is_clean(err);
+        if (pool->polled[k].revents && !read_worker(pool, &pool->workers[k], err)) return false;
+    return true;
 }
 
 // A point that was written before the signal came is finished like any other.

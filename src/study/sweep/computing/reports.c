@@ -23,18 +23,17 @@ bool reports_open(Reports *reports, const char *path, bool anew, Error *err)
 {
     char why[OPEN_WHY_SIZE];
     *reports = (Reports){0};
-    TRY(own_mark_check(path, err));
+    if (!own_mark_check(path, err)) return false;
     int file = open_to_write(path, OPEN_KEPT, why);
-    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+    if (file < 0) return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, why);
     fcntl(file, F_SETFL, O_APPEND);
     if (anew && ftruncate(file, 0) != 0) {
         int cause = errno;
         close(file);
-        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
+        return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
     }
     *reports = (Reports){.open = true, .file = file};
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // "hash checksum ", without a zero at its end.
@@ -95,13 +94,12 @@ bool reports_add(Reports *reports, const char *hash, const char *json, ReportPla
     if (written != length) {
         int cause = written < 0 ? errno : ENOSPC;
         bool cut = written <= 0 || ftruncate(reports->file, reports->end) == 0;
-        FAIL(err, ERROR_FILE, "cannot write the reports of points: %s%s", strerror(cause),
-             cut ? "" : ", and half a line stays");
+        return FAULT(err, ERROR_FILE, "cannot write the reports of points: %s%s", strerror(cause),
+                     cut ? "" : ", and half a line stays");
     }
     *place = (ReportPlace){reports->end + HEAD_LENGTH, (int32_t)size};
     reports->end += length;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 char *reports_read(const Reports *reports, ReportPlace place, Error *err)

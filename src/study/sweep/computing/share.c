@@ -48,18 +48,17 @@ static bool add_point(Sweep *sweep, char **line, PointMesh *mesh, Scene *scene, 
     char *hash = NULL;
     long point = strtol(*line, &hash, 10);
     if (*hash != ' ' || point < 0 || point >= sweep->study.point_count)
-        FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", sweep->study.path);
+        return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     SweepPoint *at = &sweep->points[point];
-    TRY(point_scene(sweep, (int32_t)point, scene, err));
-    TRY(point_hash(scene, mesh, at->hash, err));
+    if (!point_scene(sweep, (int32_t)point, scene, err)) return false;
+    if (!point_hash(scene, mesh, at->hash, err)) return false;
     if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
-        FAIL(err, ERROR_INPUT, "the study, its scene or a mesh was changed after the sweep began");
+        return REFUSE(err, "the study, its scene or a mesh was changed after the sweep began");
     at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, NULL, 10);
     at->same_as = (int32_t)point;
     *line = strchr(hash, '\n');
     *line = *line ? *line + 1 : hash + strlen(hash);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool read_points(Sweep *sweep, const char *path, Error *err)

@@ -62,9 +62,10 @@ static bool submit_all(SlurmRun *run, Error *err)
     int32_t limit = slurm_array_limit(&run->jobs);
     char script[POINT_PATH_SIZE], list[POINT_PATH_SIZE], name[40];
     run->array_count = (run->count + limit - 1) / limit;
-    TRY((run->arrays = NEW_ARRAY(SlurmArray, run->array_count, err)));
+    if (!(run->arrays = NEW_ARRAY(SlurmArray, run->array_count, err))) return false;
     for (int32_t k = 0; run->sweep->study.keep_table && k < run->count; k++)
-        TRY(share_write(run->sweep, k, run->waiting, run->waiting_count, run->count, err));
+        if (!share_write(run->sweep, k, run->waiting, run->waiting_count, run->count, err))
+            return false;
     for (int32_t k = 0; k < run->array_count; k++) {
         SlurmArray *array = &run->arrays[k];
         array->first = k * limit;
@@ -73,12 +74,13 @@ static bool submit_all(SlurmRun *run, Error *err)
         slurm_path(&run->jobs, name, list, sizeof list);
         snprintf(name, sizeof name, "array-%d.sh", k);
         slurm_path(&run->jobs, name, script, sizeof script);
-        TRY(elements_write(run->sweep, list, run->waiting, array->first, array->count, err));
-        TRY(slurm_write_script(script, list, err));
-        TRY(slurm_submit(&run->jobs, script, array->count, run->sweep->options, array->id, err));
+        if (!elements_write(run->sweep, list, run->waiting, array->first, array->count, err))
+            return false;
+        if (!slurm_write_script(script, list, err)) return false;
+        if (!slurm_submit(&run->jobs, script, array->count, run->sweep->options, array->id, err))
+            return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- waiting ------------------------------------------------------------------------------------
@@ -101,12 +103,11 @@ static bool look_at_queue(SlurmRun *run, bool *answered, Error *err)
 {
     SlurmLine line;
     char *rest = NULL;
-    TRY(slurm_list(&run->jobs, answered, err));
-    if (!*answered) goto cleanup;
+    if (!slurm_list(&run->jobs, answered, err)) return false;
+    if (!*answered) return true;
     for (int32_t k = 0; k < run->count; k++)
         run->elements[k].listed = run->elements[k].ended = false;
     while (slurm_next_line(&run->jobs, &rest, &line)) note_line(run, &line);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -180,15 +181,15 @@ static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, Error *err)
     Sweep *sweep = run->sweep;
     bool left = false;
     *undone = 0;
-    if (sweep->study.keep_table) TRY(share_take(sweep, k, points_note_place, &run->points, err));
+    if (sweep->study.keep_table && !share_take(sweep, k, points_note_place, &run->points, err))
+        return false;
     for (int32_t i = k; i < run->waiting_count; i += run->count) {
         int32_t point = run->waiting[i];
         if (!sweep_is_waiting(sweep, point)) continue;
-        TRY(sweep_take_ended(sweep, point, NAN, &left, err));
+        if (!sweep_take_ended(sweep, point, NAN, &left, err)) return false;
         *undone += !left;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Takes what element `k`, which has ended, came to, once it can be seen or need not be waited for.
@@ -220,20 +221,19 @@ static bool wait_for_all(SlurmRun *run, Error *err)
 {
     bool answered = false;
     while (run->left > 0) {
-        TRY(look_at_queue(run, &answered, err));
+        if (!look_at_queue(run, &answered, err)) return false;
         for (int32_t k = 0; answered && k < run->count; k++) {
             const Element *element = &run->elements[k];
             bool gone = !element->listed || element->ended;
-            if (!element->taken && gone) TRY(take_element(run, k, err));
+            if (!element->taken && gone && !take_element(run, k, err)) return false;
         }
         double until = clock_seconds() + LOOK_PAUSE;
         while (run->left > 0 && clock_seconds() < until) {
-            TRY(sweep_check_stop(run->sweep, err));
+            if (!sweep_check_stop(run->sweep, err)) return false;
             slurm_pause(STOP_PAUSE);
         }
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // A point that was written before the elements were cancelled is finished like any other.
@@ -259,13 +259,12 @@ static bool mark_running(const SlurmRun *run, Error *err)
 {
     char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
     slurm_path(&run->jobs, "", path, sizeof path);
-    TRY(folder_make(path, err));
+    if (!folder_make(path, err)) return false;
     slurm_path(&run->jobs, "running", path, sizeof path);
     int file = open_to_write(path, OPEN_KEPT, why);
-    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+    if (file < 0) return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, why);
     close(file);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool slurm_end_leftovers(const Sweep *sweep, Error *err)
@@ -293,7 +292,7 @@ static bool mean_time(const Sweep *sweep, int32_t *tried, double *mean, Error *e
         double total = 0, mesh = 0, reduce = 0;
         if (k % step != 0 || sweep->points[k].status != POINT_DONE) continue;
         char *report = point_report(sweep, k, err);
-        TRY(report);
+        if (!report) return false;
         json_find_number(report, "timing_s.total", &total);
         json_find_number(report, "timing_s.mesh", &mesh);
         json_find_number(report, "timing_s.reduce", &reduce);
@@ -302,7 +301,6 @@ static bool mean_time(const Sweep *sweep, int32_t *tried, double *mean, Error *e
         ++*tried;
     }
     *mean = *tried > 0 ? sum / *tried : SHARE_SECONDS;
-cleanup:
     return error_is_clean(err);
 }
 
@@ -311,34 +309,32 @@ static bool count_shares(const SlurmRun *run, int32_t *shares, Error *err)
 {
     double mean = 0;
     int32_t tried = 0;
-    TRY(mean_time(run->sweep, &tried, &mean, err));
+    if (!mean_time(run->sweep, &tried, &mean, err)) return false;
     *shares = (int32_t)ceil(run->waiting_count * fmin(mean / SHARE_SECONDS, 1));
     if (*shares < run->sweep->options->jobs) *shares = run->sweep->options->jobs;
     if (*shares > run->waiting_count) *shares = run->waiting_count;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool list_waiting(SlurmRun *run, Error *err)
 {
     const Sweep *sweep = run->sweep;
-    TRY((run->waiting = NEW_ARRAY(int32_t, sweep->study.point_count, err)));
+    if (!(run->waiting = NEW_ARRAY(int32_t, sweep->study.point_count, err))) return false;
     for (int32_t k = 0; k < sweep->study.point_count; k++)
         if (sweep_is_waiting(sweep, k)) run->waiting[run->waiting_count++] = k;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool list_elements(SlurmRun *run, Error *err)
 {
-    TRY(list_waiting(run, err));
+    if (!list_waiting(run, err)) return false;
     run->count = run->waiting_count;
-    if (run->sweep->study.keep_table && run->count > 0) TRY(count_shares(run, &run->count, err));
-    TRY((run->elements = NEW_ARRAY(Element, run->count, err)));
+    if (run->sweep->study.keep_table && run->count > 0 && !count_shares(run, &run->count, err))
+        return false;
+    if (!(run->elements = NEW_ARRAY(Element, run->count, err))) return false;
     for (int32_t k = 0; k < run->count; k++) run->elements[k].point = run->waiting[k];
     run->left = run->count;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // How long points take is found out here, before shares are cut: some of them, from all over.

@@ -195,13 +195,12 @@ bool slurm_list(SlurmJobs *jobs, bool *answered, Error *err)
     snprintf(name, sizeof name, "--name=%s", jobs->name);
     const char *const words[] = {"squeue", "-h", "-r",          "-t", "all",
                                  name,     "-o", "%F %K %T %r", NULL};
-    TRY(ask(jobs, words, &status, err));
+    if (!ask(jobs, words, &status, err)) return false;
     *answered = status == 0;
     jobs->silence = *answered ? 0 : jobs->silence + 1;
     if (jobs->silence > SILENCE_MAX)
-        FAIL(err, ERROR_LIBRARY, "squeue does not answer: %.1500s", jobs->answer);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "squeue does not answer: %.1500s", jobs->answer);
+    return true;
 }
 
 // Job of the array, index, state, reason; other lines are left out.
@@ -232,10 +231,9 @@ bool slurm_is_end(const char *state)
 static bool find_none_alive(SlurmJobs *jobs, const char *name, bool *none, int *status, Error *err)
 {
     const char *const words[] = {"squeue", "-h", name, "-o", "%F", NULL};
-    TRY(ask(jobs, words, status, err));
+    if (!ask(jobs, words, status, err)) return false;
     *none = *status == 0 && !jobs->answer[0];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void slurm_pause(double seconds)
@@ -253,20 +251,20 @@ bool slurm_cancel(SlurmJobs *jobs, Error *err)
     double until = clock_seconds() + CANCEL_LIMIT;
     snprintf(name, sizeof name, "--name=%s", jobs->name);
     const char *const words[] = {"scancel", name, NULL};
-    TRY(ask(jobs, words, &status, err));
-    if (status != 0) FAIL(err, ERROR_LIBRARY, "scancel fails: %.1500s", jobs->answer);
-    TRY(find_none_alive(jobs, name, &none, &status, err));
+    if (!ask(jobs, words, &status, err)) return false;
+    if (status != 0) return FAULT(err, ERROR_LIBRARY, "scancel fails: %.1500s", jobs->answer);
+    if (!find_none_alive(jobs, name, &none, &status, err)) return false;
     while (!none) {
         if (clock_seconds() > until && status != 0)
-            FAIL(err, ERROR_LIBRARY,
-                 "whether jobs called %s have ended is not known: squeue does not answer: %.1500s",
-                 jobs->name, jobs->answer);
+            return FAULT(
+                err, ERROR_LIBRARY,
+                "whether jobs called %s have ended is not known: squeue does not answer: %.1500s",
+                jobs->name, jobs->answer);
         if (clock_seconds() > until)
-            FAIL(err, ERROR_LIBRARY, "jobs called %s are still there a minute after scancel",
-                 jobs->name);
+            return FAULT(err, ERROR_LIBRARY,
+                         "jobs called %s are still there a minute after scancel", jobs->name);
         slurm_pause(CANCEL_PAUSE);
-        TRY(find_none_alive(jobs, name, &none, &status, err));
+        if (!find_none_alive(jobs, name, &none, &status, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -79,7 +79,7 @@ bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
         SweepPoint *point = &sweep->points[k];
         if (point->same_as < k) continue;
         char *report = point_report(sweep, k, err);
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
         point->status = point_status(report);
         if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
             point->status = POINT_PENDING;
@@ -91,9 +91,8 @@ bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
             point_remove(sweep, k, sweep->options->fresh);
         }
         memory_free(report);
-        TRY(error_is_clean(err));
+        if (!error_is_clean(err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -101,10 +100,9 @@ bool sweep_check_stop(const Sweep *sweep, Error *err)
 {
     const volatile sig_atomic_t *stop = sweep->options->stop;
     if (stop && *stop)
-        FAIL(err, ERROR_INTERRUPT,
-             "interrupted; the same command continues where this one stopped");
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_INTERRUPT,
+                     "interrupted; the same command continues where this one stopped");
+    return true;
 }
 
 // A point with the scene of an earlier one is not computed again.

@@ -34,13 +34,12 @@ static bool read_name(const YamlDocument *file, const WantedKey *key, StudyPlot 
 {
     bool good = true;
     snprintf(plot->name, sizeof plot->name, "%s", plot->text[PLOT_COLOR][0] ? "map" : "plot");
-    TRY(read_text(file, key, plot->name, sizeof plot->name, err));
+    if (!read_text(file, key, plot->name, sizeof plot->name, err)) return false;
     for (const char *at = plot->name; *at; at++)
         good = good && (isalnum((unsigned char)*at) || *at == '-' || *at == '_');
     if (!good || strcmp(plot->name, "ranking") == 0)
         return yaml_refuse(file, key->node, "name",
                            "a name of letters, digits, - and _, but not `ranking`", err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -66,9 +65,9 @@ static bool check_together(const YamlDocument *file, YamlNode map, const StudyPl
     bool is_map = plot->text[PLOT_COLOR][0];
     for (PlotKey key = PLOT_X; key <= PLOT_Y; key++) {
         if (plot->text[key][0]) continue;
-        yaml_error(file, map, err, "plot: `%s` must be given, as in {x: load.pressure, y: mu_M}",
-                   NAMES[key]);
-        return false;
+        return yaml_error(file, map, err,
+                          "plot: `%s` must be given, as in {x: load.pressure, y: mu_M}",
+                          NAMES[key]);
     }
     if (is_map && plot->text[PLOT_SERIES][0])
         yaml_error(file, plot->node[PLOT_SERIES], err,
@@ -88,19 +87,17 @@ bool plot_words_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Er
     int32_t log = 0;
     *plot = (StudyPlot){0};
     for (int32_t k = 0; k < KEYS; k++) keys[k] = (WantedKey){.name = NAMES[k]};
-    TRY(wanted_find(file, map, "plot", keys, KEYS, err));
+    if (!wanted_find(file, map, "plot", keys, KEYS, err)) return false;
     for (int32_t k = 0; k < PLOT_KEYS; k++) {
         plot->node[k] = keys[k].node;
-        TRY(read_text(file, &keys[k], plot->text[k], PLOT_TEXT_SIZE, err));
+        if (!read_text(file, &keys[k], plot->text[k], PLOT_TEXT_SIZE, err)) return false;
     }
-    TRY(wanted_choice(file, &keys[KEY_LOG], logs, 4, &log, err));
+    if (!wanted_choice(file, &keys[KEY_LOG], logs, 4, &log, err)) return false;
     plot->log_given = keys[KEY_LOG].node != YAML_NO_NODE;
     plot->log_x = log == 1 || log == 3;
     plot->log_y = log == 2 || log == 3;
-    TRY(read_name(file, &keys[KEY_NAME], plot, err));
-    TRY(read_with(file, &keys[KEY_WITH], plot, err));
-    TRY(read_text(file, &keys[KEY_COMPARE], plot->compare, PLOT_FOLDER_SIZE, err));
-    TRY(check_together(file, map, plot, err));
-cleanup:
-    return error_is_clean(err);
+    return read_name(file, &keys[KEY_NAME], plot, err) &&
+           read_with(file, &keys[KEY_WITH], plot, err) &&
+           read_text(file, &keys[KEY_COMPARE], plot->compare, PLOT_FOLDER_SIZE, err) &&
+           check_together(file, map, plot, err);
 }

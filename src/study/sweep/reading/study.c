@@ -31,10 +31,9 @@ bool study_add_column(Study *study, const char *key, Error *err)
 {
     if (study_column(study, key) >= 0) return true;
     if (study->column_count == STUDY_COLUMNS_MAX)
-        FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+        return REFUSE(err, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
     snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // `key` itself, or a map that it is in.
@@ -59,10 +58,9 @@ bool study_is_chosen(const Study *study, const char *key)
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err)
 {
     int32_t count = 0;
-    TRY((*values = NEW_ARRAY(YamlNode, yaml_count(document, list), err)));
+    if (!(*values = NEW_ARRAY(YamlNode, yaml_count(document, list), err))) return false;
     YAML_EACH (value, document, list) (*values)[count++] = value;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Also of one half read.

@@ -31,7 +31,7 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
     const SceneKey *keys = scene_keys(&count);
     *words = 0;
     *number = NAN;
-    if (index >= 0 && keys[index].may_lack && !scene->given[index]) return;
+    if (index >= 0 && scene_key_may_lack(&keys[index]) && !scene->given[index]) return;
     if (scene_number(scene, key, number))
         snprintf(words, (size_t)size, "%.12g", *number);
     else if (parameter)
@@ -50,11 +50,10 @@ static bool add(PointSettings *settings, const SceneSetting *setting, Error *err
     int32_t room = is_formula ? STUDY_FORMULAS_MAX : STUDY_SETTINGS_MAX;
     int32_t *count = is_formula ? &settings->formula_count : &settings->count;
     if (*count == room)
-        FAIL(err, ERROR_INPUT, "more than %d %s for a point of a study", room,
-             is_formula ? "formulas" : "settings");
+        return REFUSE(err, "more than %d %s for a point of a study", room,
+                      is_formula ? "formulas" : "settings");
     (is_formula ? settings->formulas : settings->list)[(*count)++] = *setting;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool add_map(PointSettings *settings, const YamlDocument *document, YamlNode map, Error *err)
@@ -63,10 +62,9 @@ static bool add_map(PointSettings *settings, const YamlDocument *document, YamlN
     YAML_EACH (item, document, map) {
         SceneSetting setting = {
             .key = yaml_key(document, item), .document = document, .node = item};
-        TRY(add(settings, &setting, err));
+        if (!add(settings, &setting, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // A formula of `set` that --set replaces is not worked out.
@@ -98,24 +96,22 @@ static bool gather(const Study *study, const PointChoice *choice, PointSettings 
         index[k] = point % study->axes[k].count;
         point /= study->axes[k].count;
     }
-    TRY(add_map(settings, study->standard, YAML_ROOT, err));
-    TRY(add_map(settings, study->file, study->set, err));
+    if (!add_map(settings, study->standard, YAML_ROOT, err)) return false;
+    if (!add_map(settings, study->file, study->set, err)) return false;
     drop_replaced(study, settings);
     for (int32_t k = 0; k < study->override_count; k++)
-        TRY(add(settings, &study->overrides[k], err));
+        if (!add(settings, &study->overrides[k], err)) return false;
     const StudyCase *one = choice->in_place   ? choice->in_place
                            : study->case_list ? &study->case_list[point]
                                               : NULL;
-    if (one) TRY(add_map(settings, one->document, one->map, err));
+    if (one && !add_map(settings, one->document, one->map, err)) return false;
     for (int32_t k = 0; k < study->axis_count; k++) {
         const StudyAxis *axis = &study->axes[k];
         SceneSetting setting = {
             .key = axis->key, .document = axis->document, .node = axis->values[index[k]]};
-        TRY(add(settings, &setting, err));
+        if (!add(settings, &setting, err)) return false;
     }
-    TRY(add_map(settings, study->file, choice->changes, err));
-cleanup:
-    return error_is_clean(err);
+    return add_map(settings, study->file, choice->changes, err);
 }
 
 // Formula `k` over `scene`, which gets its value.
@@ -128,12 +124,10 @@ static bool work_out(const Study *study, PointSettings *settings, int32_t k, Sce
              yaml_line(formula->document, formula->node),
              yaml_column(formula->document, formula->node),
              yaml_text(formula->document, formula->node));
-    TRY(scene_work_out(scene, formula, name, &settings->values[k], err));
+    if (!scene_work_out(scene, formula, name, &settings->values[k], err)) return false;
     SceneSetting setting = {
         .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
-    TRY(scene_source_add(study->source, &setting, scene, err));
-cleanup:
-    return error_is_clean(err);
+    return scene_source_add(study->source, &setting, scene, err);
 }
 
 // The scene is made anew after each formula: the next one may use its value.

@@ -54,18 +54,16 @@ static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_
 static bool read_scene_path(Study *study, Error *err)
 {
     char given[SCENE_TEXT_SIZE] = "";
-    TRY(read_text(study, "scene", given, err));
-    if (!*given) {
-        yaml_error(study->file, YAML_ROOT, err,
-                   "scene: must be given: the scene that is varied, as in `scene: fig1.yaml`");
-        goto cleanup;
-    }
+    if (!read_text(study, "scene", given, err)) return false;
+    if (!*given)
+        return yaml_error(
+            study->file, YAML_ROOT, err,
+            "scene: must be given: the scene that is varied, as in `scene: fig1.yaml`");
     const char *slash = strrchr(study->path, '/');
     int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
     if (snprintf(study->scene, sizeof study->scene, "%.*s%s", folder, study->path, given) >=
         (int)sizeof study->scene)
-        FAIL(err, ERROR_INPUT, "%s: the path of the scene is longer than 511 bytes", study->path);
-cleanup:
+        return REFUSE(err, "%s: the path of the scene is longer than 511 bytes", study->path);
     return error_is_clean(err);
 }
 
@@ -86,24 +84,17 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
 {
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
     if (strlen(path) >= sizeof study->path)
-        FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
+        return REFUSE(err, "%.80s...: a path of more than 511 bytes", path);
     memcpy(study->path, path, strlen(path) + 1);
-    TRY(yaml_read(path, &study->file, err));
-    if (yaml_kind(study->file, YAML_ROOT) != YAML_MAP) {
-        yaml_error(study->file, YAML_ROOT, err,
-                   "not a study: a study is a map of keys, as in `scene: fig1.yaml`");
-        goto cleanup;
-    }
-    TRY(check_keys(study, err));
-    TRY(yaml_parse("what a sweep sets", STUDY_STANDARD, 0, &study->made[0], err));
+    if (!yaml_read(path, &study->file, err)) return false;
+    if (yaml_kind(study->file, YAML_ROOT) != YAML_MAP)
+        return yaml_error(study->file, YAML_ROOT, err,
+                          "not a study: a study is a map of keys, as in `scene: fig1.yaml`");
+    if (!check_keys(study, err)) return false;
+    if (!yaml_parse("what a sweep sets", STUDY_STANDARD, 0, &study->made[0], err)) return false;
     study->standard = study->made[study->made_count++];
-    TRY(read_text(study, "title", study->title, err));
-    TRY(read_scene_path(study, err));
-    TRY(study_read_vary(study, overrides, override_count, err));
-    TRY(study_read_search(study, err));
-    TRY(study_read_wanted(study, err));
-    TRY(read_keep(study, err));
-    TRY(scene_source_open(study->scene, &study->source, err));
-cleanup:
-    return error_is_clean(err);
+    return read_text(study, "title", study->title, err) && read_scene_path(study, err) &&
+           study_read_vary(study, overrides, override_count, err) &&
+           study_read_search(study, err) && study_read_wanted(study, err) &&
+           read_keep(study, err) && scene_source_open(study->scene, &study->source, err);
 }

@@ -21,7 +21,7 @@ static bool read_key(Study *study, YamlNode item, Error *err)
     StudySearch *search = &study->search;
     SearchKey *key = &search->keys[search->key_count];
     YamlNode range = yaml_first(study->file, item);
-    TRY(study_check_key(study->file, item, err));
+    if (!study_check_key(study->file, item, err)) return false;
     snprintf(key->key, sizeof key->key, "%s", yaml_key(study->file, item));
     int32_t scale = 0;
     bool good = yaml_kind(study->file, item) == YAML_MAP && yaml_count(study->file, item) == 1;
@@ -39,14 +39,10 @@ static bool read_key(Study *study, YamlNode item, Error *err)
         (key->least != floor(key->least) || key->most != floor(key->most)))
         return yaml_refuse(study->file, range, key->key, "two whole numbers", err);
     search->key_count++;
-    if (study_is_chosen(study, key->key)) {
-        yaml_key_error(study->file, item, err, "%s: searched, and given by `vary` as well",
-                       key->key);
-        return false;
-    }
-    TRY(study_add_column(study, key->key, err));
-cleanup:
-    return error_is_clean(err);
+    if (study_is_chosen(study, key->key))
+        return yaml_key_error(study->file, item, err, "%s: searched, and given by `vary` as well",
+                              key->key);
+    return study_add_column(study, key->key, err);
 }
 
 // {value: = mesh.set.n * mesh.set.pad_height, least: 0.1, most: 0.6}
@@ -55,7 +51,7 @@ static bool read_limit(Study *study, YamlNode item, Error *err)
     WantedKey keys[] = {{.name = "value"}, {.name = "least"}, {.name = "most"}};
     SearchLimit *limit = &study->search.limits[study->search.limit_count++];
     *limit = (SearchLimit){YAML_NO_NODE, -INFINITY, INFINITY};
-    TRY(wanted_find(study->file, item, "where", keys, 3, err));
+    if (!wanted_find(study->file, item, "where", keys, 3, err)) return false;
     limit->formula = keys[0].node;
     if (limit->formula == YAML_NO_NODE || !scene_is_formula(study->file, limit->formula))
         return yaml_refuse(study->file, item, "where",
@@ -67,7 +63,6 @@ static bool read_limit(Study *study, YamlNode item, Error *err)
     if (!(limit->least <= limit->most) || (isinf(limit->least) && isinf(limit->most)))
         return yaml_refuse(study->file, item, "where", "`least`, `most`, or both, `most` not below",
                            err);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -78,8 +73,8 @@ static bool read_where(Study *study, Error *err)
     if (yaml_kind(study->file, where) != YAML_LIST ||
         yaml_count(study->file, where) > STUDY_LIMITS_MAX)
         return yaml_refuse(study->file, where, "where", "a list of at most 16 limits", err);
-    YAML_EACH (item, study->file, where) TRY(read_limit(study, item, err));
-cleanup:
+    YAML_EACH (item, study->file, where)
+        if (!read_limit(study, item, err)) return false;
     return error_is_clean(err);
 }
 
@@ -100,10 +95,9 @@ static bool read_sure(const Study *study, const WantedKey *key, double *sure, Er
     static const char *const shares[] = {"95%", "68%", "90%", "99%"};
     static const double values[] = {0.95, 0.68, 0.90, 0.99};
     int32_t choice = 0;
-    TRY(wanted_choice(study->file, key, shares, 4, &choice, err));
+    if (!wanted_choice(study->file, key, shares, 4, &choice, err)) return false;
     *sure = values[choice];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // `best`, or `fit`, which has `measured` and `sure` in place of `over`.
@@ -117,22 +111,23 @@ static bool read_goal(Study *study, Error *err)
     int32_t choice = 0;
     if (search->fits) keys[2].name = "measured";
     if (goal != YAML_NO_NODE) {
-        TRY(wanted_find(study->file, goal, search->fits ? "fit" : "best", keys,
-                        search->fits ? 4 : 3, err));
-        TRY(read_whole(study, &keys[0], STUDY_DESIGNS_MAX, &designs, err));
-        TRY(read_whole(study, &keys[1], INT32_MAX, &seed, err));
-        if (!search->fits) TRY(wanted_choice(study->file, &keys[2], over, 4, &choice, err));
+        if (!wanted_find(study->file, goal, search->fits ? "fit" : "best", keys,
+                         search->fits ? 4 : 3, err))
+            return false;
+        if (!read_whole(study, &keys[0], STUDY_DESIGNS_MAX, &designs, err)) return false;
+        if (!read_whole(study, &keys[1], INT32_MAX, &seed, err)) return false;
+        if (!search->fits && !wanted_choice(study->file, &keys[2], over, 4, &choice, err))
+            return false;
     }
     search->over = (SearchOver)choice;
     search->designs = (int32_t)designs;
     search->seed = (uint32_t)seed;
-    if (!search->fits) goto cleanup;
+    if (!search->fits) return true;
     search->measured = keys[2].node;
-    TRY(read_sure(study, &keys[3], &search->sure, err));
+    if (!read_sure(study, &keys[3], &search->sure, err)) return false;
     if (search->measured == YAML_NO_NODE)
         yaml_error(study->file, goal, err,
                    "fit: `measured` must be given: a table, as in {measured: measured.csv}");
-cleanup:
     return error_is_clean(err);
 }
 
@@ -157,8 +152,7 @@ static bool refuse_rest(const Study *study, Error *err)
     for (int32_t k = 0; k < 3; k++) {
         YamlNode node = yaml_look_up(study->file, rest[k]);
         if (node == YAML_NO_NODE) continue;
-        yaml_key_error(study->file, node, err, "%s: only of a study with `search`", rest[k]);
-        return false;
+        return yaml_key_error(study->file, node, err, "%s: only of a study with `search`", rest[k]);
     }
     return true;
 }
@@ -172,15 +166,10 @@ bool study_read_search(Study *study, Error *err)
     if (yaml_kind(study->file, search->node) != YAML_MAP || count < 1 || count > STUDY_SEARCH_MAX)
         return yaml_refuse(study->file, search->node, "search",
                            "a map of 1 to 12 keys of the scene", err);
-    if (study->cases != YAML_NO_NODE) {
-        yaml_error(study->file, study->cases, err,
-                   "cases: a study with `search` makes its own; conditions go under `vary`");
-        return false;
-    }
-    YAML_EACH (item, study->file, search->node) TRY(read_key(study, item, err));
-    TRY(read_where(study, err));
-    TRY(check_goal(study, err));
-    TRY(read_goal(study, err));
-cleanup:
-    return error_is_clean(err);
+    if (study->cases != YAML_NO_NODE)
+        return yaml_error(study->file, study->cases, err,
+                          "cases: a study with `search` makes its own; conditions go under `vary`");
+    YAML_EACH (item, study->file, search->node)
+        if (!read_key(study, item, err)) return false;
+    return read_where(study, err) && check_goal(study, err) && read_goal(study, err);
 }

@@ -26,9 +26,8 @@ static bool add_columns(Study *study, const char *key, const YamlDocument *docum
     YAML_EACH (item, document, node) {
         char path[STUDY_NAME_SIZE];
         snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        TRY(add_columns(study, path, document, item, err));
+        if (!add_columns(study, path, document, item, err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -41,10 +40,10 @@ bool study_check_key(const YamlDocument *document, YamlNode item, Error *err)
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
     else if (!is_known && nearest)
-        yaml_key_error(document, item, err,
-                       "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists "
-                       "them all)",
-                       key, nearest);
+        yaml_key_error(
+            document, item, err,
+            "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists them all)",
+            key, nearest);
     else if (!is_known)
         yaml_key_error(document, item, err,
                        "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
@@ -59,11 +58,11 @@ static bool read_set(Study *study, Error *err)
     if (yaml_kind(study->file, study->set) != YAML_MAP)
         return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
     YAML_EACH (item, study->file, study->set) {
-        TRY(study_check_key(study->file, item, err));
-        if (scene_is_formula(study->file, item))
-            TRY(study_add_column(study, yaml_key(study->file, item), err));
+        if (!study_check_key(study->file, item, err)) return false;
+        if (scene_is_formula(study->file, item) &&
+            !study_add_column(study, yaml_key(study->file, item), err))
+            return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -71,15 +70,14 @@ static bool add_case(Study *study, const YamlDocument *document, YamlNode map, E
 {
     int32_t count = study->case_list ? study->case_count : 0;   // without cases there is one point
     StudyCase *list = memory_grow(study->case_list, count, &study->case_room, sizeof *list, err);
-    TRY(list);
+    if (!list) return false;
     study->case_list = list;
     study->case_list[count] = (StudyCase){document, map};
     study->case_count = count + 1;
     YAML_EACH (item, document, map) {
-        TRY(study_check_key(document, item, err));
-        TRY(add_columns(study, yaml_key(document, item), document, item, err));
+        if (!study_check_key(document, item, err)) return false;
+        if (!add_columns(study, yaml_key(document, item), document, item, err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -91,9 +89,8 @@ static bool read_cases(Study *study, const YamlDocument *document, YamlNode case
     YAML_EACH (one, document, cases) {
         if (yaml_kind(document, one) != YAML_MAP)
             return yaml_refuse(document, one, "cases", "a map of the scene's keys", err);
-        TRY(add_case(study, document, one, err));
+        if (!add_case(study, document, one, err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -182,20 +179,19 @@ cleanup:
 static bool read_axis(Study *study, YamlNode item, Error *err)
 {
     StudyAxis *axis = &study->axes[study->axis_count];
-    TRY(study_check_key(study->file, item, err));
+    if (!study_check_key(study->file, item, err)) return false;
     snprintf(axis->key, sizeof axis->key, "%s", yaml_key(study->file, item));
     axis->document = study->file;
     axis->list = item;
     YamlKind kind = yaml_kind(study->file, item);
-    if (kind == YAML_MAP) TRY(read_range(study, item, axis, err));
+    if (kind == YAML_MAP && !read_range(study, item, axis, err)) return false;
     axis->count = yaml_count(axis->document, axis->list);
     if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
         return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
-    TRY(study_list(axis->document, axis->list, &axis->values, err));
+    if (!study_list(axis->document, axis->list, &axis->values, err)) return false;
     study->axis_count++;
     YAML_EACH (value, axis->document, axis->list)
-        TRY(add_columns(study, axis->key, axis->document, value, err));
-cleanup:
+        if (!add_columns(study, axis->key, axis->document, value, err)) return false;
     return error_is_clean(err);
 }
 
@@ -205,8 +201,8 @@ static bool read_vary(Study *study, Error *err)
     if (vary == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, vary) != YAML_MAP || yaml_count(study->file, vary) > STUDY_AXES_MAX)
         return yaml_refuse(study->file, vary, "vary", "a map of at most 16 keys of the scene", err);
-    YAML_EACH (item, study->file, vary) TRY(read_axis(study, item, err));
-cleanup:
+    YAML_EACH (item, study->file, vary)
+        if (!read_axis(study, item, err)) return false;
     return error_is_clean(err);
 }
 
@@ -243,9 +239,8 @@ static bool check_map(const Study *study, const char *what, YamlNode map, const 
         if (strcmp(what, "cases") == 0 && scene_is_formula(study->file, item) &&
             strstr(yaml_text(study->file, item), wanted))
             continue;
-        yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`", wanted,
-                       what);
-        return false;
+        return yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`",
+                              wanted, what);
     }
     return true;
 }
@@ -262,15 +257,14 @@ static bool check_twice(const Study *study, Error *err)
         for (int32_t k = 0; k < study->axis_count; k++, item = yaml_next(study->file, item)) {
             given += axis_gives(&study->axes[k], wanted);
             if (given < 2) continue;
-            yaml_key_error(study->file, item, err, "%s: varied twice", wanted);
-            return false;
+            return yaml_key_error(study->file, item, err, "%s: varied twice", wanted);
         }
         if (given == 0) continue;
-        TRY(check_map(study, "set", study->set, wanted, err));
+        if (!check_map(study, "set", study->set, wanted, err)) return false;
         if (study->cases == YAML_NO_NODE) continue;
-        YAML_EACH (one, study->file, study->cases) TRY(check_map(study, "cases", one, wanted, err));
+        YAML_EACH (one, study->file, study->cases)
+            if (!check_map(study, "cases", one, wanted, err)) return false;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -281,19 +275,18 @@ static bool read_override(Study *study, const char *text, Error *err)
     char *key = study->override_keys[study->override_count];
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || equals - text >= STUDY_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "--set %.80s: expected key=value, as in load.pressure=0.006", text);
+        return REFUSE(err, "--set %.80s: expected key=value, as in load.pressure=0.006", text);
     memcpy(key, text, (size_t)(equals - text));
     snprintf(shown, sizeof shown, "--set %s", key);
     YamlDocument **document = &study->made[study->made_count];
-    TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
+    if (!yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err)) return false;
     study->made_count++;
     for (int32_t c = 0; c < study->column_count; c++)
         if (gives(*document, key, YAML_ROOT, study->columns[c]))
-            FAIL(err, ERROR_INPUT, "--set %s: %s varies %s", key, study->path, study->columns[c]);
+            return REFUSE(err, "--set %s: %s varies %s", key, study->path, study->columns[c]);
     study->overrides[study->override_count++] =
         (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Counted in 64 bits: a product of lists overflows 32 sooner than it looks.
@@ -303,10 +296,9 @@ static bool count_points(Study *study, Error *err)
     for (int32_t k = 0; k < study->axis_count && count <= STUDY_POINTS_MAX; k++)
         count *= study->axes[k].count;
     if (count > STUDY_POINTS_MAX)
-        FAIL(err, ERROR_INPUT, "%s: more than %d points", study->path, STUDY_POINTS_MAX);
+        return REFUSE(err, "%s: more than %d points", study->path, STUDY_POINTS_MAX);
     study->point_count = (int32_t)count;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // `cases` and `vary` decide which keys are columns; --set refuses those, and is read after them;
@@ -314,35 +306,30 @@ cleanup:
 bool study_read_vary(Study *study, const char *const *overrides, int32_t override_count, Error *err)
 {
     if (override_count > STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1)
-        FAIL(err, ERROR_INPUT, "more than %d settings by --set",
-             STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1);
+        return REFUSE(err, "more than %d settings by --set",
+                      STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1);
     study->case_count = 1;
     study->cases = yaml_look_up(study->file, "cases");
-    if (study->cases != YAML_NO_NODE) TRY(read_cases(study, study->file, study->cases, err));
-    TRY(read_vary(study, err));
-    for (int32_t k = 0; k < override_count; k++) TRY(read_override(study, overrides[k], err));
-    TRY(read_set(study, err));
-    TRY(check_twice(study, err));
-    TRY(count_points(study, err));
-cleanup:
-    return error_is_clean(err);
+    if (study->cases != YAML_NO_NODE && !read_cases(study, study->file, study->cases, err))
+        return false;
+    if (!read_vary(study, err)) return false;
+    for (int32_t k = 0; k < override_count; k++)
+        if (!read_override(study, overrides[k], err)) return false;
+    return read_set(study, err) && check_twice(study, err) && count_points(study, err);
 }
 
 bool study_add_designs(Study *study, const char *text, Error *err)
 {
     int32_t count = study->design_count;
     char **texts = memory_grow(study->designs, count, &study->design_room, sizeof *texts, err);
-    TRY(texts);
+    if (!texts) return false;
     study->designs = texts;
     YamlDocument **files =
         memory_grow(study->design_files, count, &study->design_file_room, sizeof *files, err);
-    TRY(files);
+    if (!files) return false;
     study->design_files = files;
-    TRY((texts[count] = memory_text(text, err)));
+    if (!(texts[count] = memory_text(text, err))) return false;
     study->design_count++;   // half of it is freed as well
-    TRY(yaml_parse("designs of the search", text, 0, &files[count], err));
-    TRY(read_cases(study, files[count], YAML_ROOT, err));
-    TRY(count_points(study, err));
-cleanup:
-    return error_is_clean(err);
+    return yaml_parse("designs of the search", text, 0, &files[count], err) &&
+           read_cases(study, files[count], YAML_ROOT, err) && count_points(study, err);
 }

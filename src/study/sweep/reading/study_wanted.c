@@ -82,15 +82,12 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
         names[k] = KNOWN_RECORDS[k].name;
         if (strcmp(name, names[k]) == 0) path = KNOWN_RECORDS[k].path;
     }
-    if (new_name(name)) {
-        yaml_error(study->file, node, err, "%s: `%.60s` is called `%s` now", what, name,
-                   new_name(name));
-        return false;
-    }
-    if (path && study->record_count == STUDY_RECORDS_MAX) {
-        yaml_error(study->file, node, err, "%s: more than %d columns", what, STUDY_RECORDS_MAX);
-        return false;
-    }
+    if (new_name(name))
+        return yaml_error(study->file, node, err, "%s: `%.60s` is called `%s` now", what, name,
+                          new_name(name));
+    if (path && study->record_count == STUDY_RECORDS_MAX)
+        return yaml_error(study->file, node, err, "%s: more than %d columns", what,
+                          STUDY_RECORDS_MAX);
     if (path) {
         add_record(study, name, path, what, node);
         return true;
@@ -101,8 +98,8 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
                    name, names[nearest]);
     else
         yaml_error(study->file, node, err,
-                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` "
-                   "lists, or a path in run.json, as in results.mu_max",
+                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` lists, "
+                   "or a path in run.json, as in results.mu_max",
                    what, name);
     return false;
 }
@@ -144,9 +141,9 @@ static bool read_records(Study *study, Error *err)
     if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
         return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
     YAML_EACH (item, study->file, list)
-        if (!is_always_there(yaml_text(study->file, item)))
-            TRY(read_record(study, item, "record", &ignored, err));
-cleanup:
+        if (!is_always_there(yaml_text(study->file, item)) &&
+            !read_record(study, item, "record", &ignored, err))
+            return false;
     return error_is_clean(err);
 }
 
@@ -159,7 +156,7 @@ static bool read_against(Study *study, const WantedKey *key, Error *err)
     int32_t choice = 0;
     study->rank.baseline = YAML_NO_NODE;
     if (key->node == YAML_NO_NODE || yaml_kind(study->file, key->node) == YAML_SCALAR) {
-        TRY(wanted_choice(study->file, key, words, 2, &choice, err));
+        if (!wanted_choice(study->file, key, words, 2, &choice, err)) return false;
         study->rank.against = choice ? AGAINST_BEST : AGAINST_FIRST;
         return true;
     }
@@ -170,12 +167,10 @@ static bool read_against(Study *study, const WantedKey *key, Error *err)
     study->rank.baseline = key->node;
     YAML_EACH (item, study->file, key->node) {
         if (study_is_chosen(study, yaml_key(study->file, item))) continue;
-        yaml_key_error(study->file, item, err,
-                       "against: neither `vary` nor `cases` has the key `%.60s`",
-                       yaml_key(study->file, item));
-        return false;
+        return yaml_key_error(study->file, item, err,
+                              "against: neither `vary` nor `cases` has the key `%.60s`",
+                              yaml_key(study->file, item));
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -200,10 +195,9 @@ static bool read_also(Study *study, const WantedKey *also, Error *err)
     static const char *const orders[] = {"highest", "lowest"};
     StudyRank *rank = &study->rank;
     if (also->node == YAML_NO_NODE) return true;
-    if (study->search.node == YAML_NO_NODE || study->search.over != OVER_FRONT) {
-        yaml_error(study->file, also->node, err, "also: only of a search with `over: front`");
-        return false;
-    }
+    if (study->search.node == YAML_NO_NODE || study->search.over != OVER_FRONT)
+        return yaml_error(study->file, also->node, err,
+                          "also: only of a search with `over: front`");
     if (yaml_kind(study->file, also->node) != YAML_MAP ||
         yaml_count(study->file, also->node) > STUDY_ALSO_MAX)
         return yaml_refuse(study->file, also->node, "also",
@@ -213,12 +207,11 @@ static bool read_also(Study *study, const WantedKey *also, Error *err)
         StudyAim *aim = &rank->also[rank->also_count++];
         WantedKey key = {yaml_key(study->file, item), item};
         WantedName name = {key.name, "also", item};
-        TRY(wanted_choice(study->file, &key, orders, 2, &order, err));
-        TRY(find_record(study, &name, &aim->record, err));
+        if (!wanted_choice(study->file, &key, orders, 2, &order, err)) return false;
+        if (!find_record(study, &name, &aim->record, err)) return false;
         study->records[aim->record].is_shown = true;
         aim->lowest = order == 1;
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -231,18 +224,17 @@ static bool read_rank(Study *study, Error *err)
     StudyRank *rank = &study->rank;
     int32_t order = 0;
     if (yaml_look_up(study->file, "rank") == YAML_NO_NODE) return true;
-    TRY(wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 6, err));
-    if (keys[0].node == YAML_NO_NODE) {
-        yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
-                   "rank: `by` must be given, as in {by: mu_M}");
+    if (!wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 6, err))
         return false;
-    }
-    TRY(read_record(study, keys[0].node, "by", &rank->record, err));
+    if (keys[0].node == YAML_NO_NODE)
+        return yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
+                          "rank: `by` must be given, as in {by: mu_M}");
+    if (!read_record(study, keys[0].node, "by", &rank->record, err)) return false;
     study->records[rank->record].is_shown = true;
-    TRY(wanted_choice(study->file, &keys[1], orders, 2, &order, err));
-    TRY(read_against(study, &keys[3], err));
-    TRY(read_refine(study, &keys[4], err));
-    TRY(read_also(study, &keys[5], err));
+    if (!wanted_choice(study->file, &keys[1], orders, 2, &order, err)) return false;
+    if (!read_against(study, &keys[3], err)) return false;
+    if (!read_refine(study, &keys[4], err)) return false;
+    if (!read_also(study, &keys[5], err)) return false;
     double top = TOP_STANDARD;
     bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
     if (!good || top != floor(top) || top < 1 || top > TOP_MAX)
@@ -250,7 +242,6 @@ static bool read_rank(Study *study, Error *err)
     rank->wanted = true;
     rank->lowest = order == 1;
     rank->top = (int32_t)top;
-cleanup:
     return error_is_clean(err);
 }
 
@@ -274,11 +265,9 @@ static bool find_quantity(const void *context, const char *name, double *ignored
     *ignored = 1;
     wanted.name = name;
     if (study_column(study, name) >= 0) return true;
-    if (scene_key_index(name) >= 0 || scene_key_above(name, &part) >= 0) {
-        yaml_error(study->file, wanted.node, read->err, "%s: `%.60s` does not vary", wanted.what,
-                   name);
-        return false;
-    }
+    if (scene_key_index(name) >= 0 || scene_key_above(name, &part) >= 0)
+        return yaml_error(study->file, wanted.node, read->err, "%s: `%.60s` does not vary",
+                          wanted.what, name);
     if (!find_record(study, &wanted, &column, read->err)) return false;
     study->records[column].is_shown |= read->is_shown;
     return true;
@@ -295,10 +284,9 @@ static bool check_quantity(Study *study, const StudyPlot *plot, PlotKey key, Err
     double ignored = 0;
     if (text[0] != '=') return !text[0] || find_quantity(&read, text, &ignored);
     if (formula_read(text + 1, &names, &formula, &found)) return true;
-    if (error_is_clean(err))   // else it was a name
-        yaml_error(study->file, plot->node[key], err, "%s: %.200s", plot_key_name(key),
-                   found.message);
-    return false;
+    return error_is_clean(err) &&   // else it was a name
+           yaml_error(study->file, plot->node[key], err, "%s: %.200s", plot_key_name(key),
+                      found.message);
 }
 
 // What is drawn becomes a column of the table where it is none yet.
@@ -307,8 +295,9 @@ static bool read_plot(Study *study, YamlNode node, Error *err)
     if (study->plot_count == STUDY_PLOTS_MAX)
         return yaml_refuse(study->file, node, "plot", "at most 8 plots", err);
     StudyPlot *plot = &study->plots[study->plot_count];
-    TRY(plot_words_read(study->file, node, plot, err));
-    for (PlotKey key = PLOT_X; key < PLOT_SERIES; key++) TRY(check_quantity(study, plot, key, err));
+    if (!plot_words_read(study->file, node, plot, err)) return false;
+    for (PlotKey key = PLOT_X; key < PLOT_SERIES; key++)
+        if (!check_quantity(study, plot, key, err)) return false;
     for (PlotKey key = PLOT_SERIES; key < PLOT_KEYS; key++)
         if (plot->text[key][0] && study_column(study, plot->text[key]) < 0)
             return yaml_refuse(study->file, plot->node[key], plot_key_name(key),
@@ -318,7 +307,6 @@ static bool read_plot(Study *study, YamlNode node, Error *err)
             return yaml_refuse(study->file, node, "plot",
                                "a `name` that no other plot of the study has", err);
     study->plot_count++;
-cleanup:
     return error_is_clean(err);
 }
 
@@ -328,8 +316,8 @@ static bool read_plots(Study *study, Error *err)
     YamlNode plots = yaml_look_up(study->file, "plot");
     if (plots == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, plots) != YAML_LIST) return read_plot(study, plots, err);
-    YAML_EACH (node, study->file, plots) TRY(read_plot(study, node, err));
-cleanup:
+    YAML_EACH (node, study->file, plots)
+        if (!read_plot(study, node, err)) return false;
     return error_is_clean(err);
 }
 

@@ -18,11 +18,9 @@ bool wanted_find(const YamlDocument *file, YamlNode map, const char *what, Wante
     YAML_EACH (item, file, map) {
         int32_t k = 0;
         while (k < count && strcmp(yaml_key(file, item), keys[k].name) != 0) k++;
-        if (k == count) {
-            yaml_key_error(file, item, err, "%s: unknown key `%.60s`; allowed: %s", what,
-                           yaml_key(file, item), allowed);
-            return false;
-        }
+        if (k == count)
+            return yaml_key_error(file, item, err, "%s: unknown key `%.60s`; allowed: %s", what,
+                                  yaml_key(file, item), allowed);
         keys[k].node = item;
     }
     return true;

@@ -23,12 +23,11 @@ static bool find_values(const Source *source, const Quantity *key, const char *n
         while (at < values->count && values->value[at] != key->values[k]) at++;
         if (at < values->count || isnan(key->values[k])) continue;
         if (values->count == VALUES_MAX)
-            FAIL(err, ERROR_INPUT, "plot: %s has more than %d values: too many curves or panels",
-                 name, VALUES_MAX);
+            return REFUSE(err, "plot: %s has more than %d values: too many curves or panels", name,
+                          VALUES_MAX);
         values->value[values->count++] = key->values[k];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool find_quantities(Source *source, const StudyPlot *plot, Error *err)
@@ -37,13 +36,12 @@ static bool find_quantities(Source *source, const StudyPlot *plot, Error *err)
         if (!plot->text[key][0]) continue;
         source->quantity[key] =
             plot_table_find(&source->table, plot->text[key], &source->made[key], err);
-        TRY(source->quantity[key]);
+        if (!source->quantity[key]) return false;
         if (key < PLOT_SERIES && source->quantity[key]->words.count > 0)
-            FAIL(err, ERROR_INPUT,
-                 "plot: %s has words, not numbers: it can be the `series` or the `panels`",
-                 plot->text[key]);
+            return REFUSE(err,
+                          "plot: %s has words, not numbers: it can be the `series` or the `panels`",
+                          plot->text[key]);
     }
-cleanup:
     return error_is_clean(err);
 }
 
@@ -53,15 +51,14 @@ static bool find_doubts(Source *source, bool is_map, Error *err)
     PlotTable *table = &source->table;
     const Quantity *shown = source->quantity[is_map ? PLOT_COLOR : PLOT_Y];
     double unknown = 0;
-    TRY(words_index(&table->kinds, DOUBT_NO_ERROR, &unknown, err));
-    TRY(source->doubts = NEW_ARRAY(uint32_t, table->count, err));
+    if (!words_index(&table->kinds, DOUBT_NO_ERROR, &unknown, err)) return false;
+    if (!(source->doubts = NEW_ARRAY(uint32_t, table->count, err))) return false;
     for (int32_t k = 0; k < table->count; k++) {
         source->doubts[k] = (uint32_t)table->warned[k];
         if (shown->errors && isnan(shown->errors[k]))
             source->doubts[k] |= (uint32_t)1 << (int32_t)unknown;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool source_open(const char *folder, const StudyPlot *plot, Source *source, Error *err)

@@ -15,19 +15,18 @@ static bool figure_path(const Figure *figure, const char *ending, char path[AMON
 {
     if (snprintf(path, AMONTONS_PATH_SIZE, "%s/figures/%s.%s", figure->folder, figure->name,
                  ending) >= AMONTONS_PATH_SIZE)
-        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "the path of the sweep's folder is too long");
+    return true;
 }
 
 bool figure_begin(Figure *figure, Error *err)
 {
     char path[AMONTONS_PATH_SIZE], name[AMONTONS_PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
-        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
-    TRY(folder_make(path, err));
-    TRY(figure_path(figure, "json", name, err));
-    TRY((figure->json = json_create(name, err)));
+        return REFUSE(err, "the path of the sweep's folder is too long");
+    if (!folder_make(path, err)) return false;
+    if (!figure_path(figure, "json", name, err)) return false;
+    if (!(figure->json = json_create(name, err))) return false;
     json_begin_object(figure->json, NULL);
     json_text(figure->json, "title", figure->title);
     json_begin_object(figure->json, "page");   // what it shows is said where it is printed
@@ -38,8 +37,7 @@ bool figure_begin(Figure *figure, Error *err)
         json_text(figure->json, "compare", file);
     }
     json_end(figure->json);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool figure_end(Figure *figure, Error *err)
@@ -71,14 +69,13 @@ static bool store_numbers(Figure *figure, const char *key, const double *values,
                           .description = "drawn by the file of the same name"};
     snprintf(name, sizeof name, "%.12s_%d", key, figure->stored++);
     if (!figure->arrays) {
-        TRY(figure_path(figure, "h5", path, err));
-        TRY(figure->arrays = array_file_create(path, err));
+        if (!figure_path(figure, "h5", path, err)) return false;
+        if (!(figure->arrays = array_file_create(path, err))) return false;
     }
-    TRY(array_file_write(figure->arrays, &series, values, 0, count, err));
+    if (!array_file_write(figure->arrays, &series, values, 0, count, err)) return false;
     snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
     json_text(figure->json, key, place);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
@@ -124,16 +121,15 @@ bool figure_write_curve(Figure *figure, const Curve *curve, Error *err)
     JsonWriter *json = figure->json;
     json_begin_object(json, NULL);
     json_text(json, "label", curve->label);
-    TRY(figure_write_numbers(figure, "x", curve->x, curve->count, err));
-    TRY(figure_write_numbers(figure, "y", curve->y, curve->count, err));
-    if (curve->error) TRY(write_bars(figure, curve, err));
+    if (!figure_write_numbers(figure, "x", curve->x, curve->count, err)) return false;
+    if (!figure_write_numbers(figure, "y", curve->y, curve->count, err)) return false;
+    if (curve->error && !write_bars(figure, curve, err)) return false;
     json_integer(json, "color", curve->color);
     json_text(json, "marker", curve->marker ? curve->marker : "none");
     json_boolean(json, "filled", curve->filled);
     json_text(json, "line", curve->line);
     json_end(json);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
@@ -171,8 +167,7 @@ bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts,
     Curve bare = {.label = map ? DOUBT_NO_ERROR : "without a bar: " DOUBT_NO_ERROR,
                   .line = "none",
                   .marker = map ? "square" : NULL};
-    if (shown > 0) TRY(figure_write_entry(figure, &entry, err));
-    if (doubts & no_error) TRY(figure_write_entry(figure, &bare, err));
-cleanup:
-    return error_is_clean(err);
+    if (shown > 0 && !figure_write_entry(figure, &entry, err)) return false;
+    if (doubts & no_error && !figure_write_entry(figure, &bare, err)) return false;
+    return true;
 }

@@ -39,9 +39,8 @@ static bool folder_of(const char *beside, const char *given, char folder[AMONTON
     int length = slash && given[0] != '/' ? (int)(slash - beside) + 1 : 0;
     if (snprintf(folder, AMONTONS_PATH_SIZE, "%.*s%s", length, length ? beside : "", given) >=
         AMONTONS_PATH_SIZE)
-        FAIL(err, ERROR_INPUT, "plot: the path %.60s is too long", given);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "plot: the path %.60s is too long", given);
+    return true;
 }
 
 // Bits of the sweep's own names become those of all sweeps' names.
@@ -50,7 +49,7 @@ static bool join_doubts(PlotFigure *self, Source *source, Error *err)
     double place[DOUBTS_MAX] = {0};
     const WordList *kinds = &source->table.kinds;
     for (int32_t k = 0; k < kinds->count && k < DOUBTS_MAX; k++) {
-        TRY(words_index(&self->doubts, kinds->words[k], &place[k], err));
+        if (!words_index(&self->doubts, kinds->words[k], &place[k], err)) return false;
         place[k] = fmin(place[k], DOUBTS_MAX - 1);
     }
     for (int32_t point = 0; point < source->table.count; point++) {
@@ -59,8 +58,7 @@ static bool join_doubts(PlotFigure *self, Source *source, Error *err)
         for (int32_t k = 0; k < kinds->count && k < DOUBTS_MAX; k++)
             if (bits >> k & 1) source->doubts[point] |= (uint32_t)1 << (int32_t)place[k];
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The title of its study; where another sweep has the same, its folder.
@@ -100,36 +98,34 @@ static bool add_labels(PlotFigure *self, const Source *source, Error *err)
     double ignored = 0;
     for (int32_t k = 0; k < source->panels.count; k++) {
         panel_label(self, source, k, label);
-        TRY(words_index(&self->panels, label, &ignored, err));
+        if (!words_index(&self->panels, label, &ignored, err)) return false;
     }
     for (int32_t k = 0; k < source->series.count; k++) {
         values_label(&source->series, k, self->plot->text[PLOT_SERIES], label);
-        TRY(words_index(&self->curves, label, &ignored, err));
+        if (!words_index(&self->curves, label, &ignored, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool open_sources(PlotFigure *self, const char *folder, const char *beside, Error *err)
 {
     int32_t largest = 0, curves = 0;
-    TRY(self->sources = NEW_ARRAY(Source, SOURCES_MAX, err));
+    if (!(self->sources = NEW_ARRAY(Source, SOURCES_MAX, err))) return false;
     self->source_count = 1 + self->plot->with_count;
     for (int32_t k = 0; k < self->source_count; k++) {
         char path[AMONTONS_PATH_SIZE];
         Source *source = &self->sources[k];
-        if (k > 0) TRY(folder_of(beside, self->plot->with[k - 1], path, err));
-        TRY(source_open(k > 0 ? path : folder, self->plot, source, err));
-        TRY(join_doubts(self, source, err));
+        if (k > 0 && !folder_of(beside, self->plot->with[k - 1], path, err)) return false;
+        if (!source_open(k > 0 ? path : folder, self->plot, source, err)) return false;
+        if (!join_doubts(self, source, err)) return false;
         if (source->table.count > largest) largest = source->table.count;
         curves += source->series.count;
     }
-    for (int32_t k = 0; k < self->source_count; k++) TRY(add_labels(self, &self->sources[k], err));
+    for (int32_t k = 0; k < self->source_count; k++)
+        if (!add_labels(self, &self->sources[k], err)) return false;
     if (!self->is_map && curves > CURVES_MAX)
-        FAIL(err, ERROR_INPUT, "plot: %d curves: more than %d are too many", curves, CURVES_MAX);
-    TRY(self->work = NEW_ARRAY(double, 6 * (int64_t)largest, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "plot: %d curves: more than %d are too many", curves, CURVES_MAX);
+    return (self->work = NEW_ARRAY(double, 6 * (int64_t)largest, err)) != NULL;
 }
 
 // --- curves -------------------------------------------------------------------------------------
@@ -175,7 +171,7 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
     curve.x = x;
     curve.y = y;
     curve.error = error;
-    TRY(figure_write_curve(&self->figure, &curve, err));
+    if (!figure_write_curve(&self->figure, &curve, err)) return false;
     self->found |= found;
     if (warned) {
         curve.label = "";
@@ -183,10 +179,9 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
         curve.filled = false;
         curve.y = open;
         curve.error = NULL;
-        TRY(figure_write_curve(&self->figure, &curve, err));
+        if (!figure_write_curve(&self->figure, &curve, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Colours and marks tell curves apart, for print in grey too. Where there are several sweeps
@@ -240,10 +235,9 @@ static bool write_curve_entries(PlotFigure *self, Error *err)
             char label[GROUP_LABEL_SIZE];
             curve_label(self, &self->sources[s], k, label);
             Curve curve = curve_style(self, s, k, label);
-            if (label[0]) TRY(figure_write_entry(&self->figure, &curve, err));
+            if (label[0] && !figure_write_entry(&self->figure, &curve, err)) return false;
         }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- maps ---------------------------------------------------------------------------------------
@@ -299,16 +293,15 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
         if (has_value) self->found |= doubts & ~no_error ? doubts & ~no_error : doubts;
         self->some_missing |= !has_value;
     }
-    TRY(check_places(self, x, y, count, err));
+    if (!check_places(self, x, y, count, err)) return false;
     json_begin_object(self->figure.json, "map");
-    TRY(figure_write_numbers(&self->figure, "x", x, count, err));
-    TRY(figure_write_numbers(&self->figure, "y", y, count, err));
-    TRY(figure_write_numbers(&self->figure, "value", value, count, err));
-    TRY(figure_write_numbers(&self->figure, "open", open, count, err));
-    if (lines) TRY(figure_write_numbers(&self->figure, "contour", contour, count, err));
+    if (!figure_write_numbers(&self->figure, "x", x, count, err)) return false;
+    if (!figure_write_numbers(&self->figure, "y", y, count, err)) return false;
+    if (!figure_write_numbers(&self->figure, "value", value, count, err)) return false;
+    if (!figure_write_numbers(&self->figure, "open", open, count, err)) return false;
+    if (lines && !figure_write_numbers(&self->figure, "contour", contour, count, err)) return false;
     json_end(self->figure.json);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Those of the panel called `panel`: one.
@@ -318,10 +311,10 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
         for (int32_t p = 0; p < self->sources[s].panels.count; p++) {
             char label[GROUP_LABEL_SIZE];
             panel_label(self, &self->sources[s], p, label);
-            if (strcmp(label, panel) == 0) TRY(write_map(self, &self->sources[s], p, err));
+            if (strcmp(label, panel) == 0 && !write_map(self, &self->sources[s], p, err))
+                return false;
         }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool write_map_entries(PlotFigure *self, Error *err)
@@ -330,13 +323,11 @@ static bool write_map_entries(PlotFigure *self, Error *err)
     char label[QUANTITY_LABEL_SIZE + 8];
     if (quantity[PLOT_CONTOURS]) {
         Curve line = {.label = quantity[PLOT_CONTOURS]->label.words, .line = "solid"};
-        TRY(figure_write_entry(&self->figure, &line, err));
+        if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
     snprintf(label, sizeof label, "no %s", quantity[PLOT_COLOR]->label.words);
     Curve missing = {.label = label, .line = "none", .marker = "cross"};
-    if (self->some_missing) TRY(figure_write_entry(&self->figure, &missing, err));
-cleanup:
-    return error_is_clean(err);
+    return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
 }
 
 // --- the whole ----------------------------------------------------------------------------------
@@ -348,8 +339,9 @@ static bool write_axes(PlotFigure *self, Error *err)
     bool is_log[2] = {plot->log_x, plot->log_y};
     for (PlotKey key = PLOT_X; key <= PLOT_Y; key++) {
         const Quantity *quantity = source->quantity[key];
-        if (self->is_map && !plot->log_given)
-            TRY(values_suit_log(quantity->values, source->table.count, &is_log[key], err));
+        if (self->is_map && !plot->log_given &&
+            !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
+            return false;
         QuantityLabel label = quantity->label;
         label.column = plot->text[key] + strspn(plot->text[key], "= ");
         figure_write_axis(&self->figure, plot_key_name(key), &label,
@@ -359,8 +351,7 @@ static bool write_axes(PlotFigure *self, Error *err)
         figure_write_axis(&self->figure, "color", &source->quantity[PLOT_COLOR]->label, NULL);
     if (source->quantity[PLOT_CONTOURS])
         figure_write_axis(&self->figure, "contours", &source->quantity[PLOT_CONTOURS]->label, NULL);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool write_panels(PlotFigure *self, Error *err)
@@ -372,17 +363,16 @@ static bool write_panels(PlotFigure *self, Error *err)
         json_begin_object(json, NULL);
         json_text(json, "title", panel);
         if (self->is_map) {
-            TRY(write_maps(self, panel, err));
+            if (!write_maps(self, panel, err)) return false;
         } else {
             json_begin_list(json, "series");
-            TRY(write_curves(self, panel, false, err));
+            if (!write_curves(self, panel, false, err)) return false;
             json_end(json);
         }
         json_end(json);
     }
     json_end(json);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool write_figure(PlotFigure *self, Error *err)

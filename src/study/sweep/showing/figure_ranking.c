@@ -42,7 +42,7 @@ static bool write_names(RankingFigure *self, Error *err)
     json_begin_list(json, "names");
     for (int32_t k = self->shown - 1; k >= 0; k--) {
         char name[NAME_SIZE] = "";
-        TRY(point_scene(self->sweep, self->ranking->rows[k].point, self->scene, err));
+        if (!point_scene(self->sweep, self->ranking->rows[k].point, self->scene, err)) return false;
         for (int32_t c = 0; c < study->column_count; c++) {
             if (!study_is_chosen(study, study->columns[c])) continue;
             study_scene_value(self->scene, study->columns[c], cell, sizeof cell, &ignored);
@@ -56,8 +56,7 @@ static bool write_names(RankingFigure *self, Error *err)
             join(label, sizeof label, label_of_key(study->columns[c], false).words);
     json_text(json, "label", label);
     json_end(json);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Marks and bars of all rows, or open marks of those that are doubtful.
@@ -101,9 +100,9 @@ static bool write_baseline(RankingFigure *self, Error *err)
 static bool find_doubts(RankingFigure *self, const SweepTable *table, Error *err)
 {
     double unknown = 0;
-    TRY(self->bits = NEW_ARRAY(double, table->warned.all, err));
-    TRY(warned_bits(&table->warned, &self->doubts, self->bits, err));
-    TRY(words_index(&self->doubts, DOUBT_NO_ERROR, &unknown, err));
+    if (!(self->bits = NEW_ARRAY(double, table->warned.all, err))) return false;
+    if (!warned_bits(&table->warned, &self->doubts, self->bits, err)) return false;
+    if (!words_index(&self->doubts, DOUBT_NO_ERROR, &unknown, err)) return false;
     for (int32_t k = 0; k < self->shown; k++) {
         const RankRow *row = &self->ranking->rows[k];
         uint32_t bits = (uint32_t)self->bits[row->point];
@@ -111,27 +110,25 @@ static bool find_doubts(RankingFigure *self, const SweepTable *table, Error *err
         self->bits[row->point] = bits;
         self->found |= bits;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool write_figure(RankingFigure *self, Error *err)
 {
     const Study *study = &self->sweep->study;
     QuantityLabel label = label_of_record(study->records[study->rank.record].name);
-    TRY(figure_begin(&self->figure, err));
+    if (!figure_begin(&self->figure, err)) return false;
     JsonWriter *json = self->figure.json;
     json_number(json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * self->shown));
     figure_write_axis(&self->figure, "x", &label, "linear");
-    TRY(write_names(self, err));
+    if (!write_names(self, err)) return false;
     json_begin_list(json, "series");
-    TRY(write_baseline(self, err));
-    TRY(write_marks(self, false, err));
-    if (self->found) TRY(write_marks(self, true, err));
-    TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, false, err));
+    if (!write_baseline(self, err)) return false;
+    if (!write_marks(self, false, err)) return false;
+    if (self->found && !write_marks(self, true, err)) return false;
+    if (!figure_write_doubts(&self->figure, &self->doubts, self->found, false, err)) return false;
     json_end(json);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Nothing is drawn where no point has a value.

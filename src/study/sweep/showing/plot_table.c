@@ -36,12 +36,11 @@ static bool read_values(PlotTable *table, const char *name, double **values, Err
     int64_t rows = 0;
     int32_t width = 0;
     if (!array_file_has(table->file, name)) return true;
-    TRY(array_file_read(table->file, name, values, &rows, &width, err));
+    if (!array_file_read(table->file, name, values, &rows, &width, err)) return false;
     if (width != 1 || rows > INT32_MAX || (table->count > 0 && rows != table->count))
-        FAIL(err, ERROR_FILE, "%s: `%s` has not one number a point", table->path, name);
+        return FAULT(err, ERROR_FILE, "%s: `%s` has not one number a point", table->path, name);
     table->count = (int32_t)rows;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void take_title(PlotTable *table, const char *folder)
@@ -59,21 +58,19 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
     Error missing = {0};
     *table = (PlotTable){0};
     if (snprintf(table->path, sizeof table->path, "%s/sweep.h5", folder) >= (int)sizeof table->path)
-        FAIL(err, ERROR_INPUT, "the path of the sweep is too long");
+        return REFUSE(err, "the path of the sweep is too long");
     if (access(table->path, R_OK) != 0)
-        FAIL(err, ERROR_INPUT, "%s: there is no sweep.h5 in it: no sweep has ended there", folder);
-    TRY(table->file = array_file_open(table->path, err));
+        return REFUSE(err, "%s: there is no sweep.h5 in it: no sweep has ended there", folder);
+    if (!(table->file = array_file_open(table->path, err))) return false;
     take_title(table, folder);
-    TRY(read_values(table, "result/warned", &table->warned, err));
+    if (!read_values(table, "result/warned", &table->warned, err)) return false;
     if (!table->warned || !array_file_get_text(table->file, "units", units, sizeof units, &missing))
-        FAIL(err, ERROR_INPUT,
-             "%s was written by an earlier version: `amontons sweep` on its study writes it anew, "
-             "and computes nothing again",
-             table->path);
+        return REFUSE(err,
+                      "%s was written by an earlier version: `amontons sweep` on its study writes "
+                      "it anew, and computes nothing again",
+                      table->path);
     table->is_si = strcmp(units, "si") == 0;
-    TRY(read_words(table, "warned words", &table->kinds, err));
-cleanup:
-    return error_is_clean(err);
+    return read_words(table, "warned words", &table->kinds, err);
 }
 
 void quantity_destroy(Quantity *quantity)
@@ -121,28 +118,26 @@ static bool read_column(PlotTable *table, const char *name, Quantity *column, Er
 {
     char place[STUDY_NAME_SIZE + 32];
     snprintf(place, sizeof place, "scene/%.95s", name);
-    TRY(read_values(table, place, &column->values, err));
+    if (!read_values(table, place, &column->values, err)) return false;
     column->is_key = column->values != NULL;
     if (column->is_key) {
         column->label = label_of_key(name, table->is_si);
         snprintf(place, sizeof place, "%.95s words", name);
-        TRY(read_words(table, place, &column->words, err));
+        if (!read_words(table, place, &column->words, err)) return false;
         return true;
     }
     snprintf(place, sizeof place, "result/%.95s", name);
-    TRY(read_values(table, place, &column->values, err));
+    if (!read_values(table, place, &column->values, err)) return false;
     if (!column->values) {
         refuse_name(table, name, err);
         return false;
     }
     column->label = label_of_record(name);
     snprintf(place, sizeof place, "result/%.80s_known_to", name);
-    TRY(read_values(table, place, &column->errors, err));
+    if (!read_values(table, place, &column->errors, err)) return false;
     if (column->errors) return true;
     snprintf(place, sizeof place, "result/%.80s_error", name);
-    TRY(read_values(table, place, &column->errors, err));
-cleanup:
-    return error_is_clean(err);
+    return read_values(table, place, &column->errors, err);
 }
 
 // NULL: there is none, and the error says so.
@@ -206,7 +201,7 @@ static void formula_label(const char *text, bool is_si, char *words, size_t size
 
 static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *err)
 {
-    TRY(made->values = NEW_ARRAY(double, table->count, err));
+    if (!(made->values = NEW_ARRAY(double, table->count, err))) return false;
     for (int32_t k = 0; k < table->count; k++) {
         FormulaPoint at = {table, k, err};
         FormulaNames names = {.look_up = value_of, .context = &at, .unknown = "is no column"};
@@ -216,12 +211,11 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
         if (!formula_read(text, &names, &formula, &wrong)) {
             if (error_is_clean(err)) *err = wrong;
             error_context(err, "= %.100s", text);
-            goto cleanup;
+            return false;
         }
         made->values[k] = formula_at(&formula, 0, &ignored);
     }
     formula_label(text, table->is_si, made->label.words, sizeof made->label.words);
-cleanup:
     return error_is_clean(err);
 }
 

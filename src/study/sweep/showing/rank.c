@@ -156,7 +156,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     double sign = study->rank.lowest ? -1 : 1;
     *ranking =
         (Ranking){.count = study->point_count, .has_error = table->has_error[study->rank.record]};
-    TRY((ranking->rows = NEW_ARRAY(RankRow, study->point_count, err)));
+    if (!(ranking->rows = NEW_ARRAY(RankRow, study->point_count, err))) return false;
     look_at_refined(sweep, ranking);
     for (int32_t k = 0; k < ranking->count; k++) {
         ranking->rows[k] = row_of(sweep, table, ranking, k);
@@ -164,15 +164,14 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
         ranking->ranked += !isnan(ranking->rows[k].value);
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
-    if (ranking->has_error) TRY(find_places(ranking, err));
+    if (ranking->has_error && !find_places(ranking, err)) return false;
     int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
     ranking->base = base < 0 ? (double)NAN : table_values(sweep, table, study->rank.record)[base];
     for (int32_t k = 0; k < ranking->count; k++) {
         ranking->rows[k].value *= sign;
         find_gain(sweep, table, ranking, &ranking->rows[k]);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Zeroed is fine.

@@ -137,11 +137,10 @@ static bool write_keys(TableWriter *writer, int32_t point, const Scene *scene, E
         study_scene_value(scene, study->columns[k], writer->cell, CELL_SIZE, &number);
         csv_text(writer->csv, writer->cell);
         WordList *words = &writer->table->words[k];
-        if (isnan(number)) TRY(words_index(words, writer->cell, &number, err));
+        if (isnan(number) && !words_index(words, writer->cell, &number, err)) return false;
         writer->table->keys[k * study->point_count + point] = number;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static const char STEADY[] = "steady sliding";   // results.mu_M_is of a block that only creeps
@@ -330,41 +329,40 @@ cleanup:
 static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile *file, Error *err)
 {
     int32_t count = study->point_count;
-    TRY(array_file_set_text(file, "title", study->title, err));
-    TRY(array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err));
-    TRY(write_names(study, file, err));
+    if (!array_file_set_text(file, "title", study->title, err)) return false;
+    if (!array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err)) return false;
+    if (!write_names(study, file, err)) return false;
     char name[STUDY_NAME_SIZE + 16];
     for (int32_t k = 0; k < study->column_count; k++) {
         ArraySeries series = {.name = name,
                               .description = "key of the scene; a word is its index "
                                              "in the attribute `KEY words`"};
         snprintf(name, sizeof name, "scene/%s", study->columns[k]);
-        TRY(write_column(file, series, &table->keys[k * count], count, err));
-        TRY(write_words(file, study->columns[k], &table->words[k], err));
+        if (!write_column(file, series, &table->keys[k * count], count, err)) return false;
+        if (!write_words(file, study->columns[k], &table->words[k], err)) return false;
     }
     for (int32_t k = 0; k < study->record_count; k++) {
         ArraySeries series = {.name = name, .description = study->records[k].path};
         snprintf(name, sizeof name, "result/%s", study->records[k].name);
-        TRY(write_column(file, series, &table->records[k * count], count, err));
+        if (!write_column(file, series, &table->records[k * count], count, err)) return false;
         Beside besides[BESIDES];
         find_besides(table, besides);
         for (int32_t b = 0; b < BESIDES; b++) {
             if (!is_added(study, &besides[b], k)) continue;
             snprintf(name, sizeof name, "result/%s_%s", study->records[k].name, besides[b].ending);
             series.description = besides[b].description;
-            TRY(write_column(file, series, &besides[b].values[k * count], count, err));
+            if (!write_column(file, series, &besides[b].values[k * count], count, err))
+                return false;
         }
     }
     ArraySeries status = {.name = "result/status", .description = "0 pending, 1 done, 2 failed"};
-    TRY(write_column(file, status, table->status, count, err));
+    if (!write_column(file, status, table->status, count, err)) return false;
     ArraySeries warnings = {.name = "result/warnings",
                             .description = "0 none; else an index in the attribute "
                                            "`warnings words`"};
-    TRY(write_column(file, warnings, table->warnings, count, err));
-    TRY(write_words(file, "warnings", &table->warning_words, err));
-    TRY(write_warned(table, count, file, err));
-cleanup:
-    return error_is_clean(err);
+    return write_column(file, warnings, table->warnings, count, err) &&
+           write_words(file, "warnings", &table->warning_words, err) &&
+           write_warned(table, count, file, err);
 }
 
 // Written after sweep.csv: the arrays are filled by its rows.
@@ -386,18 +384,16 @@ static bool make_room(const Study *study, SweepTable *table, Error *err)
 {
     int64_t count = study->point_count;
     double none = 0;
-    TRY((table->keys = NEW_ARRAY(double, count * study->column_count, err)));
-    TRY((table->records = NEW_ARRAY(double, count * study->record_count, err)));
-    TRY((table->status = NEW_ARRAY(double, count, err)));
-    TRY((table->errors = NEW_ARRAY(double, count * study->record_count, err)));
-    TRY((table->known_to = NEW_ARRAY(double, count * study->record_count, err)));
-    TRY((table->warnings = NEW_ARRAY(double, count, err)));
+    if (!(table->keys = NEW_ARRAY(double, count * study->column_count, err))) return false;
+    if (!(table->records = NEW_ARRAY(double, count * study->record_count, err))) return false;
+    if (!(table->status = NEW_ARRAY(double, count, err))) return false;
+    if (!(table->errors = NEW_ARRAY(double, count * study->record_count, err))) return false;
+    if (!(table->known_to = NEW_ARRAY(double, count * study->record_count, err))) return false;
+    if (!(table->warnings = NEW_ARRAY(double, count, err))) return false;
     table->column_count = study->column_count;
-    TRY((table->words = NEW_ARRAY(WordList, study->column_count, err)));
-    TRY(warned_make(study->point_count, &table->warned, err));
-    TRY(words_index(&table->warning_words, "", &none, err));
-cleanup:
-    return error_is_clean(err);
+    return (table->words = NEW_ARRAY(WordList, study->column_count, err)) &&
+           warned_make(study->point_count, &table->warned, err) &&
+           words_index(&table->warning_words, "", &none, err);
 }
 
 // Both files get their names when they are complete; an older table is kept until then.

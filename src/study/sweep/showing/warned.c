@@ -95,7 +95,7 @@ bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err
     for (int32_t k = 0; k < warned->count; k++) {
         char name[WARNED_NAME_SIZE];
         warned_name(warned, k, name);
-        TRY(words_index(names, name, &place[k], err));
+        if (!words_index(names, name, &place[k], err)) return false;
     }
     for (int32_t point = 0; point < warned->all; point++) {
         uint32_t found = 0;
@@ -103,8 +103,7 @@ bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err
             if (warned->of[point] >> k & 1) found |= (uint32_t)1 << (int32_t)place[k];
         bits[point] = found;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- on the terminal ----------------------------------------------------------------------------

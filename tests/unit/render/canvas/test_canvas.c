@@ -151,6 +151,26 @@ TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
     memory_free(pixels);
 }
 
+// The rows that are shown are listed: the last one twice as high as the middle one, the first one
+// not at all. What has no value leaves the page as it is.
+TEST_BETWEEN(rows_are_shown_as_listed, canvas_begin, canvas_end)
+{
+    uint8_t map[3 * MAP_SIZE];
+    const float values[6] = {0.5f, 0.5f, 0, HEAT_MISSING, 0.2f, 0.4f};
+    const int32_t shown[3] = {2, 2, 1};
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
+    canvas_set_map(canvas, map, BLACK);
+    canvas_heat(canvas, &(Box){40, 60, 80, 120}, &(HeatMap){2, 3, values, shown, 3});
+    uint8_t *pixels = pixels_read();
+    for (int32_t y = 60; y < 120; ++y)
+        for (int32_t x = 40; x < 80; ++x) {
+            int32_t low = y < 100 ? 51 : 0, right = y < 100 ? 102 : 255;
+            assert_int_equal(pixels[3 * (y * SIZE + x)], x < 60 ? low : right);
+        }
+    assert_int_equal(pixels[3 * (59 * SIZE + 50)], 255);
+    memory_free(pixels);
+}
+
 TEST_BETWEEN(a_heat_map_too_large_is_reported, canvas_begin, canvas_end)
 {
     Error err = {0};

@@ -70,26 +70,6 @@ static void draw_values(GlSource source)
     for (int32_t k = WIDTH; k < STRIDE; ++k) assert_int_equal(pixels[k], UNTOUCHED);
 }
 
-// Values are stretched over the pixels; the rows that are shown are listed: the last one twice as
-// high as the middle one, the first one not at all.
-static void draw_rows(GlSource source)
-{
-    Error err = {0};
-    GlImageDef def = image_def();
-    const float values[6] = {0.5F, 0.5F, 0, 0.1F, 0.2F, 0.3F};
-    const int32_t shown[3] = {2, 2, 1};
-    def.values = values;
-    def.columns = 2;
-    def.rows = 3;
-    def.row_shown = shown;
-    def.shown_count = 3;
-    assert_true(gl_image_draw(source, &def, pixels, &err));
-    for (int32_t row = 0; row < HEIGHT; ++row)
-        for (int32_t column = 0; column < WIDTH; ++column)
-            assert_int_equal(pixels[row * STRIDE + column],
-                             FIRST + (row < 20 ? 20 : 0) + (column < 20 ? 0 : 10));
-}
-
 // value = x / 40 + y / 60 - 0.2 over the half of the image left of its diagonal: from -0.2, drawn
 // as 0, to 0.8.
 static void draw_triangle(GlSource source)
@@ -115,7 +95,6 @@ static void osmesa_draws(void **state)
     (void)state;
     draw_values(GL_OSMESA);
     draw_triangle(GL_OSMESA);
-    draw_rows(GL_OSMESA);
 }
 
 static void egl_draws_without_a_surface(void **state)
@@ -124,7 +103,6 @@ static void egl_draws_without_a_surface(void **state)
     skip_without(GL_EGL);
     draw_triangle(GL_EGL);
     draw_values(GL_EGL);
-    draw_rows(GL_EGL);
 }
 
 // A process that is forked after images does not wait for ever for threads that are not there: it

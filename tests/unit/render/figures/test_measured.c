@@ -34,7 +34,7 @@ static bool take(const char *text, MeasuredKind kind, Measured *measured, Error 
     assert_non_null(file);
     fputs(text, file);
     fclose(file);
-    const ComputedCurve curve = {3, U, kind == MEASURED_MU ? mu : front};
+    const ViewCurve curve = {3, U, kind == MEASURED_MU ? mu : front};
     if (!measured_read(path, kind, &view, measured, err)) return false;
     measured_compare(measured, &view, computed_on_curve, &curve);
     return true;
@@ -109,8 +109,8 @@ TEST(columns_say_what_was_measured)
 // By hand: between rows half-way, at both ends, beyond them; where a curve stands still its end.
 TEST(a_curve_is_linear_between_its_points)
 {
-    const double at[5] = {0, 1, 1, 1, 3}, value[5] = {0, 2, 5, 6, 10};
-    const ComputedCurve curve = {5, at, value};
+    double at[5] = {0, 1, 1, 1, 3}, value[5] = {0, 2, 5, 6, 10};
+    const ViewCurve curve = {5, at, value};
     assert_float_equal(curve_value(&curve, 0), 0, 1e-15);
     assert_float_equal(curve_value(&curve, 0.5), 1, 1e-15);
     assert_float_equal(curve_value(&curve, 1), 6, 1e-15);

@@ -29,8 +29,8 @@ TEST(test_between_steps)
     assert_int_equal(now.row, 1);
     assert_near("U", now.U, 1.05, 1e-12);
     assert_near("mu", now.mu, 0.25, 1e-12);
-    assert_near("slip rate", film_slip_rate(&view, &now, 0), 2 + 0.25 * 48, 1e-12);
-    assert_near("slip rate", film_slip_rate(&view, &now, 1), 3 + 0.25 * 57, 1e-12);
+    assert_near("slip rate", film_value(&now, view.slip_rate, 2, 0), 2 + 0.25 * 48, 1e-12);
+    assert_near("slip rate", film_value(&now, view.slip_rate, 2, 1), 3 + 0.25 * 57, 1e-12);
     assert_int_equal(film_nearest_row(&now), 1);
     now = film_moment(&view, 11.5);
     assert_int_equal(film_nearest_row(&now), 2);

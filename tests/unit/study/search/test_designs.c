@@ -125,6 +125,33 @@ TEST_BETWEEN(test_the_best, begin, end)
     assert_int_equal(designs_find(designs, x[2]), -1);
 }
 
+// 0.32 +- 0.04, 0.30 +- 0.01, 0.285 +- 0.1, and 0.40 of which no bar is known. The highest for sure
+// is the second (0.29); with a smaller bar the first might be it. Of the lowest: sure of 0.36,
+// 0.31, 0.385, 0.80; the third might be it, at 0.285.
+TEST_BETWEEN(test_the_best_is_sure, begin, end)
+{
+    Designs *designs = *state;
+    static const double values[] = {0.32, 0.30, 0.285, 0.40}, bars[] = {0.04, 0.01, 0.1, NAN};
+    static const bool lead[2][4] = {{true, true, false, true}, {false, true, true, false}};
+    double x[] = {1, 0.1};
+    for (int32_t d = 0; d < 4; d++) {
+        designs_add(designs, x, d);
+        for (int32_t c = 0; c < 2; c++)
+            designs_points(designs, d)[c] =
+                (DesignPoint){values[d], bars[d], .has_bar = !isnan(bars[d])};
+        designs_judge(designs, d);
+    }
+    for (int32_t lowest = 0; lowest < 2; lowest++) {
+        designs->lowest = lowest;
+        assert_int_equal(designs_best(designs), 1);
+        for (int32_t d = 0; d < 4; d++)
+            assert_int_equal(designs_may_lead(designs, 1, d), lead[lowest][d]);
+    }
+    assert_near("without a bar", design_sure(designs, &designs->list[3]), 0.80, 1e-15);
+    designs->has_bars = false;
+    assert_near("no bars at all", design_sure(designs, &designs->list[0]), 0.32, 0);
+}
+
 TEST_BETWEEN(test_written, begin, end)
 {
     Designs *designs = *state;

@@ -57,6 +57,6 @@ TEST(test_critical_spring)
                           .slip_distance = 2e-3},
          laws);
     assert_true(isnan(stability_critical_spring(&rig.path, 0, 4)));
-    rig.path.laws = NULL;
+    rig.model.law.remembers = false;
     assert_true(isnan(stability_critical_spring(&rig.path, 0, 4)));
 }
