@@ -104,8 +104,7 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
                       MeshContact *contact, Error *err)
 {
     int32_t most = count > 0 ? count : mesh->group_count + 1;
-    if (!(contact->groups = memory_array(most, sizeof *contact->groups, err)))
-        return false;
+    if (!(contact->groups = memory_array(most, sizeof *contact->groups, err))) return false;
     for (int32_t k = 0; k < count; k++)
         if (!add_group(mesh, names[k], contact, err)) return false;
     for (int32_t g = 0; g < mesh->group_count && count == 0; g++)

@@ -10,7 +10,7 @@ typedef struct MeshPieces {
     int32_t count;
     MeshBoundary
         *piece;   // [count] by their first nodes; of several "NAME/1", "NAME/2", ...; owned,
-        // and what they borrow:
+    // and what they borrow:
     char (*name)[GROUP_NAME_SIZE];   // [count]
     int32_t *nodes, *face_nodes;
 } MeshPieces;

@@ -83,8 +83,7 @@ TEST(short_logarithmic_axes_have_one_two_five)
     assert_thirds(1.5e-5, 2.5e-4, "2\u00d710^{-5} 5\u00d710^{-5} 1\u00d710^{-4} 2\u00d710^{-4} ");
     assert_thirds(2.5e-3, 2.5e-2, "0.005 0.01 0.02 ");   // one way to write all of an axis
     assert_thirds(3e3, 3e4, "5000 10000 20000 ");
-    assert_thirds(1.5e-4, 2.5e-3,
-                  "2\u00d710^{-4} 5\u00d710^{-4} 1\u00d710^{-3} 2\u00d710^{-3} ");
+    assert_thirds(1.5e-4, 2.5e-3, "2\u00d710^{-4} 5\u00d710^{-4} 1\u00d710^{-3} 2\u00d710^{-3} ");
     assert_thirds(3, 4, "");
     assert_thirds(0, 4, "");
     Ticks ticks = ticks_choose_thirds(0.15, 4.8);
