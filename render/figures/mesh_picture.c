@@ -342,7 +342,7 @@ static void draw_page(const RenderMesh *mesh, Page *page)
 static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
 {
     enum { NAMES = 12 };
-    KeyEntry entries[NAMES];
+    KeyEntry entries[NAMES + 1];
     int32_t count = 0, contact = 0;
     Color *color = NEW_ARRAY(Color, mesh->group_count, err);
     if (!color) return false;
@@ -356,6 +356,7 @@ static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
         if (count < NAMES && !is_contact(group))
             entries[count++] = (KeyEntry){KEY_PATCH, color[g], group->name};
     }
+    if (contact > 1) entries[count++] = (KeyEntry){.words = "1: contact_1"};
     key_draw(page, entries, count);
     MeshPage map = {.mesh = mesh, .page = page};
     double margin = RIGHT * page->point, width = canvas_width(page->canvas) - 2 * margin;

@@ -86,7 +86,7 @@ static bool nodes_series_read(ResultView *view, ResultSeries series, double **va
     int32_t components = series == SERIES_STATE         ? view->states
                          : view->line && width != nodes ? SLIP_COMPONENTS
                                                         : 1;
-    if (width != components * nodes)
+    if (width != (int64_t)components * nodes)
         FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
              result_series_name(series), width, nodes);
     if (components > 1) take_values(view, series, components, *values, rows * nodes);

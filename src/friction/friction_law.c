@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Everything that depends on the kind of a law, each a switch over the kinds. Slopes are what
+// Everything that depends on the kind of a law. Slopes are what
 // Newton's derivative (contact/contact_equations) and the certificate's W (stepping/certificate)
 // need; tests/unit/friction/test_friction_law.c compares them with differences of the coefficient.
 #include "friction/friction_law.h"
@@ -49,16 +49,23 @@ bool friction_everywhere(const FrictionLaw *law, int32_t count)
     return true;
 }
 
+static const struct {
+    const char *name;
+    bool own, drops;
+} KINDS[] = {
+#define X(symbol, name, own, drops) {name, own, drops},
+    FRICTION_LAWS(X)
+#undef X
+};
+
+static bool is_known(FrictionKind kind)
+{
+    return (size_t)kind < sizeof KINDS / sizeof KINDS[0];
+}
+
 const char *friction_kind_name(FrictionKind kind)
 {
-    switch (kind) {
-#define X(symbol, name)                                                                            \
-    case symbol:                                                                                   \
-        return name;
-        FRICTION_LAWS(X)
-#undef X
-    }
-    return "unknown";
+    return is_known(kind) ? KINDS[kind].name : "unknown";
 }
 
 const char *friction_law_name(const FrictionLaw *law)
@@ -68,38 +75,12 @@ const char *friction_law_name(const FrictionLaw *law)
 
 bool friction_is_own(const FrictionLaw *law)
 {
-    switch (law->kind) {
-    case FRICTION_TABLE:
-    case FRICTION_FORMULA:
-    case FRICTION_PLUGIN:
-        return true;
-    case FRICTION_LINEAR_WEAKENING:
-    case FRICTION_EXPONENTIAL_WEAKENING:
-    case FRICTION_COULOMB:
-    case FRICTION_AGEING:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        break;
-    }
-    return false;
+    return is_known(law->kind) && KINDS[law->kind].own;
 }
 
 bool friction_has_drop(const FrictionLaw *law)
 {
-    switch (law->kind) {
-    case FRICTION_LINEAR_WEAKENING:
-    case FRICTION_EXPONENTIAL_WEAKENING:
-    case FRICTION_TABLE:
-    case FRICTION_FORMULA:
-    case FRICTION_PLUGIN:
-    case FRICTION_AGEING:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        return true;
-    case FRICTION_COULOMB:
-        break;
-    }
-    return false;
+    return is_known(law->kind) && KINDS[law->kind].drops;
 }
 
 // Of a law that has one, without memory.
@@ -174,47 +155,27 @@ static __attribute__((noinline)) double remembered_slope(const FrictionLaw *law,
 // Continuous at v_c, where the linear law has its kink.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
+    double critical = law->critical_velocity;
     if (law->remembers) return memory_coefficient(&law->own.memory, speed, NULL);
-    switch (law->kind) {
-    case FRICTION_LINEAR_WEAKENING:
-        if (speed >= law->critical_velocity) return law->mu_kinetic;
-        return law->mu_static - drop_of(law) * speed / law->critical_velocity;
-    case FRICTION_EXPONENTIAL_WEAKENING:
-        return law->mu_kinetic + drop_of(law) * exp(-speed / law->critical_velocity);
-    case FRICTION_TABLE:
-    case FRICTION_FORMULA:
-    case FRICTION_PLUGIN:
-        return own_coefficient(law, speed);
-    case FRICTION_COULOMB:
-    case FRICTION_AGEING:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        break;
-    }
-    return law->mu_static;
+    if (law->kind == FRICTION_LINEAR_WEAKENING)
+        return speed >= critical ? law->mu_kinetic
+                                 : law->mu_static - drop_of(law) * speed / critical;
+    if (law->kind == FRICTION_EXPONENTIAL_WEAKENING)
+        return law->mu_kinetic + drop_of(law) * exp(-speed / critical);
+    return friction_is_own(law) ? own_coefficient(law, speed) : law->mu_static;
 }
 
 // At v_c itself the linear law gives 0, so that a node exactly there counts as one that weakens no
 // more.
 double friction_slope(const FrictionLaw *law, double speed)
 {
+    double critical = law->critical_velocity;
     if (law->remembers) return remembered_slope(law, speed);
-    switch (law->kind) {
-    case FRICTION_LINEAR_WEAKENING:
-        return speed < law->critical_velocity ? -drop_of(law) / law->critical_velocity : 0.0;
-    case FRICTION_EXPONENTIAL_WEAKENING:
-        return -drop_of(law) / law->critical_velocity * exp(-speed / law->critical_velocity);
-    case FRICTION_TABLE:
-    case FRICTION_FORMULA:
-    case FRICTION_PLUGIN:
-        return own_slope(law, speed);
-    case FRICTION_COULOMB:
-    case FRICTION_AGEING:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        break;
-    }
-    return 0.0;
+    if (law->kind == FRICTION_LINEAR_WEAKENING)
+        return speed < critical ? -drop_of(law) / critical : 0.0;
+    if (law->kind == FRICTION_EXPONENTIAL_WEAKENING)
+        return -drop_of(law) / critical * exp(-speed / critical);
+    return friction_is_own(law) ? own_slope(law, speed) : 0.0;
 }
 
 double friction_steepest(const FrictionLaw *law)
@@ -234,25 +195,13 @@ bool friction_is_convex(const FrictionLaw *law)
 // which nobody knows of.
 double friction_kink(const FrictionLaw *law, int32_t k)
 {
+    const FrictionTable *table = &law->own.table;
     if (law->remembers && friction_is_own(law)) return INFINITY;
-    switch (law->kind) {
-    case FRICTION_LINEAR_WEAKENING:
-    case FRICTION_AGEING:
-        return k == 0 ? law->critical_velocity : INFINITY;
-    case FRICTION_TABLE:
-        if (law->own.table.straight)
-            return k + 1 < law->own.table.count ? law->own.table.speed[k + 1] : INFINITY;
-        return k == 0 ? law->end : INFINITY;
-    case FRICTION_FORMULA:
-    case FRICTION_PLUGIN:
-        return k == 0 ? law->end : INFINITY;
-    case FRICTION_EXPONENTIAL_WEAKENING:
-    case FRICTION_COULOMB:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        break;
-    }
-    return INFINITY;
+    if (law->kind == FRICTION_TABLE && table->straight)
+        return k + 1 < table->count ? table->speed[k + 1] : INFINITY;
+    bool at_critical = law->kind == FRICTION_LINEAR_WEAKENING || law->kind == FRICTION_AGEING;
+    if (k > 0 || !(at_critical || friction_is_own(law))) return INFINITY;
+    return at_critical ? law->critical_velocity : law->end;
 }
 
 int32_t friction_piece(const FrictionLaw *law, double speed)
@@ -323,22 +272,9 @@ static const double SPENT = 5;
 double friction_spent_speed(const FrictionLaw *law)
 {
     if (law->remembers) return memory_spent_speed(&law->own.memory);
-    switch (law->kind) {
-    case FRICTION_LINEAR_WEAKENING:
-        return law->critical_velocity;
-    case FRICTION_EXPONENTIAL_WEAKENING:
-        return SPENT * law->critical_velocity;
-    case FRICTION_TABLE:
-    case FRICTION_FORMULA:
-    case FRICTION_PLUGIN:
-        return law->spent;
-    case FRICTION_COULOMB:
-    case FRICTION_AGEING:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        break;
-    }
-    return 0;
+    if (friction_is_own(law)) return law->spent;
+    if (!friction_has_drop(law)) return 0;
+    return (law->kind == FRICTION_LINEAR_WEAKENING ? 1 : SPENT) * law->critical_velocity;
 }
 
 // Solves mu = mu_K + (mu_S - mu_K) phi for phi <= 1: 1 at rest, 0 from v_c on, and for the linear

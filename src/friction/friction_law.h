@@ -19,20 +19,20 @@
 #include "friction/friction_plugin.h"
 #include "friction/friction_table.h"
 
-// symbol, name in a scene
+// symbol, name in a scene, it is one's own, it has mu_K and v_c
 #define FRICTION_LAWS(X)                                                                           \
-    X(FRICTION_LINEAR_WEAKENING, "linear-weakening")                                               \
-    X(FRICTION_EXPONENTIAL_WEAKENING, "exponential-weakening")                                     \
-    X(FRICTION_COULOMB, "coulomb")                                                                 \
-    X(FRICTION_TABLE, "table")                                                                     \
-    X(FRICTION_FORMULA, "formula")                                                                 \
-    X(FRICTION_PLUGIN, "plugin")                                                                   \
-    X(FRICTION_AGEING, "ageing")                                                                   \
-    X(FRICTION_SLIP_WEAKENING, "slip-weakening")                                                   \
-    X(FRICTION_RATE_STATE, "rate-and-state")
+    X(FRICTION_LINEAR_WEAKENING, "linear-weakening", false, true)                                  \
+    X(FRICTION_EXPONENTIAL_WEAKENING, "exponential-weakening", false, true)                        \
+    X(FRICTION_COULOMB, "coulomb", false, false)                                                   \
+    X(FRICTION_TABLE, "table", true, true)                                                         \
+    X(FRICTION_FORMULA, "formula", true, true)                                                     \
+    X(FRICTION_PLUGIN, "plugin", true, true)                                                       \
+    X(FRICTION_AGEING, "ageing", false, true)                                                      \
+    X(FRICTION_SLIP_WEAKENING, "slip-weakening", false, true)                                      \
+    X(FRICTION_RATE_STATE, "rate-and-state", false, true)
 
 typedef enum FrictionKind {
-#define X(symbol, name) symbol,
+#define X(symbol, name, own, drops) symbol,
     FRICTION_LAWS(X)
 #undef X
 } FrictionKind;

@@ -149,23 +149,10 @@ bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char
 {
     law->end = source->end;
     law->factor = 1;
-    switch (law->kind) {
-    case FRICTION_TABLE:
-        return read_table(source, law, key, err);
-    case FRICTION_FORMULA:
-        return read_formulas(source, law, key, err);
-    case FRICTION_PLUGIN:
-        return read_plugin(source, law, key, err);
-    case FRICTION_LINEAR_WEAKENING:
-    case FRICTION_EXPONENTIAL_WEAKENING:
-    case FRICTION_COULOMB:
-    case FRICTION_AGEING:
-    case FRICTION_SLIP_WEAKENING:
-    case FRICTION_RATE_STATE:
-        break;
-    }
     *key = "law";
-    return true;
+    if (law->kind == FRICTION_TABLE) return read_table(source, law, key, err);
+    if (law->kind == FRICTION_FORMULA) return read_formulas(source, law, key, err);
+    return law->kind != FRICTION_PLUGIN || read_plugin(source, law, key, err);
 }
 
 void friction_make_memory(const FrictionMemory *memory, FrictionLaw *law)

@@ -3,6 +3,7 @@
 #include "reduction/mirror_nodes.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "fem/mesh.h"
 
 #include <math.h>
@@ -24,12 +25,6 @@ static double along(int32_t dim, const double *at)
     double sum = at[0], part = 1;
     for (int32_t d = 1; d < dim; d++) sum += (part *= SLANT) * at[d];
     return sum;
-}
-
-static int by_place(const void *left, const void *right)
-{
-    double a = ((const Place *)left)->along, b = ((const Place *)right)->along;
-    return (a > b) - (a < b);
 }
 
 static bool are_close(int32_t dim, const double *one, const double *other, double apart)
@@ -94,7 +89,7 @@ bool mirror_nodes_find(int32_t dim, int32_t axis, double *position, int32_t node
     }
     double sum = least + most;
     all.apart = APART * (most - least);
-    qsort(all.places, (size_t)nodes, sizeof *all.places, by_place);
+    qsort(all.places, (size_t)nodes, sizeof *all.places, order_doubles);
     for (int32_t i = 0; found && i < nodes; i++) {
         MeshPlace across;
         memcpy(across, position + node_dof(dim, i, 0), (size_t)dim * sizeof(double));

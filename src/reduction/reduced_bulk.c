@@ -41,16 +41,20 @@ void reduced_bulk_destroy(ReducedBulk *reduced)
     *reduced = (ReducedBulk){0};
 }
 
+// [z; q] of a part. interior: of x, where its q begins. Returns where the next part's begins.
+static const double *take_part(const ReducedPart *part, const double *x, const double *interior,
+                               double *local)
+{
+    transform_apply_transposed(&part->border, x, local);
+    memcpy(local + part->border_count, interior, (size_t)part->interior_count * sizeof *interior);
+    return interior + part->interior_count;
+}
+
 void reduced_bulk_split(const ReducedBulk *reduced, const double *x, double *const *local)
 {
     const double *interior = x + reduced->interface_count + reduced->mirrored;
-    for (int p = 0; p < reduced->part_count; p++) {
-        const ReducedPart *part = &reduced->part[p];
-        transform_apply_transposed(&part->border, x, local[p]);
-        memcpy(local[p] + part->border_count, interior,
-               (size_t)part->interior_count * sizeof *interior);
-        interior += part->interior_count;
-    }
+    for (int p = 0; p < reduced->part_count; p++)
+        interior = take_part(&reduced->part[p], x, interior, local[p]);
 }
 
 void reduced_bulk_join(const ReducedBulk *reduced, const double *const *local, double *x)
@@ -67,57 +71,33 @@ void reduced_bulk_join(const ReducedBulk *reduced, const double *const *local, d
     }
 }
 
-// Work of the parts of several states.
-typedef struct Recovery {
-    double *storage;
-    double **local[REDUCED_PARTS_MAX];   // [count] each of [part's count]
-    double **field[REDUCED_PARTS_MAX];   // [count] each of [part's full_dofs]
-} Recovery;
-
-static void recovery_destroy(Recovery *work)
-{
-    for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
-        memory_free_all(work->local[p], work->field[p]);
-    }
-    memory_free(work->storage);
-}
-
-static bool recovery_create(const ReducedBulk *reduced, int32_t count, Recovery *work, Error *err)
-{
-    int64_t size = reduced->count + reduced->mirrored + reduced->full_dofs;
-    double *next = work->storage = memory_bytes(8 * size * count, err);
-    for (int p = 0; p < reduced->part_count; p++) {
-        const ReducedPart *part = &reduced->part[p];
-        work->local[p] = NEW_ARRAY(double *, count, err);
-        work->field[p] = NEW_ARRAY(double *, count, err);
-        for (int32_t k = 0; error_is_clean(err) && k < count; k++) {
-            work->local[p][k] = next;
-            work->field[p][k] = next + part->count;
-            next += part->count + part->full_dofs;
-        }
-    }
-    return error_is_clean(err);
-}
-
+// Part by part, so that its modes come from memory once for all states.
 bool reduced_bulk_recover(const ReducedBulk *reduced, int32_t count, const double *const *states,
                           double *const *full, Error *err)
 {
-    Recovery work = {0};
-    TRY(recovery_create(reduced, count, &work, err));
-    for (int32_t k = 0; k < count; k++) {
-        double *local[REDUCED_PARTS_MAX];
-        for (int p = 0; p < reduced->part_count; p++) local[p] = work.local[p][k];
-        reduced_bulk_split(reduced, states[k], local);
+    int64_t interior = reduced->interface_count + reduced->mirrored;
+    double *storage = NULL, **local = NEW_ARRAY(double *, count, err);
+    double **field = NEW_ARRAY(double *, count, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t k = 0; k < count; k++)
         memset(full[k], 0, (size_t)reduced->full_dofs * sizeof(double));
-    }
     for (int p = 0; p < reduced->part_count; p++) {
         const ReducedPart *part = &reduced->part[p];
+        int64_t size = part->count + part->full_dofs;
+        memory_free(storage);
+        TRY((storage = memory_bytes(8 * size * count, err)));
+        for (int32_t k = 0; k < count; k++) {
+            local[k] = storage + k * size;
+            field[k] = local[k] + part->count;
+            take_part(part, states[k], states[k] + interior, local[k]);
+        }
+        interior += part->interior_count;
         dense_apply_each((DenseView){part->modes, part->full_dofs, part->count}, count,
-                         (const double *const *)work.local[p], work.field[p]);
-        for (int32_t k = 0; k < count; k++) transform_apply(&part->mesh, work.field[p][k], full[k]);
+                         (const double *const *)local, field);
+        for (int32_t k = 0; k < count; k++) transform_apply(&part->mesh, field[k], full[k]);
     }
 cleanup:
-    recovery_destroy(&work);
+    memory_free_all(storage, local, field);
     return error_is_clean(err);
 }
 

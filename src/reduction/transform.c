@@ -5,6 +5,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "base/order.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -128,12 +129,6 @@ static void congruence_destroy(Congruence *work)
     memory_free_all(work->listed, work->slot, work->image, work->moved, work->product);
 }
 
-static int ascending(const void *left, const void *right)
-{
-    int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
-    return (a > b) - (a < b);
-}
-
 static void list_touched(Congruence *work, const TransformBlock *block)
 {
     const SparsePattern *from = work->from;
@@ -146,7 +141,7 @@ static void list_touched(Congruence *work, const TransformBlock *block)
             listed[end++] = place;
         }
     }
-    qsort(listed, (size_t)end, sizeof *listed, ascending);
+    qsort(listed, (size_t)end, sizeof *listed, order_int32);
     for (int32_t i = 0; i < end; i++) slot[listed[i]] = i;
     work->listed_count = end;
 }

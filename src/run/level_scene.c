@@ -25,6 +25,7 @@ void scene_scale_loads(Scene *scene, double factor)
     scene->load.pressure *= factor;
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         scene->load.tractions[k].x *= factor;
+        scene->load.tractions[k].y *= factor;
         scene->load.tractions[k].z *= factor;
     }
 }

@@ -11,19 +11,6 @@
 // stepped as a whole, far below what a step may be off.
 static const double ALIKE = 1e-9;
 
-static bool create_state(const Interface *interface, State *state, Error *err)
-{
-    *state = (State){.interface_count = interface->count,
-                     .contact_count = interface->contact_count,
-                     .rod_count = interface->rod_count};
-    state->slip_rate = NEW_ARRAY(double, interface->count, err);
-    state->reaction = NEW_ARRAY(double, interface->count, err);
-    state->theta = NEW_ARRAY(double, interface->contact_count, err);
-    state->status = NEW_ARRAY(uint8_t, interface->contact_count, err);
-    state->rod_touches = NEW_ARRAY(uint8_t, interface->rod_count, err);
-    return error_is_clean(err);
-}
-
 // A node that stands for two yields half as much to the sum of their forces. false: two are not
 // alike.
 static bool create_rod(const Rod *whole, const ContactHalf *half, Rod *rod, Error *err)
@@ -49,7 +36,7 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     if (!contact_half_find(block->interface, &half->half, err)) return false;
     if (side->contact_count == 0) return true;
     bool alike = create_rod(block->rod, &half->half, &half->rod, err);
-    if (!create_state(side, &half->state, err)) return false;
+    if (!state_create(&(BulkOperator){0}, side, &half->state, err)) return false;
     if (!contact_solver_create(side, contact_solver_def(), &half->solver, err)) return false;
     half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);

@@ -11,7 +11,7 @@ What was asked of them before any was drawn, and who judges it:
 
     1  letters of 7 to 9 pt at the printed size, sub- and superscripts 5    measured: sizes of fonts in the PDF, whole points
     2  no empty third          measured: largest empty rectangle over the page, of 48 x 48 parts
-    3  prints in grey          lightness falls all along the bar (tests/end_to_end/test_render.py); curves differ in marks: counted
+    3  prints in grey          lightness falls all along the bar (tests/end_to_end/test_render.py); curves differ in mark or lightness: counted
        eyes without green      as they see it, on the sheet
     4  every mark in a legend, or named where it stands   by eye, on the sheet
     5  names of axes have symbol and unit               by eye
@@ -77,12 +77,23 @@ def views(image):
     return [image, image.convert("L").convert("RGB"), Image.fromarray(np.uint8(np.round(255 * seen)))]
 
 
-def marks_differ(description):
-    """Of a plot: how many of its curves with a name can be told by their marks and lines alone."""
+def lightness():
+    """Of the program's colours of curves, CIELAB."""
+    table = (SOURCE / "render/plot/marks.c").read_text().partition("COLORS[PLOT_COLORS] = ")[2].partition(";")[0]
+    parts = np.array(re.findall(r"\{([\d.]+)f, ([\d.]+)f, ([\d.]+)f, 1\}", table), float)
+    linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
+
+
+def told_in_grey(description):
+    """Of a plot: how many of its curves with a name differ from each other in mark or line, or by 15 of 100 in lightness."""
     if not description.exists():
         return ""
-    marks = [(one["marker"], one.get("filled", True), one["line"]) for one in json.loads(description.read_text()).get("series", []) if one["label"]]
-    return f"{sum(marks.count(mark) == 1 for mark in marks)} of {len(marks)}"
+    curves = [one for one in json.loads(description.read_text()).get("series", []) if one["label"]]
+    marks, light = [(one["marker"], one.get("filled", True), one["line"]) for one in curves], lightness()
+    alike = [any(marks[i] == marks[k] and abs(light[curves[i]["color"]] - light[curves[k]["color"]]) < 15 for k in range(len(curves)) if k != i)
+             for i in range(len(curves))]
+    return f"{alike.count(False)} of {len(curves)}"
 
 
 def values(folder, numbers):
@@ -151,14 +162,14 @@ def main():
     result, sheet = Path(sys.argv[1]), Path(sys.argv[2] if len(sys.argv) > 2 else "beside.png")
     names = draw(result)
     rows = []
-    print(f"{'':28s}   kB   letters, pt   empty   told by marks")
+    print(f"{'':28s}   kB   letters, pt   empty   told in grey")
     for name in names:
         pair = [result / "figures" / f"{name}{end}.pdf" for end in ("", "-redrawn")]
         drawn = [picture(pdf) for pdf in pair]
         rows.append([view for image in drawn for view in views(image)])
         for pdf, image in zip(pair, drawn):
             least, most = letters(pdf)
-            told = marks_differ(pdf.with_suffix(".json")) if pdf is pair[0] else ""
+            told = told_in_grey(pdf.with_suffix(".json")) if pdf is pair[0] else ""
             print(f"{pdf.name:28s} {pdf.stat().st_size / 1e3:5.0f}   {least:.0f} to {most:.0f}        {empty_share(image):.2f}    {told}")
     width, height = max(i.width for row in rows for i in row), [max(i.height for i in row) for row in rows]
     page = Image.new("RGB", (6 * (width + 40), sum(height) + 40 * len(rows)), "white")

@@ -86,7 +86,7 @@ double csv_value(const CsvTable *table, int32_t row, int32_t column)
     double value = NAN;
     cell += strspn(cell, BLANKS);
     int32_t used = text_number(cell, &value);
-    return used > 0 && !cell[used + strspn(cell + used, BLANKS)] ? value : (double)NAN;
+    return used > 0 && !cell[(size_t)used + strspn(cell + used, BLANKS)] ? value : (double)NAN;
 }
 
 bool csv_check(const CsvTable *table, int32_t column, bool positive, Error *err)

@@ -227,10 +227,9 @@ static bool open_study(Optimise *self, const char *path, const SweepOptions *opt
 // halves it (sweep).
 static bool note_accuracy(Optimise *self, Error *err)
 {
-    Search *search = &self->search;
-    if (!point_scene(search->sweep, 0, search->scene, err)) return false;
-    self->accuracy = search->scene->accuracy.mu;
-    return true;
+    const Scene *scene = point_scene(self->search.sweep, 0, err);
+    if (scene) self->accuracy = scene->accuracy.mu;
+    return scene != NULL;
 }
 
 static void summarise(const Search *search, OptimiseSummary *summary)

@@ -36,9 +36,10 @@ bool search_leave_best(const Search *search, int32_t design, int32_t condition, 
     if (!out) FAIL(err, ERROR_MEMORY, "no memory for the best design");
     snprintf(path, sizeof path, "%s/best.yaml", folder);
     snprintf(picture, sizeof picture, "%s/figures/best.png", folder);
-    TRY(point_scene(search->sweep, point, search->scene, err));
+    const Scene *scene = point_scene(search->sweep, point, err);
+    TRY(scene);
     TRY(json = json_create(path, err));
-    scene_write_json(search->scene, json, NULL, folder);
+    scene_write_json(scene, json, NULL, folder);
     TRY(json_finish(json, err));
     TRY(amontons_info(path, &(InfoOptions){.picture = picture}, out, err));
 cleanup:

@@ -26,24 +26,24 @@ static double next_accuracy(double asked, const RankRow *row, double limit)
 }
 
 // Looks for what an earlier sweep left. *chosen: there is a next accuracy.
-static bool choose(Sweep *sweep, const RankRow *row, PointMesh *mesh, bool *chosen, Error *err)
+static bool choose(Sweep *sweep, const RankRow *row, bool *chosen, Error *err)
 {
     int32_t k = row->point;
     SweepPoint *point = &sweep->points[k];
     char *report = NULL;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, k, err);
     TRY(scene);
-    TRY(point_scene(sweep, k, scene, err));
     double accuracy = next_accuracy(scene->accuracy.mu, row, sweep->study.rank.refine);
     TRY((*chosen = accuracy > 0));
-    point->accuracy = scene->accuracy.mu = accuracy;
-    TRY(point_hash(scene, mesh, point->hash, err));
+    point->accuracy = accuracy;
+    TRY(point_scene(sweep, k, err));   // with it
+    TRY(point_hash(sweep, scene, point->hash, err));
     report = point_report(sweep, k, err);
     TRY(error_is_clean(err));
     point->status = sweep->options->fresh ? POINT_PENDING : point_status(report);
     point->reused = point->status != POINT_PENDING;
 cleanup:
-    memory_free_all(scene, report);
+    memory_free(report);
     return error_is_clean(err);
 }
 
@@ -56,12 +56,12 @@ static bool is_open(const Sweep *sweep, const RankRow *row)
 
 static bool choose_all(Sweep *sweep, const Ranking *ranking, int32_t *count, Error *err)
 {
-    PointMesh mesh = {0};
+    sweep->mesh = (PointMesh){0};
     *count = 0;
     for (int32_t k = 0; k < ranking->ranked; k++) {
         bool chosen = false;
         if (!is_open(sweep, &ranking->rows[k])) continue;
-        if (!choose(sweep, &ranking->rows[k], &mesh, &chosen, err)) return false;
+        if (!choose(sweep, &ranking->rows[k], &chosen, err)) return false;
         *count += chosen;
     }
     return true;

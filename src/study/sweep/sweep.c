@@ -123,19 +123,18 @@ cleanup:
 }
 
 // baseline of point `k`: the point whose scene is its own with the keys of `rank.against`.
-static bool find_baseline(const PointsByHash *sorted, int32_t k, PointMesh *mesh, Scene *scene,
-                          Error *err)
+static bool find_baseline(const PointsByHash *sorted, int32_t k, Error *err)
 {
     Sweep *sweep = sorted->sweep;
     char hash[HASH_TEXT_SIZE];
-    if (!study_baseline_scene(&sweep->study, k, scene, err)) return false;
-    if (!point_hash(scene, mesh, hash, err)) return false;
+    if (!study_baseline_scene(&sweep->study, k, sweep->scene, err)) return false;
+    if (!point_hash(sweep, sweep->scene, hash, err)) return false;
     sweep->points[k].baseline = points_look_up(sorted, hash);
     return true;
 }
 
 // ERROR_INPUT where no point at all has a baseline: the ranking would have no gains.
-static bool find_baselines(Sweep *sweep, Scene *scene, Error *err)
+static bool find_baselines(Sweep *sweep, Error *err)
 {
     const Study *study = &sweep->study;
     bool found = false;
@@ -143,7 +142,7 @@ static bool find_baselines(Sweep *sweep, Scene *scene, Error *err)
     if (study->rank.against != AGAINST_KEYS) return true;
     TRY(points_sort(sweep, &sorted, err));
     for (int32_t k = 0; k < study->point_count; k++) {
-        TRY(find_baseline(&sorted, k, &sweep->mesh, scene, err));
+        TRY(find_baseline(&sorted, k, err));
         found = found || sweep->points[k].baseline >= 0;
     }
     if (!found)
@@ -154,10 +153,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool plan_point(Sweep *sweep, int32_t k, Scene *scene, Error *err)
+static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 {
-    if (!point_scene(sweep, k, scene, err)) return false;
-    if (!point_hash(scene, &sweep->mesh, sweep->points[k].hash, err)) return false;
+    const Scene *scene = point_scene(sweep, k, err);
+    if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
     if (!block_counts_note(scene, &sweep->mesh, &sweep->blocks, err)) return false;
     if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
@@ -173,19 +172,16 @@ static bool plan_point(Sweep *sweep, int32_t k, Scene *scene, Error *err)
 static bool plan_points(Sweep *sweep, Error *err)
 {
     int32_t count = sweep->study.point_count;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
-    TRY(scene);
     SweepPoint *points =
         memory_resize(sweep->points, sweep->point_count, count, sizeof *points, err);
     TRY(points);
     sweep->points = points;
-    for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, scene, err));
+    for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, err));
     TRY(block_counts_set(&sweep->blocks, sweep->points, err));
     TRY(points_find_same(sweep, err));
-    TRY(find_baselines(sweep, scene, err));
+    TRY(find_baselines(sweep, err));
     sweep->point_count = sweep->planned = count;
 cleanup:
-    memory_free(scene);
     return error_is_clean(err);
 }
 
@@ -253,6 +249,7 @@ bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, E
     sweep->options = options;
     sweep->lock = -1;
     sweep->started = clock_seconds();
+    if (!(sweep->scene = NEW_ARRAY(Scene, 1, err))) return false;
     dense_use_one_thread();   // before forking
     return study_read(path, options->overrides, options->override_count, &sweep->study, err);
 }
@@ -281,7 +278,7 @@ void sweep_close(Sweep *sweep)
     if (sweep->lock >= 0) close(sweep->lock);
     reports_close(&sweep->reports);
     block_counts_destroy(&sweep->blocks);
-    memory_free(sweep->points);
+    memory_free_all(sweep->points, sweep->scene);
     study_destroy(&sweep->study);
     memory_free(sweep);
 }

@@ -2,6 +2,7 @@
 // What a search for an error bar leaves when it is stopped, and what it says of a bar not met;
 // loads and parameters of its runs. How good its bars are is tested by end_to_end.accuracy.
 #include "run/accuracy_figure.h"
+#include "run/level_scene.h"
 #include "run/warnings.h"
 
 #include "base/memory.h"
@@ -138,6 +139,17 @@ static RunSummary searched(const char *one, const char *other)
     if (!amontons_run(scene, &(RunOptions){0}, &summary, &err)) fail_msg("%s", err.message);
     amontons_scene_destroy(scene);
     return summary;
+}
+
+TEST(test_loads_are_scaled_along_every_axis)
+{
+    static Scene scene;
+    scene.load.pressure = 2;
+    scene.load.traction_count = 1;
+    scene.load.tractions[0] = (SceneTraction){.x = 4, .y = 8, .z = -16};
+    scene_scale_loads(&scene, 1.5);
+    assert_true(scene.load.pressure == 3 && scene.load.tractions[0].x == 6);
+    assert_true(scene.load.tractions[0].y == 12 && scene.load.tractions[0].z == -24);
 }
 
 // A traction of the same size on the top instead of pressure gives the same block, and runs whose

@@ -125,12 +125,16 @@ static void write_history_table(FILE *out)
     RESULT_TABLES(X)
 #undef X
     fputs("\n| attribute of the file | unit | what it holds |\n|---|---|---|\n", out);
-    fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
-          "| `version` | text | of amontons |\n"
-          "| `pads` | text | names of the pads by their numbers in `nodes/pad`, a line "
-          "each |\n"
-          "| `warnings` | text | what the run was warned of, a line each; absent: of nothing |\n",
-          out);
+    fputs(
+        "| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
+        "| `version` | text | of amontons |\n"
+        "| `pads` | text | names of the pads by their numbers in `nodes/pad`, a line "
+        "each |\n"
+        "| `states` | text | names of what friction remembers, a line each: theta, phi, one's own; "
+        "absent: nothing |\n"
+        "| `state_unit` | text | time (theta), 1 (phi) or its own (a formula's, a plug-in's) |\n"
+        "| `warnings` | text | what the run was warned of, a line each; absent: of nothing |\n",
+        out);
 #define X(symbol, name, unit, words) put_row(out, 3, (const char *[]){"`" name "`", unit, words});
     RESULT_NUMBERS(X)
 #undef X

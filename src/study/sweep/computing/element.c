@@ -3,13 +3,9 @@
 // has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
-//      "design_count": 0, "designs": [],
-//      "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "runs": [2, 2],
-//      "hashes": ["97e1...", "62f1..."]}
+//      "design_count": 0, "designs": [], "first": 0}
 //
-// Element e computes points[e], with `keep: table` the share first + e. Its scene is made anew and
-// must have the hash that it had when the sweep began: a study that was changed meanwhile would
-// answer another question.
+// Element e computes the share first + e.
 #include "study/sweep/computing/element.h"
 
 #include "algebra/dense.h"
@@ -30,8 +26,7 @@ enum { ELEMENTS_BYTES_MAX = 1 << 24, SETTING_SIZE = 1000 };
 
 // Paths are stored as the sweep was given them, with the folder it was called in: errors in an
 // element's report then read as they would in the pool's.
-bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t first,
-                    int32_t count, Error *err)
+bool elements_write(const Sweep *sweep, const char *path, int32_t first, Error *err)
 {
     const SweepOptions *options = sweep->options;
     char *directory = getcwd(NULL, 0), *folder = realpath(sweep->folder, NULL);
@@ -54,19 +49,6 @@ bool elements_write(const Sweep *sweep, const char *path, const int32_t *points,
         json_text(json, NULL, sweep->study.designs[k]);
     json_end(json);
     json_integer(json, "first", first);
-    points += first;
-    json_begin_list(json, "points");
-    for (int32_t k = 0; k < count; k++) json_integer(json, NULL, points[k]);
-    json_end(json);
-    json_begin_list(json, "accuracies");
-    for (int32_t k = 0; k < count; k++) json_number(json, NULL, sweep->points[points[k]].accuracy);
-    json_end(json);
-    json_begin_list(json, "runs");
-    for (int32_t k = 0; k < count; k++) json_integer(json, NULL, sweep->points[points[k]].runs);
-    json_end(json);
-    json_begin_list(json, "hashes");
-    for (int32_t k = 0; k < count; k++) json_text(json, NULL, sweep->points[points[k]].hash);
-    json_end(json);
     json_end(json);
     TRY(json_finish(json, err));
 cleanup:
@@ -84,14 +66,6 @@ typedef struct ElementSettings {
     int32_t count;
 } ElementSettings;
 
-// The text at `list`.`index`.
-static bool find(const char *text, const char *list, int32_t index, char *value, int32_t size)
-{
-    char path[40];
-    snprintf(path, sizeof path, "%s.%d", list, index);
-    return json_find_text(text, path, value, size);
-}
-
 // More than there is room for cannot come from a sweep: it has the same bound.
 static bool read_settings(const char *text, ElementSettings *settings, Error *err)
 {
@@ -101,7 +75,9 @@ static bool read_settings(const char *text, ElementSettings *settings, Error *er
         return REFUSE(err, "no list of elements as a sweep writes it");
     settings->count = (int32_t)count;
     for (int32_t k = 0; k < settings->count; k++) {
-        if (!find(text, "set", k, settings->text[k], SETTING_SIZE))
+        char path[40];
+        snprintf(path, sizeof path, "set.%d", k);
+        if (!json_find_text(text, path, settings->text[k], SETTING_SIZE))
             return REFUSE(err, "the list of elements lacks setting %d", k);
         settings->list[k] = settings->text[k];
     }
@@ -149,73 +125,25 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool read_point(const char *text, int32_t element, Sweep *sweep, int32_t *point, Error *err)
-{
-    char path[40];
-    double number = -1;
-    snprintf(path, sizeof path, "points.%d", element);
-    if (!json_find_number(text, path, &number) || !(number >= 0))
-        return REFUSE(err, "the list of elements has no element %d", element);
-    if (number >= sweep->study.point_count)
-        return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
-    *point = (int32_t)number;
-    if (!(sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err))) return false;
-    snprintf(path, sizeof path, "accuracies.%d", element);
-    json_find_number(text, path, &sweep->points[*point].accuracy);
-    snprintf(path, sizeof path, "runs.%d", element);
-    if (json_find_number(text, path, &number)) sweep->points[*point].runs = (int32_t)number;
-    find(text, "hashes", element, sweep->points[*point].hash, HASH_TEXT_SIZE);
-    return true;
-}
-
-// Costs one scene, not the study: an array of thousands does not plan thousands of points each
-// time.
-static bool check_scene(const Sweep *sweep, int32_t point, Error *err)
-{
-    PointMesh mesh = {0};
-    char hash[HASH_TEXT_SIZE];
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
-    TRY(scene);
-    TRY(point_scene(sweep, point, scene, err));
-    TRY(point_hash(scene, &mesh, hash, err));
-    if (strcmp(hash, sweep->points[point].hash) != 0)
-        FAIL(err, ERROR_INPUT, "the study, its scene or a mesh was changed after the sweep began");
-cleanup:
-    memory_free(scene);
-    return error_is_clean(err);
-}
-
-// A point that cannot be computed is recorded, as those of the pool are.
 bool amontons_sweep_element(const char *path, int32_t element, Error *err)
 {
-    char *text = NULL, *report = NULL;
-    int32_t size = 0, point = -1;
+    char *text = NULL;
+    int32_t size = 0;
     double first = 0;
-    Error ignored = {0};
     const SweepOptions none = {0};
     Sweep *sweep = NEW_ARRAY(Sweep, 1, err);
     TRY(sweep);
+    TRY((sweep->scene = NEW_ARRAY(Scene, 1, err)));
     dense_use_one_thread();
     TRY(text_file_read(path, ELEMENTS_BYTES_MAX, &text, &size, err));
     TRY(read_sweep(text, sweep, err));
-    if (sweep->study.keep_table) {
-        json_find_number(text, "first", &first);
-        sweep->options = &none;
-        TRY(share_run(sweep, (int32_t)first + element, err));
-        goto cleanup;
-    }
-    TRY(read_point(text, element, sweep, &point, err));
-    TRY(check_scene(sweep, point, err));
-    TRY(point_run(sweep, point, &report, err));
+    json_find_number(text, "first", &first);
+    sweep->options = &none;
+    TRY(share_run(sweep, (int32_t)first + element, err));
 cleanup:
-    if (!error_is_clean(err) && sweep && sweep->points && point >= 0) {
-        report = point_report(sweep, point, &ignored);
-        if (point_status(report) == POINT_PENDING)
-            point_write_failure(sweep, point, "not begun", err->message, &ignored);
-    }
-    memory_free_all(report, text);
+    memory_free(text);
     if (sweep) {
-        memory_free(sweep->points);
+        memory_free_all(sweep->points, sweep->scene);
         study_destroy(&sweep->study);
     }
     memory_free(sweep);

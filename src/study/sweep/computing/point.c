@@ -48,11 +48,11 @@ static bool key_counts(const char *key)
 }
 
 // What computes it, the mesh by its content; the title and the path of the mesh do not count.
-bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
+bool point_hash(Sweep *sweep, const Scene *scene, char text[HASH_TEXT_SIZE], Error *err)
 {
     Hash hash = computation_hash();
-    if (!hash_mesh(scene, mesh, err)) return false;
-    hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
+    if (!hash_mesh(scene, &sweep->mesh, err)) return false;
+    hash_bytes(&hash, &sweep->mesh.hash, sizeof sweep->mesh.hash);
     if (!scene_hash(scene, key_counts, &hash, err)) return false;
     hash_write(&hash, text);
     return true;
@@ -110,13 +110,14 @@ bool points_find_same(Sweep *sweep, Error *err)
     return true;
 }
 
-bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err)
+const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
 {
+    Scene *scene = sweep->scene;
     double accuracy = sweep->points[point].accuracy;
-    if (!study_point_scene(&sweep->study, point, scene, err)) return false;
+    if (!study_point_scene(&sweep->study, point, scene, err)) return NULL;
     scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
-    return true;
+    return scene;
 }
 
 // By hash, not by number: a study that is changed finds its old points again.
@@ -234,11 +235,10 @@ bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
     char folder[POINT_PATH_SIZE], checkpoint[POINT_PATH_SIZE + 16];
     RunSummary summary;
     RunOptions options = {.folder = folder, .overwrite = true};
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, point, err);
     *report = NULL;
     TRY(scene);
     point_folder(sweep, point, folder);
-    TRY(point_scene(sweep, point, scene, err));
     if (sweep->reports.open) {
         TRY(run_for_table(scene, report, err));
         goto cleanup;
@@ -251,7 +251,6 @@ bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
     options.resume = false;
     TRY(amontons_run(scene, &options, &summary, err));
 cleanup:
-    memory_free(scene);
     return error_is_clean(err);
 }
 
@@ -261,10 +260,9 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
 {
     char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16], *report = NULL;
     bool table = sweep->reports.open;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, point, err);
     JsonWriter *json = NULL;
     TRY(scene);
-    TRY(point_scene(sweep, point, scene, err));
     point_folder(sweep, point, folder);
     if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
     point_report_path(sweep, point, path);
@@ -282,7 +280,7 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
     json_compact(report);
     TRY(point_keep(sweep, point, report, err));
 cleanup:
-    memory_free_all(report, scene);
+    memory_free(report);
     return error_is_clean(err);
 }
 

@@ -56,6 +56,7 @@ typedef struct Sweep {
     int lock;   // file descriptor; -1: none
     SweepPoint *points;   // [study.point_count]; owned
     int32_t point_count;   // points so far: a search adds some in each round
+    Scene *scene;   // of the point that point_scene was asked for last; owned
     PointMesh mesh;
     BlockCounts blocks;   // owned
     double started;   // wall clock, s
@@ -68,10 +69,11 @@ typedef struct Sweep {
 
 enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
 
-// The scene of a point as it is to be computed: the study's, with the point's accuracy and runs.
-bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
+// The scene of a point as it is to be computed: the study's, with the point's accuracy and runs. It
+// stands until the next is asked for. NULL: the error says why.
+const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
-bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
+bool point_hash(Sweep *sweep, const Scene *scene, char hash[HASH_TEXT_SIZE], Error *err);
 // The points sorted by hash, equal ones by number.
 typedef struct HashedPoint {
     const char *hash;   // not owned

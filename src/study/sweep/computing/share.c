@@ -30,8 +30,8 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
     share_path(sweep, share, "points", path);
     if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
     for (int32_t k = share; k < count; k += step)
-        fprintf(file, "%d %s %d\n", points[k], sweep->points[points[k]].hash,
-                sweep->points[points[k]].runs);
+        fprintf(file, "%d %s %d %.17g\n", points[k], sweep->points[points[k]].hash,
+                sweep->points[points[k]].runs, sweep->points[points[k]].accuracy);
     if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
     TRY(part_file_put(path, text, (int64_t)size, err));
 cleanup:
@@ -43,37 +43,37 @@ cleanup:
 
 // Marks the point of a line as waiting. Its scene must have the hash that it had when the sweep
 // began: a study that was changed meanwhile would answer another question.
-static bool add_point(Sweep *sweep, char **line, PointMesh *mesh, Scene *scene, Error *err)
+static bool add_point(Sweep *sweep, char **line, Error *err)
 {
-    char *hash = NULL;
+    char *hash = NULL, *rest = NULL;
     long point = strtol(*line, &hash, 10);
     if (*hash != ' ' || point < 0 || point >= sweep->study.point_count)
         return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     SweepPoint *at = &sweep->points[point];
-    if (!point_scene(sweep, (int32_t)point, scene, err)) return false;
-    if (!point_hash(scene, mesh, at->hash, err)) return false;
+    char *end = strchr(hash, '\n');
+    if (strlen(hash) > HASH_TEXT_SIZE) {
+        at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, &rest, 10);
+        at->accuracy = strtod(rest, NULL);
+    }
+    const Scene *scene = point_scene(sweep, (int32_t)point, err);
+    if (!scene || !point_hash(sweep, scene, at->hash, err)) return false;
     if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
         return REFUSE(err, "the study, its scene or a mesh was changed after the sweep began");
-    at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, NULL, 10);
     at->same_as = (int32_t)point;
-    *line = strchr(hash, '\n');
-    *line = *line ? *line + 1 : hash + strlen(hash);
+    *line = end ? end + 1 : hash + strlen(hash);
     return true;
 }
 
 static bool read_points(Sweep *sweep, const char *path, Error *err)
 {
-    PointMesh mesh = {0};
     char *text = NULL;
     int32_t size = 0;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
-    TRY(scene);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) sweep->points[k].same_as = -1;
     TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
-    for (char *line = text; *line;) TRY(add_point(sweep, &line, &mesh, scene, err));
+    for (char *line = text; *line;) TRY(add_point(sweep, &line, err));
 cleanup:
-    memory_free_all(text, scene);
+    memory_free(text);
     return error_is_clean(err);
 }
 
@@ -84,7 +84,7 @@ bool share_run(Sweep *sweep, int32_t share, Error *err)
     share_path(sweep, share, "points", path);
     TRY(read_points(sweep, path, err));
     share_path(sweep, share, "reports", path);
-    TRY(reports_open(&sweep->reports, path, true, err));
+    if (sweep->study.keep_table) TRY(reports_open(&sweep->reports, path, true, err));
     sweep->checked = true;   // what is recorded: by the sweep
     TRY(pool_run(sweep, &one, err));
 cleanup:

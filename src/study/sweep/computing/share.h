@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A share: the points that one element of a Slurm array computes, where `keep: table` says that
-// they take less time than an element's start.
+// The points that an element of a Slurm array computes. One; many where `keep: table` says
+// that they take less time than the start of an element.
 //
-//     DIR/slurm/share-7.points    a line a point: its number and its hash
-//     DIR/slurm/share-7.reports   what it has computed, as DIR/reports
+//     DIR/slurm/share-7.points    a line a point: its number, hash, runs and accuracy
+//     DIR/slurm/share-7.reports   what it has computed, as DIR/reports, with `keep: table`
 #ifndef AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H
 #define AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A point's result is its run.json, as with the pool; only for an element that left none the state
-// that Slurm reports decides (slurm_jobs).
-//
-// With `keep: table` points are far shorter than the start of an element: an element computes a
-// share of them (study/sweep/computing/share), so many as take some minutes. What it left undone
-// stays pending, for the next sweep.
+// An element computes a share of the points (study/sweep/computing/share): one, whose result is its
+// run.json, as with the pool; only for an element that left none the state that Slurm reports
+// decides (slurm_jobs). With `keep: table` points are far shorter than the start of an element: a
+// share is so many as take some minutes, and what it left undone stays pending, for the next sweep.
 #include "study/sweep/computing/slurm.h"
 
 #include "base/clock.h"
@@ -63,7 +61,7 @@ static bool submit_all(SlurmRun *run, Error *err)
     char script[POINT_PATH_SIZE], list[POINT_PATH_SIZE], name[40];
     run->array_count = (run->count + limit - 1) / limit;
     if (!(run->arrays = NEW_ARRAY(SlurmArray, run->array_count, err))) return false;
-    for (int32_t k = 0; run->sweep->study.keep_table && k < run->count; k++)
+    for (int32_t k = 0; k < run->count; k++)
         if (!share_write(run->sweep, k, run->waiting, run->waiting_count, run->count, err))
             return false;
     for (int32_t k = 0; k < run->array_count; k++) {
@@ -74,8 +72,7 @@ static bool submit_all(SlurmRun *run, Error *err)
         slurm_path(&run->jobs, name, list, sizeof list);
         snprintf(name, sizeof name, "array-%d.sh", k);
         slurm_path(&run->jobs, name, script, sizeof script);
-        if (!elements_write(run->sweep, list, run->waiting, array->first, array->count, err))
-            return false;
+        if (!elements_write(run->sweep, list, array->first, err)) return false;
         if (!slurm_write_script(script, list, err)) return false;
         if (!slurm_submit(&run->jobs, script, array->count, run->sweep->options, array->id, err))
             return false;

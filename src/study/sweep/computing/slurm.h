@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Computes pending points as Slurm job arrays and waits for them: an element a point, with `keep:
-// table` an element a share.
+// Computes pending points as Slurm job arrays and waits for them: an element a share.
 #ifndef AMONTONS_STUDY_SWEEP_COMPUTING_SLURM_H
 #define AMONTONS_STUDY_SWEEP_COMPUTING_SLURM_H
 

@@ -26,13 +26,11 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     char path[POINT_PATH_SIZE + 16], words[POINT_WORDS_SIZE] = "";
     char message[ERROR_MESSAGE_SIZE] = "", warning[8];
     Error ignored = {0};
-    Scene *scene = NULL;
     sweep->finished++;
     if (point->status == POINT_FAILED) sweep->failed++;
     if (!sweep->options->on_point) return;
-    scene = NEW_ARRAY(Scene, 1, &ignored);
-    if (scene && point_scene(sweep, k, scene, &ignored)) point_words(sweep, scene, words);
-    memory_free(scene);
+    const Scene *scene = point_scene(sweep, k, &ignored);
+    if (scene) point_words(sweep, scene, words);
     point_report_path(sweep, k, path);
     SweepView view = {.point = k,
                       .words = words,

@@ -72,22 +72,14 @@ static const char *sweep_name(const PlotFigure *self, const Source *source)
     return source->table.title;
 }
 
-static void panel_label(const PlotFigure *self, const Source *source, int32_t which,
+// The sweep's name, where it is needed, and the value of the key that tells panels or curves apart.
+static void value_label(const PlotFigure *self, const Source *source, PlotKey key, int32_t which,
                         char label[GROUP_LABEL_SIZE])
 {
     char value[GROUP_LABEL_SIZE];
-    bool names_sweep = self->is_map && self->source_count > 1;
-    values_label(&source->panels, which, self->plot->text[PLOT_PANELS], value);
-    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? sweep_name(self, source) : "",
-             names_sweep && value[0] ? ", " : "", value);
-}
-
-static void curve_label(const PlotFigure *self, const Source *source, int32_t which,
-                        char label[GROUP_LABEL_SIZE])
-{
-    char value[GROUP_LABEL_SIZE];
-    bool names_sweep = self->source_count > 1;
-    values_label(&source->series, which, self->plot->text[PLOT_SERIES], value);
+    bool names_sweep = self->source_count > 1 && (self->is_map || key == PLOT_SERIES);
+    values_label(key == PLOT_SERIES ? &source->series : &source->panels, which,
+                 self->plot->text[key], value);
     snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? sweep_name(self, source) : "",
              names_sweep && value[0] ? ", " : "", value);
 }
@@ -97,7 +89,7 @@ static bool add_labels(PlotFigure *self, const Source *source, Error *err)
     char label[GROUP_LABEL_SIZE];
     double ignored = 0;
     for (int32_t k = 0; k < source->panels.count; k++) {
-        panel_label(self, source, k, label);
+        value_label(self, source, PLOT_PANELS, k, label);
         if (!words_index(&self->panels, label, &ignored, err)) return false;
     }
     for (int32_t k = 0; k < source->series.count; k++) {
@@ -195,9 +187,11 @@ static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const 
     Error ignored = {0};
     values_label(series, which, self->plot->text[PLOT_SERIES], value);
     if (series->key) words_index(&self->curves, value, &color, &ignored);   // is there
+    // Of two curves with one mark the colours differ in lightness.
+    int32_t mark = self->source_count > 1 ? source : (int32_t)color;
     return (Curve){.label = label,
                    .line = "thin",
-                   .marker = marker[(self->source_count > 1 ? source : (int32_t)color) % MARKERS],
+                   .marker = marker[(mark + mark / MARKERS) % MARKERS],
                    .color = 1 + (int32_t)color % COLORS,
                    .filled = true};
 }
@@ -212,10 +206,10 @@ static bool write_curves(PlotFigure *self, const char *panel, bool labelled, Err
         TRY(points = NEW_ARRAY(PlotPoint, source->table.count, err));
         for (int32_t p = 0; p < source->panels.count; p++) {
             char label[GROUP_LABEL_SIZE];
-            panel_label(self, source, p, label);
+            value_label(self, source, PLOT_PANELS, p, label);
             if (strcmp(label, panel) != 0) continue;
             for (int32_t k = 0; k < source->series.count; k++) {
-                curve_label(self, source, k, label);
+                value_label(self, source, PLOT_SERIES, k, label);
                 Curve curve = curve_style(self, s, k, labelled ? label : "");
                 int32_t count = gather_points(source, k, p, points);
                 if (count > 0) TRY(write_points(self, points, count, curve, err));
@@ -233,7 +227,7 @@ static bool write_curve_entries(PlotFigure *self, Error *err)
     for (int32_t s = 0; s < self->source_count; s++)
         for (int32_t k = 0; k < self->sources[s].series.count; k++) {
             char label[GROUP_LABEL_SIZE];
-            curve_label(self, &self->sources[s], k, label);
+            value_label(self, &self->sources[s], PLOT_SERIES, k, label);
             Curve curve = curve_style(self, s, k, label);
             if (label[0] && !figure_write_entry(&self->figure, &curve, err)) return false;
         }
@@ -310,7 +304,7 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
     for (int32_t s = 0; s < self->source_count; s++)
         for (int32_t p = 0; p < self->sources[s].panels.count; p++) {
             char label[GROUP_LABEL_SIZE];
-            panel_label(self, &self->sources[s], p, label);
+            value_label(self, &self->sources[s], PLOT_PANELS, p, label);
             if (strcmp(label, panel) == 0 && !write_map(self, &self->sources[s], p, err))
                 return false;
         }

@@ -18,7 +18,6 @@ typedef struct RankingFigure {
     Figure figure;
     const Sweep *sweep;
     const Ranking *ranking;
-    Scene *scene;   // of one point; owned
     int32_t shown;   // rows
     WordList doubts;   // names of what a mark may be open for; owned, as the next
     double *bits;   // [points] of them
@@ -42,10 +41,11 @@ static bool write_names(RankingFigure *self, Error *err)
     json_begin_list(json, "names");
     for (int32_t k = self->shown - 1; k >= 0; k--) {
         char name[NAME_SIZE] = "";
-        if (!point_scene(self->sweep, self->ranking->rows[k].point, self->scene, err)) return false;
+        const Scene *scene = point_scene(self->sweep, self->ranking->rows[k].point, err);
+        if (!scene) return false;
         for (int32_t c = 0; c < study->column_count; c++) {
             if (!study_is_chosen(study, study->columns[c])) continue;
-            study_scene_value(self->scene, study->columns[c], cell, sizeof cell, &ignored);
+            study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
             join(name, sizeof name, cell);
         }
         json_text(json, NULL, name);
@@ -143,12 +143,11 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
     if (self.shown > sweep->study.rank.top) self.shown = sweep->study.rank.top;
     if (self.shown > ROWS_MAX) self.shown = ROWS_MAX;
     if (self.shown == 0) return true;
-    TRY(self.scene = NEW_ARRAY(Scene, 1, err));
     TRY(find_doubts(&self, table, err));
     write_figure(&self, err);
     figure_end(&self.figure, err);
 cleanup:
-    memory_free_all(self.scene, self.bits);
+    memory_free(self.bits);
     words_destroy(&self.doubts);
     return error_is_clean(err);
 }

@@ -210,9 +210,8 @@ static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *tabl
     const Study *study = &sweep->study;
     char cell[SCENE_TEXT_SIZE], note[RANK_NOTE_SIZE];
     double ignored = 0;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, row->point, err);
     TRY(scene);
-    TRY(point_scene(sweep, row->point, scene, err));
     TRY(rank_notes(sweep, ranking, row, note, err));
     csv_number(csv, isnan(row->value) ? (double)NAN : (double)(row - ranking->rows) + 1);
     csv_number(csv, row->from > 0 ? row->from : (double)NAN);
@@ -231,7 +230,6 @@ static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *tabl
     csv_text(csv, table->warning_words.words[(int32_t)table->warnings[row->point]]);
     csv_end_row(csv);
 cleanup:
-    memory_free(scene);
     return error_is_clean(err);
 }
 
@@ -298,9 +296,8 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
     const Study *study = &sweep->study;
     int32_t count = 0;
     double ignored = 0;
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, from->point, err);
     TRY(scene);
-    TRY(point_scene(sweep, from->point, scene, err));
     snprintf(add_cell(row, &count), CELL_SIZE, "%d", k + 1);
     for (int32_t c = 0; c < study->column_count; c++)
         if (study_is_chosen(study, study->columns[c]))
@@ -310,7 +307,6 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
     add_gain(row, &count, from);
     TRY(rank_notes(sweep, ranking, from, row->note, err));
 cleanup:
-    memory_free(scene);
     return error_is_clean(err);
 }
 
@@ -319,9 +315,8 @@ static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *er
 {
     const Study *study = &sweep->study;
     char words[POINT_WORDS_SIZE] = "";
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    const Scene *scene = point_scene(sweep, 0, err);
     TRY(scene);
-    TRY(point_scene(sweep, 0, scene, err));
     fprintf(out, "\n%s, %s first; gain over ", ranked_by(study)->name,
             study->rank.lowest ? "lowest" : "highest");
     if (study->rank.against == AGAINST_BEST) fprintf(out, "the best");
@@ -336,7 +331,6 @@ static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *er
     }
     fprintf(out, "%s\n", has_error ? "" : "; no errors are known of it");
 cleanup:
-    memory_free(scene);
     return error_is_clean(err);
 }
 

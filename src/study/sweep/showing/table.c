@@ -240,13 +240,14 @@ static bool write_warnings(TableWriter *writer, int32_t point, const char *repor
 }
 
 // A failed point keeps its keys and its message, and has no results.
-static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *err)
+static bool write_row(TableWriter *writer, int32_t point, Error *err)
 {
     const Sweep *sweep = writer->sweep;
     const SweepPoint *at = &sweep->points[point];
     char run[HASH_TEXT_SIZE + 8], *report = NULL;
     const char *results = NULL;   // what a failed point came to before it failed is none
-    TRY(point_scene(sweep, point, scene, err));
+    const Scene *scene = point_scene(sweep, point, err);
+    TRY(scene);
     if (point == 0) writer->table->is_si = scene->units == UNITS_SI;
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
@@ -401,18 +402,16 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
 {
     char path[POINT_PATH_SIZE];
     TableWriter writer = {.sweep = sweep, .table = table};
-    Scene *scene = NULL;
     *table = (SweepTable){0};
     TRY(make_room(&sweep->study, table, err));
     TRY(find_errors(sweep, table, err));
-    TRY((scene = NEW_ARRAY(Scene, 1, err)));
     TRY((writer.cell = NEW_ARRAY(char, CELL_SIZE, err)));
     snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
     TRY((writer.csv = csv_create(path, err)));
     write_head(&writer);
-    for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, scene, err));
+    for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, err));
 cleanup:
-    memory_free_all(writer.cell, scene);
+    memory_free(writer.cell);
     if (error_is_clean(err)) return csv_finish(writer.csv, err) && write_h5(sweep, table, err);
     csv_abandon(writer.csv);
     return false;
