@@ -78,7 +78,7 @@ typedef struct RunCounters {
     int64_t factorisations, solves;   // sparse; a solve is forward plus backward
     int64_t contact_solves, contact_iterations;   // contact problems, two a step; over all
     int64_t contact_fallbacks;   // contact problems that the plain iteration did not settle
-    int64_t contact_rescued;   // of these: solved by a path only
+    int64_t contact_rescued;   // of these: solved after sweeps only
     int64_t certificates;   // factorisations to judge states
     int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;

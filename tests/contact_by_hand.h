@@ -55,19 +55,19 @@ static inline ContactProblem hand_problem(const HandContact *hand, ContactMatrix
 
 // What a solver counted in one solve.
 typedef struct HandCounts {
-    int64_t iterations, rescued, path_steps;
+    int64_t iterations, rescued, sweeps;
 } HandCounts;
 
 // Solves with a solver of its own, from the statuses that stand there and from rest, allocating
 // nothing.
-static inline bool hand_contact_solve_by(HandContact *hand, bool follows_path, HandCounts *counts)
+static inline bool hand_contact_solve_by(HandContact *hand, bool sweeps_on, HandCounts *counts)
 {
     Error err = {0};
     ContactSolver solver;
     ContactMatrix matrix;
     assert_true(contact_matrix_create(hand->schur, hand->interface.count, &matrix, &err));
     assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
-    solver.follows_path = follows_path;
+    solver.sweeps_on = sweeps_on;
     memset(hand->velocity, 0, sizeof hand->velocity);
     memset(hand->reaction, 0, sizeof hand->reaction);
     ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};
@@ -77,7 +77,7 @@ static inline bool hand_contact_solve_by(HandContact *hand, bool follows_path, H
     assert_int_equal(memory_counters().allocations, allocations);
     assert_int_equal(solver.solves, 1);
     assert_int_equal(solver.unsolved, !solved);
-    *counts = (HandCounts){solver.iterations, solver.rescued, solver.path.steps};
+    *counts = (HandCounts){solver.iterations, solver.rescued, solver.sweeps};
     contact_solver_destroy(&solver);
     contact_matrix_destroy(&matrix);
     return solved;

@@ -279,19 +279,23 @@ bool formula_takes_two(Operation operation)
     return operation >= STEP_ADD;
 }
 
-// Numbers on the stack, with their derivatives by the variables.
+// Numbers on the stack, with their derivatives by the variables; of one that does not vary `slope`
+// means nothing.
 typedef struct Entry {
+    bool varies;
     double value, slope[FORMULA_VARIABLES_MAX];
 } Entry;
 
 // In the place of a. b: NULL: of a function of one argument.
-static void put(Applied applied, int32_t count, Entry *a, const Entry *b)
+static inline void put(Applied applied, int32_t count, Entry *a, const Entry *b)
 {
+    bool too = b && b->varies;
     a->value = applied.value;
-    for (int32_t k = 0; k < count; k++) {
-        a->slope[k] = chain(applied.by_a, a->slope[k]);
-        if (b) a->slope[k] += chain(applied.by_b, b->slope[k]);
+    for (int32_t k = 0; k < count && (a->varies || too); k++) {
+        a->slope[k] = a->varies ? chain(applied.by_a, a->slope[k]) : 0;
+        if (too) a->slope[k] += chain(applied.by_b, b->slope[k]);
     }
+    a->varies = a->varies || too;
 }
 
 static void put_one_of(Operation operation, Entry *a, const Entry *b)
@@ -328,10 +332,11 @@ double formula_partials(const Formula *formula, const int32_t part[2], const dou
         Operation operation = (Operation)formula->step[k].operation;
         double number = formula->step[k].number;
         if (operation == STEP_NUMBER || operation == STEP_VARIABLE) {
-            bool varies = operation == STEP_VARIABLE;
             Entry *entry = &stack[++top];
-            entry->value = varies ? x[(int32_t)number] : number;
-            for (int32_t j = 0; j < count; j++) entry->slope[j] = varies && j == (int32_t)number;
+            entry->varies = operation == STEP_VARIABLE;
+            entry->value = entry->varies ? x[(int32_t)number] : number;
+            for (int32_t j = 0; j < count && entry->varies; j++)
+                entry->slope[j] = j == (int32_t)number;
         } else if (operation == STEP_POINTS) {
             int32_t points = (int32_t)number - 1;
             top -= points;
@@ -347,7 +352,7 @@ double formula_partials(const Formula *formula, const int32_t part[2], const dou
                 two ? last : NULL);
         }
     }
-    for (int32_t k = 0; k < count; k++) slope[k] = stack[top].slope[k];
+    for (int32_t k = 0; k < count; k++) slope[k] = stack[top].varies ? stack[top].slope[k] : 0;
     return stack[top].value;
 }
 

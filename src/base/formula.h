@@ -52,8 +52,8 @@ bool formula_append(const char *text, const FormulaNames *names, Formula *formul
 // The formula depends on this variable, or seems to.
 bool formula_has(const Formula *formula, int32_t variable);
 
-// Of the steps part[0] to part[1] - 1, which are a formula: the value at the variables x [count],
-// and its derivatives by them, slope [count].
+// Of the steps part[0] to part[1] - 1, which are a formula: the value at the variables x, and its
+// derivatives by the first `count` of them, slope [count]; with 0 of them the value alone.
 double formula_partials(const Formula *formula, const int32_t part[2], const double *x,
                         int32_t count, double *slope);
 

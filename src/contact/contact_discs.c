@@ -18,9 +18,6 @@ static const double CHORD_GAIN = 0.1;
 enum {
     STEPS = 20,   // of Newton before any sweeps, and after each round of them
     HALVINGS = 4,   // of a step that leaves more than there was: to and fro over a kink of mu
-    ROUNDS = 4,   // of sweeps
-    SWEEPS = 15,   // of the first round
-    MORE_SWEEPS = 4   // times as many in each round as in that before
 };
 
 bool contact_discs_create(const Interface *interface, ContactNewton *newton, ContactDiscs *discs,
@@ -378,10 +375,8 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
     contact_newton_begin(discs->newton, problem, solution, 1e-3 * tolerance);
     bool solved = settle(&settling);
     discs->swept += !solved;
-    int32_t sweeps = SWEEPS;
-    for (int32_t k = 0; k < ROUNDS && !solved; k++, sweeps *= MORE_SWEEPS) {
-        discs->sweeps += sweeps;
-        contact_sweep(problem, solution, sweeps);
+    for (int32_t k = 0; k < SWEEP_ROUNDS && !solved; k++) {
+        discs->sweeps += contact_sweep(problem, solution, k);
         contact_newton_begin(discs->newton, problem, solution, 1e-3 * tolerance);
         settling.residual = INFINITY;
         settling.factors_anew = settling.in_double = true;

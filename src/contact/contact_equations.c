@@ -33,16 +33,15 @@ bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy
            memcmp(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count) == 0;
 }
 
-void contact_list_free(ContactEquations *equations, bool of_open)
+void contact_list_free(ContactEquations *equations)
 {
     const Interface *interface = equations->problem->interface;
     const ContactSolution *at = equations->at;
     int32_t *free = equations->free, count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        bool open = of_open && at->status[i] == CONTACT_OPEN;
-        int32_t components = open ? interface->dim : interface->dim - 1;
-        if (!open && !status_slips(at->status[i])) continue;
-        for (int32_t c = 0; c < components; c++) free[count++] = interface_unknown(interface, i, c);
+        if (!status_slips(at->status[i])) continue;
+        for (int32_t c = 0; c < interface->dim - 1; c++)
+            free[count++] = interface_unknown(interface, i, c);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)
@@ -85,9 +84,7 @@ static double friction_of(const ContactEquations *equations, int32_t i, double *
 {
     const FrictionLaw *law = friction_at(equations->problem->law, i);
     int32_t t = interface_tangent(equations->problem->interface, i);
-    double speed = fabs(equations->at->velocity[t]), unused;
-    if (equations->piece)
-        return friction_branch(law, equations->piece[i], speed, slope ? slope : &unused);
+    double speed = fabs(equations->at->velocity[t]);
     if (slope) *slope = friction_slope(law, speed);
     return friction_coefficient(law, speed);
 }

@@ -12,7 +12,7 @@
 //     S_k + s mu S_n + (mu'(|v_t|) r_n + stiffness) e_k.
 //
 // Held are normals that touch (at their bound), tangents that stick (at 0) and rigid rod nodes that
-// touch (at their bound). Used by contact/contact_solver and contact/contact_path.
+// touch (at their bound). Used by contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 #define AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 
@@ -30,8 +30,6 @@ typedef struct ContactRow {
 typedef struct ContactEquations {
     const ContactProblem *problem;
     ContactSolution *at;
-    const uint8_t *piece;   // [contact_count] of the law that holds for a node, whatever its speed
-        // (friction_branch); NULL: as the speed says
     int32_t *free;   // [count] unknowns that are solved for, free_count of them
     int32_t free_count;
     ContactRow *row;   // [count] work: of what is free, as contact_find_rows left them
@@ -58,8 +56,8 @@ static inline int32_t contact_slipping_node(const ContactEquations *equations, i
 void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
 bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
 
-// What is not held, ascending; unknowns of open nodes, too, or not.
-void contact_list_free(ContactEquations *equations, bool of_open);
+// What is not held, ascending, but for open nodes.
+void contact_list_free(ContactEquations *equations);
 
 // Puts what is held in its place; what is free keeps its velocity.
 void contact_hold(const ContactEquations *equations);

@@ -95,7 +95,7 @@ bool contact_newton_close(ContactNewton *newton)
         for (int32_t c = 0; c < problem->interface->dim; c++)
             newton->open[newton->open_count++] = interface_unknown(problem->interface, i, c);
     }
-    contact_list_free(&newton->equations, false);
+    contact_list_free(&newton->equations);
     newton->listed = true;
     return true;
 }

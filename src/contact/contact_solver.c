@@ -8,8 +8,10 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "contact/contact_equations.h"
+#include "contact/contact_sweeps.h"
 
 #include <math.h>
+#include <string.h>
 
 // An old matrix is given up when the residual of a step is above this part of that before it.
 static const double CHORD_GAIN = 0.1;
@@ -28,18 +30,16 @@ ContactSolverDef contact_solver_def(void)
 bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
                            Error *err)
 {
-    *solver = (ContactSolver){.def = def, .follows_path = true};
+    *solver = (ContactSolver){.def = def, .sweeps_on = true};
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     if (!error_is_clean(err) || !contact_newton_create(interface, &solver->newton, err))
         return false;
-    return interface->dim == 2
-               ? contact_path_create(interface, &solver->path, err)
-               : contact_discs_create(interface, &solver->newton, &solver->discs, err);
+    return interface->dim == 2 ||
+           contact_discs_create(interface, &solver->newton, &solver->discs, err);
 }
 
 void contact_solver_destroy(ContactSolver *solver)
 {
-    contact_path_destroy(&solver->path);
     contact_discs_destroy(&solver->discs);
     contact_newton_destroy(&solver->newton);
     memory_free(solver->anchor);
@@ -269,13 +269,15 @@ static bool solve_discs(ContactSolver *solver, const ContactProblem *problem,
     return solved;
 }
 
-// After a path was followed its end is handed to Newton once more, which brings the last digits and
-// has the last word on whether it is solved.
+// What sweeps come to, from rest in each round, is handed to Newton once more, which brings the
+// last digits and has the last word on whether it is solved.
 static bool solve_plane(ContactSolver *solver, const ContactProblem *problem,
                         ContactSolution *solution)
 {
     bool solved = solve_statuses(solver, problem, solution);
-    if (!solved && solver->follows_path && contact_path_follow(&solver->path, problem, solution)) {
+    for (int32_t k = 0; solver->sweeps_on && k < SWEEP_ROUNDS && !solved; k++) {
+        memset(solution->velocity, 0, (size_t)problem->interface->count * sizeof(double));
+        solver->sweeps += contact_sweep(problem, solution, k);
         solved = solve_statuses(solver, problem, solution);
         solver->rescued += solved;
     }
@@ -316,6 +318,6 @@ void contact_solver_archive(ContactSolver *solver, int32_t contact_count, Archiv
     archive_section(archive, "contact solver");
     contact_newton_archive(&solver->newton, archive);
     archive_counts_of(archive, &solver->solves, &solver->iterations, &solver->fallbacks,
-                      &solver->rescued, &solver->unsolved, &solver->path.steps);
+                      &solver->rescued, &solver->unsolved, &solver->sweeps);
     if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
 }

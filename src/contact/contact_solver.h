@@ -5,17 +5,16 @@
 // is held. One Newton step on those (contact/contact_equations), then every status is checked
 // against its own conditions and changed where it violates them (contact/contact_newton). When
 // statuses cycle, only the worst one is changed at a time; when that does not settle either, or the
-// residual no longer falls, a path to a solution is followed (contact/contact_path): there is one,
-// as S is positive definite and mu bounded and continuous. Where even that is not found, or the
-// caller prefers a shorter step to a path, the problem counts as unsolved and the caller must take
-// a shorter step. All of this holds for one tangent; in space contact/contact_discs solves.
-// Called by stepping/sdirk.
+// residual no longer falls, sweeps over the nodes lead to other statuses (contact/contact_sweeps).
+// There is a solution, as S is positive definite and mu bounded and continuous. Where even so none
+// is found, or the caller prefers a shorter step to sweeps, the problem counts as unsolved and the
+// caller must take a shorter step. All of this holds for one tangent; in space
+// contact/contact_discs solves. Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
 #include "contact/contact_discs.h"
 #include "contact/contact_newton.h"
-#include "contact/contact_path.h"
 #include "contact/contact_problem.h"
 
 typedef struct ContactSolverDef {
@@ -36,9 +35,9 @@ typedef struct ContactSolver {
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed
-    ContactPath path;   // the fall-back; owned
-    bool follows_path;   // take it where Newton gives up; true unless the caller has shorter steps
-    int64_t rescued;   // counted, solves in which the path found what Newton did not
+    int64_t sweeps;   // counted, over the nodes of a contact in the plane
+    bool sweeps_on;   // where Newton gives up there; true unless the caller has shorter steps
+    int64_t rescued;   // counted, solves in which sweeps led to what Newton alone did not find
     int64_t unsolved;   // counted
     double seconds;   // wall time spent
 } ContactSolver;

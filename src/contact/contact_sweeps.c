@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A node alone: r = S v - b, S its 3 x 3 block. Pressed, v_n = bound, it has with A the block of
+// A node alone: r = S v - b, S its 3 x 3 block (in the plane with a tangent more, of the same
+// stiffness, along which nothing moves). Pressed, v_n = bound, it has with A the block of
 // its tangents, c their coupling to the normal, q = b_t - c bound and r_n = r_0 + c.v
 //
 //     (A + l) v = q,    l = mu(s) r_n/s,    s = |v|,
@@ -12,8 +13,15 @@
 #include "contact/contact_equations.h"
 #include "contact/slip.h"
 
+#include <math.h>
+
 // Parts of the range of l in which a root is looked for; halvings of the part that has it.
 enum { PARTS = 64, HALVINGS = 60 };
+
+enum {
+    SWEEPS = 15,   // of the first round
+    MORE_SWEEPS = 4   // times as many in each round as in that before
+};
 
 typedef struct NodeAlone {
     const FrictionLaw *law;
@@ -95,20 +103,29 @@ static void move_to(const ContactProblem *problem, ContactSolution *at, int32_t 
     at->velocity[unknown] = v;
 }
 
-static void sweep_node(const ContactProblem *problem, ContactSolution *at, int32_t i)
+// Goes `part` of the way to what the node would do alone.
+static void sweep_node(const ContactProblem *problem, ContactSolution *at, int32_t i, double part)
 {
-    int64_t count = problem->interface->count, t = interface_tangent(problem->interface, i);
-    NodeAlone node = {.law = friction_at(problem->law, i), .bound = problem->bound[t + 2]};
+    const Interface *interface = problem->interface;
+    int64_t count = interface->count, t = interface_tangent(interface, i);
+    int32_t dim = interface->dim, slot[] = {0, dim == 2 ? 2 : 1, 2};   // of a component, above
+    NodeAlone node = {.law = friction_at(problem->law, i), .bound = problem->bound[t + dim - 1]};
     double v[3];
-    for (int64_t a = 0; a < 3; a++) {
-        node.b[a] = -at->reaction[t + a];
-        for (int64_t b = 0; b < 3; b++) {
-            node.s[a][b] = problem->matrix->schur[count * (t + b) + t + a];
-            node.b[a] += node.s[a][b] * at->velocity[t + b];
+    for (int64_t a = 0; a < dim; a++) {
+        double *b_a = &node.b[slot[a]];
+        *b_a = -at->reaction[t + a];
+        for (int64_t b = 0; b < dim; b++) {
+            double entry = problem->matrix->schur[count * (t + b) + t + a];
+            node.s[slot[a]][slot[b]] = entry;
+            *b_a += entry * at->velocity[t + b];
         }
     }
+    if (dim == 2) node.s[1][1] = node.s[0][0];
     at->status[i] = solve_alone(&node, v);
-    for (int32_t a = 0; a < 3; a++) move_to(problem, at, (int32_t)t + a, v[a]);
+    for (int32_t a = 0; a < dim; a++) {
+        double now = at->velocity[t + a], alone = v[slot[a]];
+        move_to(problem, at, (int32_t)t + a, part < 1 ? now + part * (alone - now) : alone);
+    }
 }
 
 static void sweep_rod(const ContactProblem *problem, ContactSolution *at, int32_t j)
@@ -124,13 +141,20 @@ static void sweep_rod(const ContactProblem *problem, ContactSolution *at, int32_
     move_to(problem, at, x, v);
 }
 
-void contact_sweep(const ContactProblem *problem, ContactSolution *solution, int32_t sweeps)
+// In space later rounds are only longer; 435 collected problems are solved so.
+int32_t contact_sweep(const ContactProblem *problem, ContactSolution *solution, int32_t round)
 {
     const Interface *interface = problem->interface;
     ContactEquations equations = {.problem = problem, .at = solution};
+    int32_t sweeps = SWEEPS, last = interface->contact_count - 1;
+    bool turns = interface->dim == 2 && round > 0, back = false;
+    double part = turns ? ldexp(1, -round) : 1;
+    for (int32_t k = 0; k < round; k++) sweeps *= MORE_SWEEPS;
     contact_react(&equations);
-    for (int32_t k = 0; k < sweeps; k++) {
-        for (int32_t i = 0; i < interface->contact_count; i++) sweep_node(problem, solution, i);
+    for (int32_t k = 0; k < sweeps; k++, back = turns && !back) {
+        for (int32_t i = 0; i <= last; i++)
+            sweep_node(problem, solution, back ? last - i : i, part);
         for (int32_t j = 0; j < interface->rod_count; j++) sweep_rod(problem, solution, j);
     }
+    return sweeps;
 }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Projected Gauss-Seidel sweeps for the contact problem in space: one node after the other takes
-// the velocity that keeps all of its conditions while the others' velocities stay. Slow to end, but
-// sure to come near: where contact/contact_discs starts again.
+// Projected Gauss-Seidel sweeps for the contact problem: one node after the other takes the
+// velocity that keeps all of its conditions while the others' velocities stay. Slow to end, but
+// sure to come near: where contact/contact_discs and contact/contact_solver start again.
 #ifndef AMONTONS_CONTACT_CONTACT_SWEEPS_H
 #define AMONTONS_CONTACT_CONTACT_SWEEPS_H
 
 #include "contact/contact_problem.h"
 
-// So many sweeps from the velocities as they are; reactions and statuses go out with them.
-void contact_sweep(const ContactProblem *problem, ContactSolution *solution, int32_t sweeps);
+enum { SWEEP_ROUNDS = 4 };
+
+// Round 0 is a few sweeps from the velocities as they are, each further one several times as many.
+// In the plane these go there and back, and half as far in each: in one order, or all the way, they
+// may go round in a cycle. Reactions and statuses go out with them. Returns how many sweeps it
+// took.
+int32_t contact_sweep(const ContactProblem *problem, ContactSolution *solution, int32_t round);
 
 #endif

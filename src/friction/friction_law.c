@@ -42,13 +42,6 @@ FrictionLaw friction_spread(const FrictionLaw *each, int32_t count)
     return law;
 }
 
-bool friction_everywhere(const FrictionLaw *law, int32_t count)
-{
-    for (int32_t i = 0; i < count; i++)
-        if (!(friction_at(law, i)->mu_static > 0)) return false;
-    return true;
-}
-
 static const struct {
     const char *name;
     bool own, drops;
@@ -189,61 +182,6 @@ double friction_steepest(const FrictionLaw *law)
 bool friction_is_convex(const FrictionLaw *law)
 {
     return !friction_is_own(law) && law->kind != FRICTION_RATE_STATE;
-}
-
-// One's own law has a kink at its end, beyond which it stays; a formula or plug-in may have more,
-// which nobody knows of.
-double friction_kink(const FrictionLaw *law, int32_t k)
-{
-    const FrictionTable *table = &law->own.table;
-    if (law->remembers && friction_is_own(law)) return INFINITY;
-    if (law->kind == FRICTION_TABLE && table->straight)
-        return k + 1 < table->count ? table->speed[k + 1] : INFINITY;
-    bool at_critical = law->kind == FRICTION_LINEAR_WEAKENING || law->kind == FRICTION_AGEING;
-    if (k > 0 || !(at_critical || friction_is_own(law))) return INFINITY;
-    return at_critical ? law->critical_velocity : law->end;
-}
-
-int32_t friction_piece(const FrictionLaw *law, double speed)
-{
-    int32_t piece = 0;
-    while (speed >= friction_kink(law, piece)) piece++;
-    return piece;
-}
-
-// Either side of a kink is continued by its tangent.
-double friction_branch(const FrictionLaw *law, int32_t piece, double speed, double *slope)
-{
-    double low = piece > 0 ? friction_kink(law, piece - 1) : 0, high = friction_kink(law, piece);
-    if (!isfinite(low) || (speed >= low && speed < high)) {
-        *slope = friction_slope(law, speed);
-        return friction_coefficient(law, speed);
-    }
-    double from = low, mu;
-    if (speed >= high) from = nextafter(high, 0);
-    if (law->kind == FRICTION_LINEAR_WEAKENING) from = low;   // both sides are straight
-    mu = friction_coefficient(law, from);
-    *slope = friction_slope(law, from);
-    return mu + *slope * (speed - from);
-}
-
-static const double BEND = 0.5;   // of v_c, or of its speed: a node may go so far
-static const double TURN = 0.1;   // of the largest: the slope of one's own law may change so much
-
-// The last piece of a law with kinks is level, as is a law without a drop.
-bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to)
-{
-    bool last = piece > 0 && !isfinite(friction_kink(law, piece)) && !law->remembers;
-    double before, after, bends = law->critical_velocity;
-    if (law->remembers && law->own.memory.reach * law->own.memory.slip_distance > 0)
-        bends = fmin(bends, law->own.memory.slip_distance / law->own.memory.reach);
-    if (last || !(friction_drop(law) > 0 || law->bend > 0)) return true;
-    if (fabs(to - from) > BEND * fmax(bends, from)) return false;
-    if (friction_is_convex(law)) return true;
-    friction_branch(law, piece, from, &before);
-    friction_branch(law, piece, to, &after);
-    double bend = law->remembers ? fmax(fabs(after), fabs(before)) : law->bend;
-    return fabs(after - before) <= TURN * bend;
 }
 
 // Exponential weakening never ends but by underflow: there is no speed from which on a node is

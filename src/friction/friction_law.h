@@ -80,9 +80,6 @@ FrictionLaw friction_scaled(const FrictionLaw *law, double factor);
 // drop, the least v_c; to be asked about a node through friction_at.
 FrictionLaw friction_spread(const FrictionLaw *each, int32_t count);
 
-// Each of the nodes has some friction at rest.
-bool friction_everywhere(const FrictionLaw *law, int32_t count);
-
 const char *friction_kind_name(FrictionKind kind);   // "unknown" for one that there is not
 const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind that there is not
 
@@ -112,20 +109,6 @@ double friction_steepest(const FrictionLaw *law);
 
 // mu' never falls: w + a mu(w), a > 0, has no more than two roots.
 bool friction_is_convex(const FrictionLaw *law);
-
-// The speed of the k-th place, from 0 on, where the slope jumps; INFINITY: there are no more. A law
-// of n kinks has pieces 0 to n.
-double friction_kink(const FrictionLaw *law, int32_t k);
-
-// The piece in which this speed lies.
-int32_t friction_piece(const FrictionLaw *law, double speed);
-
-// mu and its slope on one piece, continued smoothly to any speed.
-double friction_branch(const FrictionLaw *law, int32_t piece, double speed, double *slope);
-
-// Between these speeds the piece is as good as a straight line: contact/contact_path may step from
-// one to the other.
-bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to);
 
 // Still weakening at this speed: a faster, or with memory a further slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);

@@ -88,7 +88,7 @@ static bool no_number(const void *context, const char *name, double *value)
 static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const char **key,
                           Error *err)
 {
-    const char *more[1 + STATES_MAX] = {"p"};
+    const char *more[1 + STATES_MAX];
     FrictionMemory memory = {.kind = MEMORY_FORMULAS, .states = source->state_count, .factor = 1};
     FormulaNames names = {.look_up = source->look_up ? source->look_up : no_number,
                           .context = source->context,
@@ -99,7 +99,8 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
                                      "friction gives, such as mu_static or slip_distance"};
     *key = "state";
     if (source->state_count > STATES_MAX) return REFUSE(err, "at most %d states", STATES_MAX);
-    for (int32_t k = 0; k < source->state_count; k++) more[k + 1] = source->state[k].name;
+    for (int32_t k = 0; k < source->state_count; k++) more[k] = source->state[k].name;
+    more[source->state_count] = "p";
     for (int32_t k = 0; k <= source->state_count; k++) {
         if (k == 0) *key = "formula";
         if (!formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
@@ -111,7 +112,7 @@ static bool read_formulas(const FrictionSource *source, FrictionLaw *law, const 
         memory.ends[k + 1] = memory.formula.count;
     }
     *key = "formula";
-    memory.feels_pressure = formula_has(&memory.formula, 1);
+    memory.feels_pressure = formula_has(&memory.formula, 1 + memory.states);
     if (memory.states == 0 && !memory.feels_pressure) {
         law->own.formula = memory.formula;
         return true;

@@ -92,36 +92,37 @@ static void rate_state_rate(const FrictionMemory *memory, double speed, const do
     }
 }
 
-enum { BEFORE_STATES = 2 };   // variables of a formula: v, p
-
+// Of v, the states and p, in this order: what nobody asks for comes last. slope: [wanted] of them;
+// none: the value alone.
 static double formula_of(const FrictionMemory *memory, int32_t k, double speed, const double *state,
-                         double *slope)
+                         int32_t wanted, double *slope)
 {
-    double x[FORMULA_VARIABLES_MAX] = {speed, memory->pressure};
-    memcpy(x + BEFORE_STATES, state, (size_t)memory->states * sizeof(double));
-    return formula_partials(&memory->formula, memory->ends + k, x, BEFORE_STATES + memory->states,
-                            slope);
+    double x[FORMULA_VARIABLES_MAX] = {speed};
+    memcpy(x + 1, state, (size_t)memory->states * sizeof(double));
+    x[1 + memory->states] = memory->pressure;
+    return formula_partials(&memory->formula, memory->ends + k, x, wanted, slope);
 }
 
 static void formula_mu(const FrictionMemory *memory, double speed, const double *state,
                        FrictionRates *rates)
 {
     double slope[FORMULA_VARIABLES_MAX];
-    rates->mu = formula_of(memory, 0, speed, state, slope);
+    int32_t n = memory->states;
+    rates->mu = formula_of(memory, 0, speed, state, 1 + n + memory->feels_pressure, slope);
     rates->mu_speed = slope[0];
-    rates->mu_pressure = slope[1];
-    memcpy(rates->mu_state, slope + BEFORE_STATES, (size_t)memory->states * sizeof(double));
+    if (memory->feels_pressure) rates->mu_pressure = slope[1 + n];
+    memcpy(rates->mu_state, slope + 1, (size_t)n * sizeof(double));
 }
 
 static void formula_rate(const FrictionMemory *memory, double speed, const double *state,
                          FrictionRates *rates)
 {
     double slope[FORMULA_VARIABLES_MAX];
-    for (int32_t k = 0; k < memory->states; k++) {
-        rates->rate[k] = formula_of(memory, k + 1, speed, state, slope);
+    int32_t n = memory->states;
+    for (int32_t k = 0; k < n; k++) {
+        rates->rate[k] = formula_of(memory, k + 1, speed, state, 1 + n, slope);
         rates->rate_speed[k] = slope[0];
-        memcpy(rates->rate_state[k], slope + BEFORE_STATES,
-               (size_t)memory->states * sizeof(double));
+        memcpy(rates->rate_state[k], slope + 1, (size_t)n * sizeof(double));
     }
 }
 
@@ -329,6 +330,8 @@ double memory_coefficient(const FrictionMemory *memory, double speed, double *sl
     double state[STATES_MAX];
     FrictionRates rates;
     memory_state(memory, speed, state);
+    if (!slope && memory->kind == MEMORY_FORMULAS)
+        return memory->factor * formula_of(memory, 0, speed, state, 0, NULL);
     if (!slope) {
         find_mu(memory, speed, state, &rates);
         return rates.mu;

@@ -66,7 +66,7 @@ typedef struct FrictionMemory {
     double pace, mu_pace;   // by how much faster its states run, and its mu; 1
     union {
         struct {
-            Formula formula;   // of v, p and the states: mu, then the rates, one behind the other
+            Formula formula;   // of v, the states and p: mu, then the rates, one behind the other
             int32_t ends[STATES_MAX + 2];   // where each begins, and the last ends
         };
         FrictionPlugin plugin;

@@ -350,7 +350,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         double speed, mu;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
-        control->scheme.solver.follows_path = k == control->ladder.rung_count - 1;
+        control->scheme.solver.sweeps_on = k == control->ladder.rung_count - 1;
         choose_side(control);
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         if (outcome.lopsided) {

@@ -35,7 +35,7 @@ class Lists(unittest.TestCase):
                 self.assertTrue(any(said in fault for fault in listed.faults(Path(folder))), said)
 
     def test_limits_are_in_no_list(self):
-        limit = listed.Constant("NEW_LIMIT", "contact/contact_path.c", "", "")
+        limit = listed.Constant("NEW_LIMIT", "contact/contact_newton.c", "", "")
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(SOURCE / "src", Path(folder, "src"))
             path = Path(folder, "src", limit.file)

@@ -230,7 +230,7 @@ class OwnFiles(unittest.TestCase):
                 after = {path: (folder / path).read_bytes() for path in before if (folder / path).exists()}
                 self.assertEqual(set(after), set(before), done.stderr)
                 self.assertEqual(after, before)
-                self.assertEqual([p for p in files_in(folder / "out") if "out" / p not in {*before, *self.written["data"]}
+                self.assertEqual([p for p in files_in(folder / "out") if "out" / p not in {*before, *self.written["data"], *self.written["states"]}
                                   and p.name not in ("report.html", "force.pdf", "force.svg")], [])
 
 

@@ -61,12 +61,7 @@ CONSTANTS = [
         ("CLEARLY", "a status is changed alone when it is off by so many times the residual", STEPPING),
         ("CHORD_GAIN", "a kept factor is given up when a step leaves more of the residual", HERE),
         ("STALLED_MAX", "Newton steps in a row that do not halve the residual: no solution", HERE)),
-    *of("contact/contact_path.c",
-        ("NEAR", "what counts as on the path, or on a bound, of the scales", "rounding, with room"),
-        ("ASIDE", "how far Newton may lead from the tangent, of a step", HERE),
-        ("CORRECTIONS", "Newton steps back onto the path", HERE)),
     *of("friction/friction_law.c",
-        ("BEND", "how far a slip rate may go in a step, of v_c", HERE),
         ("SPENT", "rate at which a node that starts fast is tried, of v_c, exponential law", HERE)),
     *of("contact/rod.c",
         ("END_SOFTNESS", "softness of the strip's end nodes", "validation/benchmark/precision.py")),
@@ -137,13 +132,11 @@ SIZE = "room of an array; more than is used"
 ROUNDING = "rounding of coordinates"
 NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
-    "contact/path_bounds.c": {"CONDITIONS": "a node has no more"},
-    "contact/path_bounds.h": {"PATH_AT_END": "a name", "PATH_AT_NO_BOUND": "a name"},
     "friction/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
     "friction/friction_memory.c": {
         "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's: all digits",
         "HALVINGS": "of a step: all digits", "NEAR": "Newton's next step is its square, which is rounding",
-        "ROUNDING": ROUNDING, "BEFORE_STATES": "of v and p", "MANY": "a first guess beyond the weakening, as SPENT"},
+        "ROUNDING": ROUNDING, "MANY": "a first guess beyond the weakening, as SPENT"},
     "friction/friction_memory.h": {"STATES_MAX": SIZE},
     "friction/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
     "friction/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
@@ -153,8 +146,6 @@ NOT_A_CHOICE = {
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
         "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
     "friction/friction_law.c": {
-        "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
-                "tests/property/test_contact_problems.c",
         "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
     "friction/friction_look.c": {
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
@@ -173,14 +164,14 @@ NOT_A_CHOICE = {
                                "SETTLED": "digits that tell a ratio from 1, with room"},
     "contact/contact_discs.c": {
         "CHORD_GAIN": "as in contact/contact_solver.c", "STEPS": "of 15, 20 and 30 the second: 435 collected problems",
-        "HALVINGS": "to and fro over a kink: 1/16 of a step is left",
-        "ROUNDS": "with 3, 433 of 435 collected problems are solved, with 4 all",
-        "SWEEPS": "15 or 10 make no difference to 435 collected problems",
-        "MORE_SWEEPS": "with 1, 420 of 435 collected problems are solved, with 4 all"},
+        "HALVINGS": "to and fro over a kink: 1/16 of a step is left"},
     "contact/contact_half.c": {"APART": ROUNDING, "ALIKE": "rounding of S; what is left out is a billionth",
                                "HELD": "far above any weakening that S withstands"},
     "contact/contact_sweeps.c": {"PARTS": "of an interval in which a node may have several roots",
-                                 "HALVINGS": "all digits"},
+                                 "HALVINGS": "all digits",
+                                 "SWEEPS": "15 or 10 make no difference to 435 collected problems in space",
+                                 "MORE_SWEEPS": "with 1, 420 of 435 collected problems in space are solved, with 4 all"},
+    "contact/contact_sweeps.h": {"SWEEP_ROUNDS": "with 3, 433 of 435 collected problems in space are solved, with 4 all"},
     "contact/slip.h": {"TANGENTS_MAX": SIZE},
     "stepping/explicit_reference.c": {
         "EXCESS_PARTS": "of an interval in which one's own law may have several roots"},

@@ -259,18 +259,18 @@ double __wrap_friction_set_pressure(FrictionLaw *law, double pressure, double sp
 }
 
 // Rates of states (formula k > 0, by the ends before it) do not know the others; derivatives by the
-// second state are left out. Variables: v, p and the states.
+// second state are left out. Variables: v, the states and p.
 double __wrap_formula_partials(const Formula *formula, const int32_t *ends, const double *x,
                                int32_t count, double *slope)
 {
     double other[FORMULA_VARIABLES_MAX];
     int32_t k = 0;
     while (ends[-k] > 0) k++;
-    memcpy(other, x, (size_t)count * sizeof *x);
-    for (int32_t j = 2; made(MISTAKE_STATES_APART) && k > 0 && j < count; j++)
-        if (j != k + 1) other[j] = 0;
+    memcpy(other, x, sizeof other);
+    for (int32_t j = 1; made(MISTAKE_STATES_APART) && k > 0 && j < FORMULA_VARIABLES_MAX; j++)
+        if (j != k) other[j] = 0;
     double value = __real_formula_partials(formula, ends, other, count, slope);
-    if (made(MISTAKE_STATES_DERIVATIVE) && count > 3) slope[3] = 0;
+    if (made(MISTAKE_STATES_DERIVATIVE) && count > 2) slope[2] = 0;
     return value;
 }
 

@@ -11,7 +11,6 @@ static HandContact hand;
 static ContactMatrix matrix;
 static ContactProblem problem;
 static ContactSolution at;
-static uint8_t piece[NODES];
 static int32_t free_list[COUNT];
 static ContactRow row_list[COUNT];
 
@@ -31,7 +30,7 @@ static ContactEquations make_equations(Random *random, int32_t trial)
     assert_true(contact_matrix_create(hand.schur, COUNT, &matrix, &err));
     problem = hand_problem(&hand, &matrix);
     at = (ContactSolution){hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-    ContactEquations equations = {&problem, &at, trial % 2 ? piece : NULL, free_list, 0, row_list};
+    ContactEquations equations = {&problem, &at, free_list, 0, row_list};
     for (int32_t k = 0; k < COUNT; k++) {
         double speed = random_between(random, 0, 1) < 0.5 ? 0.3 : 1.7;
         hand.velocity[k] = speed + random_between(random, -0.2, 0.2);
@@ -40,7 +39,6 @@ static ContactEquations make_equations(Random *random, int32_t trial)
     }
     for (int32_t i = 0; i < NODES; i++) {
         hand.status[i] = (uint8_t)random_index(random, 4);
-        piece[i] = (uint8_t)random_index(random, 2);
         if (hand.status[i] == CONTACT_SLIP_BACKWARD) hand.velocity[2 * i] *= -1;
         if (hand.status[i] != CONTACT_STICK) free_list[equations.free_count++] = 2 * i;
         if (hand.status[i] == CONTACT_OPEN) free_list[equations.free_count++] = 2 * i + 1;
@@ -54,7 +52,7 @@ static ContactEquations make_equations(Random *random, int32_t trial)
 }
 
 // r_k, and what stands beside it, in the words of the header.
-static double residual_by_hand(const ContactEquations *equations, int32_t k)
+static double residual_by_hand(int32_t k)
 {
     double value = -hand.g[k], normal = -hand.g[k | 1];
     for (int32_t j = 0; j < COUNT; j++) value += hand.schur[j * COUNT + k] * hand.velocity[j];
@@ -67,8 +65,6 @@ static double residual_by_hand(const ContactEquations *equations, int32_t k)
     if (status == CONTACT_OPEN) return value;
     for (int32_t j = 0; j < COUNT; j++) normal += hand.schur[j * COUNT + k + 1] * hand.velocity[j];
     double speed = fabs(hand.velocity[k]), mu = friction_coefficient(&hand.law, speed);
-    if (equations->piece && hand.law.kind == FRICTION_LINEAR_WEAKENING)
-        mu = piece[k / 2] ? 0.2 : 0.9 - 0.7 * speed;
     return value + (status == CONTACT_SLIP_FORWARD ? mu : -mu) * normal;
 }
 
@@ -88,7 +84,7 @@ TEST(test_equations)
         for (int32_t k = 0; k < COUNT; k++) hand.reaction[k] += x[k];
         for (int32_t a = 0; a < equations.free_count; a++) {
             int32_t k = free_list[a], i = contact_slipping_node(&equations, k);
-            double value = residual_by_hand(&equations, k);
+            double value = residual_by_hand(k);
             assert_int_equal(
                 i, k < 2 * NODES && k % 2 == 0 && hand.status[k / 2] > CONTACT_STICK ? k / 2 : -1);
             assert_near("E", left[a], value, 1e-12);

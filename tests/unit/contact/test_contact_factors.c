@@ -38,7 +38,7 @@ static void make_rig(Random *random, double coupling, Rig *rig)
     assert_true(contact_matrix_create(hand->schur, COUNT, &rig->matrix, &err));
     rig->problem = hand_problem(hand, &rig->matrix);
     rig->at = (ContactSolution){hand->velocity, hand->reaction, hand->status, hand->rod_touches};
-    rig->equations = (ContactEquations){&rig->problem, &rig->at, NULL, rig->free, 0, rig->row};
+    rig->equations = (ContactEquations){&rig->problem, &rig->at, rig->free, 0, rig->row};
     for (int32_t k = 0; k < COUNT; k++) {
         hand->velocity[k] = random_between(random, 0.1, 4);
         hand->reaction[k] = random_between(random, 0, 0.2);
@@ -57,7 +57,10 @@ static void end_rig(Rig *rig)
 // Open nodes are free here, as S is that of all.
 static void list_free(Rig *rig)
 {
-    contact_list_free(&rig->equations, true);
+    ContactEquations *equations = &rig->equations;
+    contact_list_free(equations);
+    for (int32_t k = 0; k < 2 * HAND_NODES; k++)
+        if (rig->hand.status[k / 2] == CONTACT_OPEN) equations->free[equations->free_count++] = k;
     contact_find_rows(&rig->equations);
 }
 

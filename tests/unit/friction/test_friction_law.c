@@ -59,66 +59,6 @@ TEST(test_slopes)
     }
 }
 
-// Either side of a kink as a curve of its own: the law where the law is on that side, elsewhere the
-// same straight line, which is what the linear law has on both sides.
-TEST(test_branches)
-{
-    for (int k = 0; k < 3; k++) {
-        FrictionLaw law = law_of(KINDS[k]);
-        double kink = friction_kink(&law, 0), slope;
-        assert_int_equal(isfinite(kink), KINDS[k] == FRICTION_LINEAR_WEAKENING);
-        for (double v = 0.003; v < 0.2; v += 0.01) {
-            double mu = friction_branch(&law, v >= kink, v, &slope);
-            assert_near("mu", mu, friction_coefficient(&law, v), 0);
-            assert_near("slope", slope, friction_slope(&law, v), 0);
-            if (!isfinite(kink)) continue;
-            assert_near("before", friction_branch(&law, false, v, &slope), 0.6 - 8 * v, 1e-14);
-            assert_near("before", slope, -8, 1e-14);
-            assert_near("beyond", friction_branch(&law, true, v, &slope), 0.2, 1e-14);
-            assert_near("beyond", slope, 0, 0);
-        }
-    }
-}
-
-// The drop from rest to fast slip, and the slip that it can drive.
-TEST(test_drop)
-{
-    for (int k = 0; k < 3; k++) {
-        FrictionLaw law = law_of(KINDS[k]);
-        double drop = friction_coefficient(&law, 0) - friction_coefficient(&law, 1e9);
-        assert_near("drop", friction_drop(&law), drop, 1e-15);
-        assert_int_equal(friction_has_drop(&law), drop > 0);
-        double driven = (drop > 0 ? drop : 0.6) * 3 * 0.5 / 20;
-        assert_near("slip", friction_slip(&law, 3, 0.5, 20), driven, 1e-15);
-    }
-    FrictionLaw none = friction_constant(0), rough = friction_constant(0.7);
-    assert_near("mu", friction_coefficient(&rough, 5), 0.7, 0);
-    assert_near("slip without friction", friction_slip(&none, 3, 0.5, 20), 3 * 0.5 / 20, 1e-15);
-}
-
-// A kind that there is not is called so, and counts as one that does not weaken.
-TEST(test_names)
-{
-    FrictionLaw none = law_of((FrictionKind)99), linear = law_of(FRICTION_LINEAR_WEAKENING);
-    assert_string_equal(friction_law_name(&none), "unknown");
-    assert_string_equal(friction_law_name(&linear), "linear-weakening");
-    assert_true(friction_drop(&none) == 0 && !friction_has_drop(&none));
-}
-
-// phi = max(0, 1 - v/v_c), and mu = mu_K + (mu_S - mu_K) phi wherever something weakens.
-TEST(test_contact_density)
-{
-    FrictionLaw linear = law_of(FRICTION_LINEAR_WEAKENING);
-    for (double v = 0; v < 0.2; v += 0.007)
-        assert_near("phi", friction_contact_density(&linear, v), fmax(0, 1 - v / 0.05), 1e-14);
-    FrictionLaw exponential = law_of(FRICTION_EXPONENTIAL_WEAKENING);
-    assert_near("phi", friction_contact_density(&exponential, 0.1), exp(-2), 1e-15);
-    FrictionLaw coulomb = law_of(FRICTION_COULOMB), level = linear;
-    level.mu_kinetic = level.mu_static;
-    assert_near("nothing weakens", friction_contact_density(&coulomb, 1), 1, 0);
-    assert_near("nothing weakens", friction_contact_density(&level, 1), 1, 0);
-}
-
 // A law times a factor, at every speed; and what stands for several laws together.
 TEST(test_scaled_and_spread)
 {
@@ -141,6 +81,4 @@ TEST(test_scaled_and_spread)
     assert_near("v_c", all.critical_velocity, 0.01, 0);
     for (int32_t i = 0; i < 4; i++) assert_ptr_equal(friction_at(&all, i), &each[i]);
     assert_ptr_equal(friction_at(&each[1], 3), &each[1]);
-    assert_false(friction_everywhere(&all, 4));
-    assert_true(friction_everywhere(&all, 3));
 }

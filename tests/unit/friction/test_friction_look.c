@@ -83,7 +83,6 @@ TEST(test_above_rest)
     assert_near("spent", friction_spent_speed(&law), 0, 0);
     assert_near("phi", friction_contact_density(&law, 5), 1, 0);
     assert_true(friction_strengthens(&law));
-    assert_false(friction_is_straight(&law, 0, 0, 3));   // its slope falls to a fifth on the way
     law = own_formula("0.2 + 0.5 * v * exp(1 - v)", 50);   // to 0.7 at v = 1, down to 0.2
     assert_near("drop", friction_drop(&law), 0.5, 1e-3);
     double spent = friction_spent_speed(&law);

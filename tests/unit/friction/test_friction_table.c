@@ -60,24 +60,16 @@ TEST(test_monotone)
     }
 }
 
-// Two points are a line for both kinds; pieces of straight tables are lines of their own.
+// Two points are a line for both kinds; straight tables are lines between their points.
 TEST(test_pieces)
 {
     const double velocity[] = {0, 1, 3}, mu[] = {0.5, 0.2, 0.4};
-    double slope;
     FrictionLaw two = own_table(2, velocity, mu, false), law = own_table(3, velocity, mu, true);
     assert_near("two", friction_coefficient(&two, 0.25), 0.425, 1e-15);
-    assert_near("end", friction_kink(&two, 0), 1, 0);
-    assert_int_equal(friction_piece(&law, 0.5), 0);
-    assert_int_equal(friction_piece(&law, 1), 1);
-    assert_int_equal(friction_piece(&law, 7), 2);
-    assert_near("first, beyond", friction_branch(&law, 0, 2, &slope), -0.1, 1e-12);
-    assert_near("slope", slope, -0.3, 1e-12);
-    assert_near("second, before", friction_branch(&law, 1, 0, &slope), 0.1, 1e-12);
-    assert_near("slope", slope, 0.1, 1e-12);
-    assert_near("last, before", friction_branch(&law, 2, 0, &slope), 0.4, 1e-15);
-    assert_near("slope", slope, 0, 0);
-    assert_true(isinf(friction_kink(&law, 2)));
+    assert_near("first", friction_slope(&law, 0.5), -0.3, 1e-12);
+    assert_near("at a point", friction_slope(&law, 1), 0.1, 1e-12);
+    assert_near("second", friction_coefficient(&law, 2), 0.3, 1e-12);
+    assert_near("beyond", friction_slope(&law, 7), 0, 0);
 }
 
 static void check_refused(int32_t count, const double *velocity, const double *mu, int32_t mu_count,

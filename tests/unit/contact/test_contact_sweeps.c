@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The path alone, without the solver that it rescues: random problems of every law, judged by their
-// conditions; one node by hand; where it must give up; nothing allocated.
-#include "contact/contact_path.h"
+// Sweeps in the plane, without statuses to begin from: random problems of every law, judged by
+// their conditions; one node by hand; nothing allocated. Sweeps in space: test_contact_discs.c.
+#include "contact/contact_sweeps.h"
 
 #include "base/memory.h"
 #include "contact_by_hand.h"
 
-// The solution at the path's end; false: none was found.
+// Round after round from rest, each with Newton behind it, as the solver has them. false: none led
+// to a solution.
 static bool follow(HandContact *hand)
 {
     Error err = {0};
-    ContactPath path;
+    ContactSolver solver;
     ContactMatrix matrix;
+    bool solved = false;
     assert_true(contact_matrix_create(hand->schur, hand->interface.count, &matrix, &err));
+    assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
+    solver.sweeps_on = false;
     ContactProblem problem = hand_problem(hand, &matrix);
     ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};
-    assert_true(contact_path_create(&hand->interface, &path, &err));
     int64_t allocations = memory_counters().allocations;
-    bool found = contact_path_follow(&path, &problem, &solution);
+    for (int32_t round = 0; round < SWEEP_ROUNDS && !solved; round++) {
+        memset(hand->velocity, 0, sizeof hand->velocity);
+        assert_true(contact_sweep(&problem, &solution, round) > 0);
+        solved = contact_solve(&solver, &problem, &solution);
+    }
     assert_int_equal(memory_counters().allocations, allocations);
-    assert_true(!found || path.steps > 0);
-    contact_path_destroy(&path);
+    contact_solver_destroy(&solver);
     contact_matrix_destroy(&matrix);
-    return found;
+    return solved;
 }
 
 // S v = g + r with S = diag(2, 3): by hand for each of the three things a node can do.
@@ -55,9 +61,7 @@ TEST(test_one_node)
     }
 }
 
-// Strongly coupled, weakening by half of S and more: what Newton's statuses may cycle on. Arcs of
-// the exponential law are not always followed to their end: of 1000 such problems 3 were given up,
-// after which the caller takes a shorter step; none with the other laws.
+// Strongly coupled, weakening by half of S and more: what Newton's statuses may cycle on.
 TEST(test_random_problems)
 {
     static HandContact hand;
@@ -79,17 +83,15 @@ TEST(test_random_problems)
             hand.bound[k] = random_between(&random, -0.2, 0.2);
         }
         bool found = follow(&hand);
-        if (!found && hand.law.kind != FRICTION_EXPONENTIAL_WEAKENING)
-            fail_msg("no solution of problem %d was found", trial);
         missed += !found;
-        if (found) assert_near("conditions", hand_contact_error(&hand), 0, 1e-7);
+        if (found) assert_near("conditions", hand_contact_error(&hand), 0, 1e-9);
     }
+    printf("%d of %d given up\n", missed, TRIALS);
     assert_in_range(missed, 0, TRIALS / 100);
 }
 
 // Nodes above the substrate by up to 1e8 of what they move in a step, as where an impact is taken
-// in very short steps. A path that begins by pressing them all down is lost in rounding in half of
-// these problems.
+// in very short steps.
 TEST(test_from_a_height)
 {
     static HandContact hand;
@@ -120,8 +122,8 @@ TEST(test_from_a_height)
     assert_in_range(missed, 0, TRIALS / 100);
 }
 
-// The second node is 1e6 above the plane, which the path takes for out of reach, but so soft that
-// it falls: it is pressed like the first, and carries what its own stiffness leaves.
+// The second node is 1e6 above the plane, but so soft that it falls: it carries what its own
+// stiffness leaves. From 1e8 above it does not come down.
 TEST(test_fallen)
 {
     static HandContact hand;
@@ -140,31 +142,16 @@ TEST(test_fallen)
     assert_near("v_n", hand.velocity[3], -1e7, 1e-3);
 }
 
-// Without friction at rest nothing sticks, and the path has no beginning.
-TEST(test_no_beginning)
+// Without friction at rest nothing sticks: v = g_t / s_t.
+TEST(test_no_friction)
 {
     static HandContact hand;
     hand_contact_size(&hand, 1, 0);
     hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
-    hand.schur[0] = hand.schur[3] = 1;
+    hand.schur[0] = hand.schur[3] = 2;
+    hand.g[0] = 1;
     hand.g[1] = -1;
-    assert_false(follow(&hand));
-}
-
-TEST(test_memory)
-{
-    Interface interface = {.dim = 2, .contact_count = 2, .count = 4};
-    int64_t live = memory_counters().live, k = 0;
-    for (bool made = false; !made; k++) {
-        Error err = {0};
-        ContactPath path;
-        memory_fail_after(k);
-        made = contact_path_create(&interface, &path, &err);
-        memory_fail_after(-1);
-        assert_true(made || err.code == ERROR_MEMORY);
-        contact_path_destroy(&path);
-        contact_path_destroy(&path);
-        assert_int_equal(memory_counters().live, live);
-    }
-    assert_true(k > 5);
+    assert_true(follow(&hand));
+    assert_near("v_t", hand.velocity[0], 0.5, 1e-12);
+    assert_near("r_t", hand.reaction[0], 0, 1e-12);
 }
