@@ -356,7 +356,7 @@ static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
         if (count < NAMES && !is_contact(group))
             entries[count++] = (KeyEntry){KEY_PATCH, color[g], group->name};
     }
-    if (contact > 1) entries[count++] = (KeyEntry){.words = "1: contact_1"};
+    if (contact > 1) entries[count++] = (KeyEntry){.words = "n: contact_n"};
     key_draw(page, entries, count);
     MeshPage map = {.mesh = mesh, .page = page};
     double margin = RIGHT * page->point, width = canvas_width(page->canvas) - 2 * margin;
