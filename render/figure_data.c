@@ -3,6 +3,7 @@
 #include "render/figure_data.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "io/text/csv_writer.h"
 #include "render/figures/state_scale.h"
 
@@ -74,12 +75,6 @@ static bool write_speeds(const char *path, ResultView *view, Error *err)
     return write_columns(path, columns, 2, view->front_speed.count, view->si, err);
 }
 
-static int compare_numbers(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return a < b ? -1 : a > b;
-}
-
 // Least, median and largest over the nodes, of the state that the view stands for.
 static bool state_columns(ResultView *view, double *columns[OF_STATE], Error *err)
 {
@@ -88,7 +83,7 @@ static bool state_columns(ResultView *view, double *columns[OF_STATE], Error *er
     for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
     for (int64_t row = 0; row < view->rows; ++row) {
         double *own = states + row * view->nodes;
-        qsort(own, (size_t)view->nodes, sizeof *own, compare_numbers);
+        qsort(own, (size_t)view->nodes, sizeof *own, order_doubles);
         for (int32_t k = 0; k < OF_STATE; ++k)
             columns[k][row] = own[k * (view->nodes - 1) / (OF_STATE - 1)];
     }
@@ -121,9 +116,7 @@ static bool write_states(const char *path, ResultView *view, Error *err)
 cleanup:
     view->state = 0;
     for (int32_t k = 0; values && k < OF_STATE * view->states; ++k) memory_free(values[k]);
-    memory_free(columns);
-    memory_free(names);
-    memory_free(values);
+    memory_free_all(columns, names, values);
     return error_is_clean(err);
 }
 

@@ -5,6 +5,7 @@
 #include "render/figures/block_mesh.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
@@ -265,13 +266,6 @@ static Side element_side(const FieldFrame *frame, int32_t e, int32_t k)
     return (Side){a < b ? a : b, a < b ? b : a, curved ? nodes[corners + k] : -1};
 }
 
-static int compare_sides(const void *left, const void *right)
-{
-    const Side *a = left, *b = right;
-    if (a->low != b->low) return a->low < b->low ? -1 : 1;
-    return a->high < b->high ? -1 : a->high > b->high;
-}
-
 static void side_draw(const Page *page, const Block *block, const Axes *axes, const Side *side,
                       const Stroke *stroke)
 {
@@ -293,10 +287,10 @@ bool block_outline_draw(const Page *page, const Block *block, const Axes *axes,
     for (int32_t e = 0; e < frame->element_count; ++e)
         for (int32_t k = 0; k < element_corner_count((ElementKind)frame->kind[e]); ++k)
             sides[count++] = element_side(frame, e, k);
-    qsort(sides, (size_t)count, sizeof *sides, compare_sides);
+    qsort(sides, (size_t)count, sizeof *sides, order_int32_pairs);
     for (int64_t k = 0; k < count; ++k) {
-        bool before = k > 0 && compare_sides(&sides[k - 1], &sides[k]) == 0;
-        bool after = k + 1 < count && compare_sides(&sides[k], &sides[k + 1]) == 0;
+        bool before = k > 0 && order_int32_pairs(&sides[k - 1], &sides[k]) == 0;
+        bool after = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
         if (!before && !after) side_draw(page, block, axes, &sides[k], stroke);
     }
     memory_free(sides);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/figures/value_range.h"
 
+#include "base/order.h"
 #include "io/text/picture_options.h"
 
 #include <math.h>
@@ -10,12 +11,6 @@
 static const double LEFT_OUT = 0.01;   // of what is shown, at each end of the range: corners
 static const double DECADES_FROM = 30;   // largest over least from which on powers are shown
 static const double LEAST_SHOWN = 1e-15;   // of the largest: powers begin there at the least
-
-static int compare_values(const void *left, const void *right)
-{
-    double a = ((const WeighedValue *)left)->value, b = ((const WeighedValue *)right)->value;
-    return a < b ? -1 : a > b;
-}
 
 // In order, without those that are not finite: how many, and the weight of all.
 static int64_t sort_values(WeighedValue *values, int64_t count, double *weight)
@@ -27,7 +22,7 @@ static int64_t sort_values(WeighedValue *values, int64_t count, double *weight)
         *weight += values[k].weight;
         values[kept++] = values[k];
     }
-    qsort(values, (size_t)kept, sizeof *values, compare_values);
+    qsort(values, (size_t)kept, sizeof *values, order_doubles);
     return kept;
 }
 

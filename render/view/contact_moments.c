@@ -5,6 +5,7 @@
 #include "render/view/contact_moments.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "render/view/block.h"
 
 #include <math.h>
@@ -25,12 +26,6 @@ static int64_t nearest_row(const ResultView *view, const double *values, double 
     return best;
 }
 
-static int compare_rows(const void *left, const void *right)
-{
-    int64_t a = *(const int64_t *)left, b = *(const int64_t *)right;
-    return a < b ? -1 : a > b;
-}
-
 static bool take_asked(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
 {
     char word[MOMENT_SIZE];
@@ -43,7 +38,7 @@ static bool take_asked(const ResultView *view, const char *at, ContactMoments *m
         TRY(block_moment_read(word, &by_U, &value, err));
         moments->row[moments->count++] = nearest_row(view, by_U ? view->U : view->t, value);
     }
-    qsort(moments->row, (size_t)moments->count, sizeof *moments->row, compare_rows);
+    qsort(moments->row, (size_t)moments->count, sizeof *moments->row, order_int64);
     moments->asked = true;
     moments->first = moments->row[0];
     moments->last = moments->row[moments->count - 1];

@@ -4,6 +4,7 @@
 #include "render/view/contact_plane.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "io/mesh/element_faces.h"
 #include "io/mesh/shape_functions.h"
 
@@ -137,20 +138,13 @@ static void add_sides(const Face *face, KnownSide *sides, int32_t *count)
     }
 }
 
-static int compare_sides(const void *left, const void *right)
-{
-    const KnownSide *a = left, *b = right;
-    if (a->low != b->low) return a->low < b->low ? -1 : 1;
-    return a->high < b->high ? -1 : a->high > b->high;
-}
-
 // Sides of one face alone.
 static void keep_outline(KnownSide *sides, int32_t count, ContactPlane *plane)
 {
-    qsort(sides, (size_t)count, sizeof *sides, compare_sides);
+    qsort(sides, (size_t)count, sizeof *sides, order_int32_pairs);
     for (int32_t k = 0; k < count; ++k) {
-        bool before = k > 0 && compare_sides(&sides[k - 1], &sides[k]) == 0;
-        bool after = k + 1 < count && compare_sides(&sides[k], &sides[k + 1]) == 0;
+        bool before = k > 0 && order_int32_pairs(&sides[k - 1], &sides[k]) == 0;
+        bool after = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
         if (!before && !after) plane->sides[plane->side_count++] = sides[k].side;
     }
 }

@@ -5,6 +5,7 @@
 #include "render/view/surface.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "io/mesh/shape_functions.h"
 #include "render/view/outer_faces.h"
 #include "render/view/surface_cut.h"
@@ -100,13 +101,6 @@ static int32_t add_face_sides(const FieldFrame *frame, const OuterFace *face, Fa
     return corners;
 }
 
-static int compare_sides(const void *left, const void *right)
-{
-    const FaceSide *a = left, *b = right;
-    if (a->low != b->low) return a->low < b->low ? -1 : 1;
-    return a->high < b->high ? -1 : a->high > b->high;
-}
-
 static bool add_side(const Block *block, const FaceSide *side, const SpaceCut *cut,
                      SurfaceParts *lines, Error *err)
 {
@@ -127,7 +121,7 @@ static bool list_sides(const FieldFrame *frame, const OuterFace *faces, int32_t 
     TRY(*sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * face_count, err));
     for (int32_t f = 0; f < face_count; ++f)
         *count += add_face_sides(frame, &faces[f], *sides + *count);
-    qsort(*sides, (size_t)*count, sizeof **sides, compare_sides);
+    qsort(*sides, (size_t)*count, sizeof **sides, order_int32_pairs);
 cleanup:
     return error_is_clean(err);
 }
@@ -138,7 +132,7 @@ static bool add_lines(const Block *block, const FaceSide *sides, int32_t count, 
 {
     for (int32_t k = 0; k < count; ++k) {
         double same = -1;
-        bool pair = k + 1 < count && compare_sides(&sides[k], &sides[k + 1]) == 0;
+        bool pair = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
         if (pair) same = 0;
         for (int32_t d = 0; d < 3 && pair; ++d) same += sides[k].normal[d] * sides[k + 1].normal[d];
         if (same < BEND) TRY(add_side(block, &sides[k], cut, &surface->outline, err));

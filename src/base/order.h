@@ -4,6 +4,7 @@
 #define AMONTONS_BASE_ORDER_H
 
 int order_int32(const void *left, const void *right);
+int order_int32_pairs(const void *left, const void *right);   // by the first two members
 int order_int64(const void *left, const void *right);
 int order_doubles(const void *left, const void *right);   // no NaN among them
 

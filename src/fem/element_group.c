@@ -2,6 +2,7 @@
 #include "fem/element_group.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 
 #include <stdlib.h>
 
@@ -17,9 +18,8 @@ typedef struct Side {
 static int by_edge(const void *left, const void *right)
 {
     const Side *a = left, *b = right;
-    if (a->low != b->low) return a->low < b->low ? -1 : 1;
-    if (a->high != b->high) return a->high < b->high ? -1 : 1;
-    return (a->element > b->element) - (a->element < b->element);
+    int nodes = order_int32_pairs(left, right);
+    return nodes ? nodes : (a->element > b->element) - (a->element < b->element);
 }
 
 static int by_length(const void *left, const void *right)
