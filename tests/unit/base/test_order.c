@@ -28,3 +28,11 @@ TEST(test_first_member)
     qsort(pairs, 3, sizeof *pairs, order_int64);
     for (int32_t k = 0; k < 3; k++) assert_int_equal(pairs[k].value, 10 * (k + 1));
 }
+
+TEST(test_pairs)
+{
+    int32_t sides[][3] = {{2, 1, 3}, {1, INT32_MAX, 2}, {INT32_MIN, 7, 0}, {1, INT32_MIN, 1}};
+    qsort(sides, 4, sizeof *sides, order_int32_pairs);
+    for (int32_t k = 0; k < 4; k++) assert_int_equal(sides[k][2], k);
+    assert_int_equal(order_int32_pairs((int32_t[]){4, 5, 6}, (int32_t[]){4, 5, 9}), 0);
+}
