@@ -7,7 +7,6 @@
 #include "run/end_wait.h"
 #include "run/level_scene.h"
 #include "run/one_mesh.h"
-#include "run/stop_request.h"
 #include "scene/programs.h"
 
 #include <math.h>
