@@ -287,10 +287,8 @@ static SeriesWriter *find_series(const ArrayFile *file, const char *name)
 
 static bool grow_series_list(ArrayFile *file, Error *err)
 {
-    SeriesWriter *series = memory_grow(file->series, file->series_count, &file->series_capacity,
-                                       sizeof(SeriesWriter), err);
-    if (series) file->series = series;
-    return series != NULL;
+    return memory_grow(&file->series, file->series_count, &file->series_capacity,
+                       sizeof(SeriesWriter), err);
 }
 
 // Unit and description are attributes of the dataset: a reader finds them beside the numbers.

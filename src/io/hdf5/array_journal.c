@@ -91,9 +91,7 @@ int array_journal_add(ArrayJournal *journal, int64_t address, const void *bytes,
     if (journal->size == 0) journal->size = sizeof(Head);
     int64_t needed = journal->size + (int64_t)sizeof piece + piece.size;
     if (needed > journal->room) {
-        char *longer = memory_resize(journal->bytes, journal->room, 2 * needed, 1, &err);
-        if (!longer) return ENOMEM;
-        journal->bytes = longer;
+        if (!memory_resize(&journal->bytes, journal->room, 2 * needed, 1, &err)) return ENOMEM;
         journal->room = 2 * needed;
     }
     append(journal, &piece, sizeof piece);
