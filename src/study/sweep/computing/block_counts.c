@@ -35,9 +35,8 @@ bool block_counts_note(const Scene *scene, const PointMesh *mesh, BlockCounts *c
     if (scene->load.traction_count > 0) hash_number(&hash, scene->load.pressure);
     hash_number(&hash, scene->time.accuracy);   // the reduction's, where it says none itself
     if (!scene_hash(scene, key_counts, &hash, err)) return false;
-    Hash *blocks = memory_grow(counts->blocks, counts->count, &counts->room, sizeof *blocks, err);
-    if (!blocks) return false;
-    counts->blocks = blocks;
+    if (!memory_grow(&counts->blocks, counts->count, &counts->room, sizeof *counts->blocks, err))
+        return false;
     counts->blocks[counts->count++] = hash;
     return true;
 }
