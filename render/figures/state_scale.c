@@ -8,16 +8,6 @@
 
 enum { COUNTED_MOST = 200000 };   // of a long history every second row, or third, ...
 
-bool state_read(ResultView *view, bool whole, double **states, Error *err)
-{
-    if (view->states == 0)
-        FAIL(err, ERROR_INPUT, "the friction of this result remembers nothing: there is no state");
-    return whole ? result_view_read_contact(view, SERIES_STATE, states, err)
-                 : result_view_read(view, SERIES_STATE, states, err);
-cleanup:
-    return false;
-}
-
 // As it is written in formulas: a Greek letter by its name.
 static const char *letter_of(const char *name)
 {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The states of friction that remembers: read, and the colours that they have: powers of ten where
-// they span decades, else a linear scale. Called by the state map, the contact plane and the film.
+// The states of friction that remembers, and the colours that they have: powers of ten where they
+// span decades, else a linear scale. Called by the state map, the contact plane and the film.
 #ifndef AMONTONS_RENDER_FIGURES_STATE_SCALE_H
 #define AMONTONS_RENDER_FIGURES_STATE_SCALE_H
 
 #include "render/view/result_view.h"
 #include "render/figures/value_range.h"
-
-// That which view->state says: *states [rows * nodes], or of the whole contact [rows * all_nodes],
-// the caller's. ERROR_INPUT: friction remembers nothing.
-bool state_read(ResultView *view, bool whole, double **states, Error *err);
 
 // Name and unit of that state; `name` is what the words stand in.
 ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE]);

@@ -30,11 +30,8 @@ static Box inset_place(const Plot *plot, const Box *frame)
 // The inset's frame is what is left of its place when its numbers and names have their room.
 static Axes inset_axes(const Page *page, const Plot *plot, const Box *frame)
 {
-    Axes axes = {.box = inset_place(plot, frame),
-                 .x = plot->inset.x,
-                 .y = plot->inset.y,
-                 .number_size = SMALL_SIZE,
-                 .color = INK};
+    Axes axes = {
+        .box = inset_place(plot, frame), .x = plot->inset.x, .y = plot->inset.y, .small = true};
     axes.box.left = round(axes.box.left + axes_left_margin(page, &axes) * page->point);
     axes.box.bottom = round(axes.box.bottom - axes_bottom_margin(&axes) * page->point);
     axes.box.right = round(axes.box.right);
@@ -51,22 +48,20 @@ static bool inset_draw(const Page *page, const Plot *plot, const MapScale *scale
     PanelDef def = {.panel = &plot->inset, .scale = scale, .share = INSET_SHARE};
     draw_fill(page->canvas, PAPER, &place);
     Box legend = legend_settle(page, &plot->inset, INSET_SHARE, NULL, &axes);
-    TRY(panel_draw(page, &def, &axes, err));
+    if (!panel_draw(page, &def, &axes, err)) return false;
     legend_draw(page, &axes, &plot->inset, &legend, INSET_SHARE);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The frame above `bottom`, with room for what stands beside it.
 static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale, double bottom)
 {
-    double point = page->point, right = plot->main.x.is_log ? POWER_MARGIN : RIGHT_MARGIN;
-    Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE, .color = INK};
+    double right = plot->main.x.is_log ? POWER_MARGIN : RIGHT_MARGIN;
+    Axes axes = {.x = plot->main.x, .y = plot->main.y};
+    Box room = page->room;
+    room.bottom = bottom;
     if (plot->main.has_map) right = BAR_GAP + colorbar_width(page, &scale->bar);
-    axes.box.top = page->room.top + round(axes_top_margin(&axes) * point);
-    axes.box.bottom = round(bottom - axes_bottom_margin(&axes) * point);
-    axes.box.left = round(axes_left_margin(page, &axes) * point);
-    axes.box.right = round(canvas_width(page->canvas) - right * point);
+    axes_fit(page, &room, right, &axes);
     return axes;
 }
 
@@ -79,12 +74,11 @@ static bool one_frame(const Page *page, const Plot *plot, Axes *axes, bool legen
     Box place = inset_place(plot, &axes->box), legend = {0};
     if (!legend_is_elsewhere)
         legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, axes);
-    TRY(panel_draw(page, &def, axes, err));
+    if (!panel_draw(page, &def, axes, err)) return false;
     legend_draw(page, axes, &plot->main, &legend, 1);
-    if (plot->main.has_map) map_bar_draw(page, &scale, &axes->box);
-    if (plot->has_inset) TRY(inset_draw(page, plot, &scale, &axes->box, err));
-cleanup:
-    return error_is_clean(err);
+    if (plot->main.has_map) colorbar_draw(page, &scale.bar, &axes->box, BAR_GAP);
+    if (plot->has_inset && !inset_draw(page, plot, &scale, &axes->box, err)) return false;
+    return true;
 }
 
 bool figure_curves(const Page *page, const Plot *plot, Error *err)
@@ -98,13 +92,11 @@ bool figure_curves(const Page *page, const Plot *plot, Error *err)
         below.top -= round(legend_below_height(page, &plot->main, &below));
         axes = frame_axes(page, plot, &scale, below.top);
     }
-    if (plot->panel_count > 0)
-        TRY(plot_grid_draw(page, plot, &below, err));
-    else
-        TRY(one_frame(page, plot, &axes, is_below, err));
+    if (!(plot->panel_count > 0 ? plot_grid_draw(page, plot, &below, err)
+                                : one_frame(page, plot, &axes, is_below, err)))
+        return false;
     if (is_below) legend_below_draw(page, &plot->main, &below);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
@@ -116,10 +108,7 @@ bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *
     def.height = page_shape(&used, plot->height_over_width);
     if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
     if (!(used.width > 0) && !used.style) used.width = width;
-    TRY(plot_take_style(plot, &used, err));
-    if (used.compare) TRY(plot_compare(plot, used.compare, err));
-    TRY(page_begin(page, &def, err));
-    TRY(figure_curves(page, plot, err));
-cleanup:
-    return error_is_clean(err);
+    if (!plot_take_style(plot, &used, err)) return false;
+    if (used.compare && !plot_compare(plot, used.compare, err)) return false;
+    return page_begin(page, &def, err) && figure_curves(page, plot, err);
 }

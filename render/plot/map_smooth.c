@@ -75,15 +75,14 @@ static void work_destroy(Work *work)
 
 static bool work_create(const MapGrid *grid, const SmoothGrid *smooth, Work *work, Error *err)
 {
-    TRY(work->x = NEW_ARRAY(double, grid->columns, err));
-    TRY(work->y = NEW_ARRAY(double, grid->rows, err));
-    TRY(work->fine_x = NEW_ARRAY(double, smooth->columns, err));
-    TRY(work->fine_y = NEW_ARRAY(double, smooth->rows, err));
-    TRY(work->half = NEW_ARRAY(double, (int64_t)grid->rows * smooth->columns, err));
-    TRY(work->from = NEW_ARRAY(double, grid->columns + grid->rows, err));
-    TRY(work->to = NEW_ARRAY(double, smooth->rows, err));
-cleanup:
-    return error_is_clean(err);
+    if (!(work->x = NEW_ARRAY(double, grid->columns, err))) return false;
+    if (!(work->y = NEW_ARRAY(double, grid->rows, err))) return false;
+    if (!(work->fine_x = NEW_ARRAY(double, smooth->columns, err))) return false;
+    if (!(work->fine_y = NEW_ARRAY(double, smooth->rows, err))) return false;
+    if (!(work->half = NEW_ARRAY(double, (int64_t)grid->rows * smooth->columns, err))) return false;
+    if (!(work->from = NEW_ARRAY(double, grid->columns + grid->rows, err))) return false;
+    if (!(work->to = NEW_ARRAY(double, smooth->rows, err))) return false;
+    return true;
 }
 
 // First along each row, then along each finer column.
@@ -110,7 +109,7 @@ static void smooth_both(const MapGrid *grid, const double *values, int32_t parts
 static bool find_triangles(SmoothGrid *smooth, Error *err)
 {
     int64_t cells = (int64_t)(smooth->columns - 1) * (smooth->rows - 1);
-    TRY(smooth->triangles = NEW_ARRAY(int32_t, 6 * cells, err));
+    if (!(smooth->triangles = NEW_ARRAY(int32_t, 6 * cells, err))) return false;
     int32_t *corner = smooth->triangles;
     for (int32_t row = 0; row + 1 < smooth->rows; ++row)
         for (int32_t column = 0; column + 1 < smooth->columns; ++column) {
@@ -119,8 +118,7 @@ static bool find_triangles(SmoothGrid *smooth, Error *err)
             for (int32_t i = 0; i < 6; ++i) *corner++ = both[i];
         }
     smooth->triangle_count = 2 * cells;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,

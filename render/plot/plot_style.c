@@ -15,15 +15,14 @@ static bool sort_values(const Plot *plot, double **sorted, int64_t *count, Error
     int64_t all = plot->main.map.count;
     *count = 0;
     for (int32_t k = 0; k < plot->panel_count; k++) all += plot->panels[k].map.count;
-    TRY(*sorted = NEW_ARRAY(double, all, err));
+    if (!(*sorted = NEW_ARRAY(double, all, err))) return false;
     for (int32_t k = -1; k < plot->panel_count; k++) {
         const PlotMap *map = k < 0 ? &plot->main.map : &plot->panels[k].map;
         for (int32_t i = 0; i < map->count; i++)
             if (isfinite(map->value[i])) (*sorted)[(*count)++] = map->value[i];
     }
     qsort(*sorted, (size_t)*count, sizeof **sorted, order_doubles);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool plot_take_style(Plot *plot, const PictureStyle *style, Error *err)

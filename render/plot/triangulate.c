@@ -21,7 +21,7 @@ static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int
         if (facet->upperdelaunay) continue;
         count++;
     }
-    TRY(*corners = NEW_ARRAY(int32_t, 3 * count + 1, err));
+    if (!(*corners = NEW_ARRAY(int32_t, 3 * count + 1, err))) return false;
     FORALLfacets
     {
         vertexT *vertex, **vertexp;
@@ -34,8 +34,7 @@ static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int
         }
         *triangles += k == 3;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Qhull changes none of `places`. What it says of a flat set of points is not passed on.
