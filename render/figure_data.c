@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "io/text/csv_writer.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 
 #include <limits.h>
 #include <math.h>

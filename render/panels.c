@@ -91,8 +91,7 @@ bool panels_draw(Page *page, PageDef *def, const PanelFigure *figures, int32_t c
     Box frame[PANELS_MAX];
     double beside[2];
     def->height = page_shape(def->style, panels.shapes);
-    if (!measure(def, &panels, view, beside, err)) return false;
-    if (!page_begin(page, def, err)) return false;
+    if (!measure(def, &panels, view, beside, err) || !page_begin(page, def, err)) return false;
     for (int32_t side = 0; side < 2; ++side)
         page->beside[side] = ceil((beside[side] + SLACK) * page->point);
     return draw_all(page, &panels, view, frame, err);

@@ -114,37 +114,28 @@ static bool library_open(GlContext *context, const char *name, const Symbol *sym
 // 3.3 core is what the shaders need; a driver may give a later version.
 static bool mesa_open(GlContext *context, Error *err)
 {
-    static const int wanted[] = {OSMESA_FORMAT,
-                                 OSMESA_RGBA,
-                                 OSMESA_DEPTH_BITS,
-                                 0,
-                                 OSMESA_PROFILE,
-                                 OSMESA_CORE_PROFILE,
-                                 OSMESA_CONTEXT_MAJOR_VERSION,
-                                 3,
-                                 OSMESA_CONTEXT_MINOR_VERSION,
-                                 3,
-                                 0};
+    static const int wanted[][2] = {
+        {OSMESA_FORMAT, OSMESA_RGBA},          {OSMESA_DEPTH_BITS, 0},
+        {OSMESA_PROFILE, OSMESA_CORE_PROFILE}, {OSMESA_CONTEXT_MAJOR_VERSION, 3},
+        {OSMESA_CONTEXT_MINOR_VERSION, 3},     {0}};
     OSMesaContext (*create)(const int *, OSMesaContext) = NULL;
     const Symbol symbols[] = {{"OSMesaGetProcAddress", &context->find},
                               {"OSMesaMakeCurrent", &context->mesa_use},
                               {"OSMesaCreateContextAttribs", &create},
                               {0}};
     if (!library_open(context, "libOSMesa.so.8", symbols, err)) return false;
-    context->mesa = create(wanted, NULL);
+    context->mesa = create(wanted[0], NULL);
     if (!context->mesa) return FAULT(err, ERROR_LIBRARY, "OSMesa gives no OpenGL 3.3 core context");
     return true;
 }
 
 static bool egl_open(GlContext *context, Error *err)
 {
-    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    3,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    3,
-                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                    EGL_NONE};
+    static const EGLint wanted[][2] = {
+        {EGL_CONTEXT_MAJOR_VERSION, 3},
+        {EGL_CONTEXT_MINOR_VERSION, 3},
+        {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT},
+        {EGL_NONE}};
     EGLDisplay (*display)(EGLenum, void *, const EGLAttrib *) = NULL;
     EGLBoolean (*begin)(EGLDisplay, EGLint *, EGLint *) = NULL, (*bind)(EGLenum) = NULL;
     EGLContext (*create)(EGLDisplay, EGLConfig, EGLContext, const EGLint *) = NULL;
@@ -160,7 +151,7 @@ static bool egl_open(GlContext *context, Error *err)
     if (context->display == EGL_NO_DISPLAY || !begin(context->display, NULL, NULL) ||
         !bind(EGL_OPENGL_API))
         return FAULT(err, ERROR_LIBRARY, "EGL draws nothing without a surface here");
-    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted[0]);
     if (context->egl == EGL_NO_CONTEXT)
         return FAULT(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
     return true;
@@ -343,8 +334,7 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
     GLenum status = GL_NO_ERROR;
     GlKind kind = def->values ? BY_VALUES : BY_CORNERS;
     const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
-    if (!target_make(gl, def, pixels, err)) return false;
-    if (!program_use(gl, kind, err)) return false;
+    if (!target_make(gl, def, pixels, err) || !program_use(gl, kind, err)) return false;
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
                    GL_UNSIGNED_INT, def->colors);
@@ -379,9 +369,9 @@ static Gl *gl_choose(GlSource first, Error *err)
         if (gl->ready && gl->process == getpid()) return gl;
         said[source] = gl->ready ? "in use before this process was forked" : gl->failure.message;
     }
-    FAIL(err, ERROR_LIBRARY, "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s",
-         said[GL_OSMESA], said[GL_EGL]);
-cleanup:
+    error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
+              "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s", said[GL_OSMESA],
+              said[GL_EGL]);
     return NULL;
 }
 

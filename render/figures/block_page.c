@@ -5,7 +5,7 @@
 #include "io/mesh/shape_functions.h"
 #include "render/figures/rod_mark.h"
 #include "render/figures/space_page.h"
-#include "render/figures/value_range.h"
+#include "render/figures/color_scale.h"
 #include "render/view/space_time.h"
 
 #include <math.h>

@@ -20,8 +20,7 @@ bool depth_image_create(int32_t columns, int32_t rows, double slack, DepthImage 
 
 void depth_image_destroy(DepthImage *image)
 {
-    memory_free(image->values);
-    memory_free(image->depth);
+    memory_free_all(image->values, image->depth);
     *image = (DepthImage){0};
 }
 

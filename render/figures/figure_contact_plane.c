@@ -7,8 +7,7 @@
 #include "render/canvas/key.h"
 #include "render/figures/contact_map.h"
 #include "render/view/contact_moments.h"
-#include "render/figures/slip_scale.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 #include "render/render.h"
 
 #include <math.h>

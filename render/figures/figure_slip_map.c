@@ -4,7 +4,7 @@
 #include "render/figures/figures.h"
 
 #include "render/figures/map_page.h"
-#include "render/figures/slip_scale.h"
+#include "render/figures/color_scale.h"
 #include "render/view/zoom.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "render/figures/map_page.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 
 #include <math.h>
 #include <string.h>

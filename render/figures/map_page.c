@@ -2,10 +2,9 @@
 // What the pictures over (U, x) share: frame, axes, pads, the grid of pixels, the front.
 #include "render/figures/map_page.h"
 
-#include "render/figures/pad_marks.h"
-
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double HATCH_SPACING = 4;   // points
@@ -15,6 +14,10 @@ static const double EVENTS_SHARE = 0.2;   // of the frame's width that so wide e
 
 static const double ROW_SLACK = 0.25;   // pixels by which a row may be off
 
+static const double PAD_GAP = 1.6;   // points: frame to bar
+static const double PAD_WIDTH = 1.2;   // points
+static const double PAD_NAME_GAP = 1.6;   // points: bar to name
+static const Color PAD_COLOR = {0.45f, 0.46f, 0.48f, 1};
 static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
@@ -28,6 +31,85 @@ Axis figure_length_axis(const ResultView *view, const char *symbol, double low, 
         snprintf(axis.label, sizeof axis.label, "%s / ~{L}_{0}", name);
     return axis;
 }
+
+// --- names of pads -------------------------------------------------------------------------------
+
+// A bar and a name for each pad at the right of a map, so that gaps in it can be told from open
+// contact. A single contact needs none.
+enum { PAD_NAME_SIZE = 96 };
+
+// "contact_3" is shown as pad 3, a name of the user's own as it is; without names, numbers from 1.
+static void pad_name(const ResultView *view, int32_t pad, char name[PAD_NAME_SIZE])
+{
+    static const char common[] = "contact_";
+    const char *start = view->pad_names;
+    for (int32_t k = 0; start && k < pad; ++k) {
+        start = strchr(start, '\n');
+        if (start) ++start;
+    }
+    int length = start ? (int)strcspn(start, "\n") : 0, skip = sizeof common - 1;
+    if (length == 0)
+        snprintf(name, PAD_NAME_SIZE, "pad %d", pad + 1);
+    else if (length > skip && strncmp(start, common, sizeof common - 1) == 0)
+        snprintf(name, PAD_NAME_SIZE, "pad %.*s", length - skip, start + skip);
+    else
+        snprintf(name, PAD_NAME_SIZE, "%.*s", length, start);
+}
+
+// Pads are numbered from 0 without gaps; one is the least.
+static int32_t pad_count(const ResultView *view)
+{
+    double last = 0;
+    for (int32_t i = 0; i < view->nodes; ++i) last = fmax(last, view->pad[i]);
+    return (int32_t)last + 1;
+}
+
+// Extent of a pad along x; false: no node is on it.
+static bool pad_extent(const ResultView *view, int32_t pad, double *from, double *to)
+{
+    *from = INFINITY;
+    *to = -INFINITY;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        if ((int32_t)view->pad[i] != pad) continue;
+        *from = fmin(*from, view->x[i]);
+        *to = fmax(*to, view->x[i]);
+    }
+    return *to >= *from;
+}
+
+static double pad_marks_width(const Page *page, const ResultView *view)
+{
+    char name[PAD_NAME_SIZE];
+    double widest = 0;
+    int32_t count = pad_count(view);
+    if (count < 2) return 0;
+    for (int32_t pad = 0; pad < count; ++pad) {
+        pad_name(view, pad, name);
+        widest = fmax(widest, text_width(page->text, SMALL_SIZE * page->point, name));
+    }
+    return PAD_GAP + PAD_WIDTH + PAD_NAME_GAP + widest / page->point;
+}
+
+static void pad_marks_draw(const Page *page, const ResultView *view, const Axes *axes,
+                           double beside)
+{
+    double point = page->point, from = 0, to = 0;
+    double left = axes->box.right + (beside + PAD_GAP) * point;
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
+    int32_t count = pad_count(view);
+    for (int32_t pad = 0; count > 1 && pad < count; ++pad) {
+        char name[PAD_NAME_SIZE];
+        if (!pad_extent(view, pad, &from, &to)) continue;
+        Point low = axes_place(axes, axes->x.high, from), high = axes_place(axes, axes->x.high, to);
+        Box bar = {left, high.y, left + PAD_WIDTH * point, fmax(low.y, high.y + 1)};
+        draw_fill(page->canvas, PAD_COLOR, &bar);
+        pad_name(view, pad, name);
+        Point place = {bar.right + PAD_NAME_GAP * point, (low.y + high.y) / 2};
+        text_draw(page->text, &style, place, name);
+    }
+}
+
+// --- the map -------------------------------------------------------------------------------------
 
 // A rapid event is thinner than a pixel: it is drawn as wide as print shows, or, where there are
 // so many that they would hide what lies between, one pixel wide.

@@ -6,24 +6,16 @@
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "io/video/video_file.h"
 
 #include <math.h>
 
 static const double SECONDS = 20, SECONDS_MAX = 3600;
 static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of it, at most
 
-enum {
-    RATE = 30,
-    RATE_MAX = 240,
-    WIDTH = 1920,
-    HEIGHT = 1080,
-    WIDTH_LEAST = 640,
-    HEIGHT_LEAST = 360,
-    GIF_RATE = 20,
-    GIF_WIDTH = 800,
-    GIF_HEIGHT = 450,
-    FRAMES_MAX = 100000
-};
+enum { RATE = 30, RATE_MAX = 240, FRAMES_MAX = 100000 };
+enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
+enum { GIF_RATE = 20, GIF_WIDTH = 800, GIF_HEIGHT = 450 };
 
 static bool check_size(const FilmRequest *film, Error *err)
 {
@@ -42,7 +34,7 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
     *film = *request;
     if (!film->path || !film->path[0]) return REFUSE(err, "the film needs a name");
     if (!film_sink_check(film->path, err)) return false;
-    bool gif = film_sink_is_gif(film->path);
+    bool gif = video_file_is_gif(film->path);
     if (film->seconds == 0) film->seconds = SECONDS;
     if (film->rate == 0) film->rate = gif ? GIF_RATE : RATE;
     if (film->width == 0 && film->height == 0) {

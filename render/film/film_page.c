@@ -4,8 +4,7 @@
 #include "base/memory.h"
 #include "render/film/film_block.h"
 #include "render/film/film_plane.h"
-#include "render/figures/slip_scale.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -225,6 +224,5 @@ void film_page_destroy(FilmPage *page)
     film_band_destroy(&page->band);
     film_block_close(&page->block);
     film_plane_destroy(&page->plane);
-    memory_free(page->states);
-    memory_free(page);
+    memory_free_all(page->states, page);
 }

@@ -94,14 +94,7 @@ bool film_sink_check(const char *path, Error *err)
     Pattern pattern;
     if (find_mark(path)) return pattern_read(path, &pattern, err);
     if (path[0] && (video_file_is_known(path) || is_folder_name(path))) return true;
-    FAIL(err, ERROR_INPUT, "%s: %s", path, ENDINGS);
-cleanup:
-    return false;
-}
-
-bool film_sink_is_gif(const char *path)
-{
-    return video_file_is_gif(path);
+    return REFUSE(err, "%s: %s", path, ENDINGS);
 }
 
 static void frame_path(const Pattern *pattern, int32_t frame, char path[2 * PATH_MAX])

@@ -3,14 +3,18 @@
 // legend_place puts it.
 #include "render/plot/figure_curves.h"
 
+#include "base/memory.h"
+#include "base/order.h"
 #include "io/text/picture_options.h"
 #include "render/plot/legend.h"
 #include "render/plot/panel.h"
 #include "render/plot/plot_compare.h"
+#include "render/plot/plot_file.h"
 #include "render/plot/plot_grid.h"
-#include "render/plot/plot_style.h"
+#include "render/render.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
 static const double BELOW_MARGIN = 6;   // points beside a legend below
@@ -99,6 +103,40 @@ bool figure_curves(const Page *page, const Plot *plot, Error *err)
     return true;
 }
 
+static bool sort_values(const Plot *plot, double **sorted, int64_t *count, Error *err)
+{
+    int64_t all = plot->main.map.count;
+    *count = 0;
+    for (int32_t k = 0; k < plot->panel_count; k++) all += plot->panels[k].map.count;
+    if (!(*sorted = NEW_ARRAY(double, all, err))) return false;
+    for (int32_t k = -1; k < plot->panel_count; k++) {
+        const PlotMap *map = k < 0 ? &plot->main.map : &plot->panels[k].map;
+        for (int32_t i = 0; i < map->count; i++)
+            if (isfinite(map->value[i])) (*sorted)[(*count)++] = map->value[i];
+    }
+    qsort(*sorted, (size_t)*count, sizeof **sorted, order_doubles);
+    return true;
+}
+
+// Legend and ends of the colours as the style asks.
+static bool take_style(Plot *plot, const PictureStyle *style, Error *err)
+{
+    double *sorted = NULL, *end[2] = {&plot->color.low, &plot->color.high};
+    int64_t count = 0;
+    if (style->legend) plot->main.legend = plot_corner_find(style->legend);
+    if (!style->limits) return true;
+    TRY(sort_values(plot, &sorted, &count, err));
+    for (int32_t k = 0; k < 2 && count > 0; k++) {
+        bool is_part = false;
+        double limit = picture_limit(style, k, &is_part);
+        *end[k] = is_part ? sorted[llround(limit * (double)(count - 1))]
+                          : limit / plot->color.factor;
+    }
+cleanup:
+    memory_free(sorted);
+    return error_is_clean(err);
+}
+
 bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
 {
     PictureStyle used = *style;
@@ -108,7 +146,27 @@ bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *
     def.height = page_shape(&used, plot->height_over_width);
     if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
     if (!(used.width > 0) && !used.style) used.width = width;
-    if (!plot_take_style(plot, &used, err)) return false;
+    if (!take_style(plot, &used, err)) return false;
     if (used.compare && !plot_compare(plot, used.compare, err)) return false;
     return page_begin(page, &def, err) && figure_curves(page, plot, err);
+}
+
+// The module's second entry: one plot from its description to its file.
+__attribute__((visibility("default"))) bool
+amontons_render_plot(const char *path, const char *picture, const PictureStyle *style, Error *err)
+{
+    PictureStyle used = style ? *style : (PictureStyle){0};
+    Page page = {0};
+    Plot *plot = NEW_ARRAY(Plot, 1, err);
+    TRY(plot);
+    TRY(page_style_of_name(picture, &used, err));
+    TRY(plot_file_read(path, plot, err));
+    TRY(figure_plot(&page, plot, &used, plot->title, err));
+    TRY(page_finish(&page, picture, plot->title, err));
+    TRY(plot_compare_write(plot, picture, err));
+cleanup:
+    page_destroy(&page);
+    if (plot) plot_destroy(plot);
+    memory_free(plot);
+    return error_is_clean(err);
 }

@@ -11,13 +11,8 @@
 #include <math.h>
 #include <stdio.h>
 
-enum {
-    LEVELS_WANTED = 6,
-    MARKS_MINDED = 2000,
-    PARTS_MOST = 16,
-    RING_SIDES = 24,
-    VECTOR_MOST = 10000
-};
+enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000, PARTS_MOST = 16, RING_SIDES = 24 };
+enum { VECTOR_MOST = 10000 };   // cells that are shapes in a file of shapes
 
 static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
 static const double DOT_SHARE = 0.13;   // of the distance of points
@@ -166,8 +161,7 @@ static double point_distance(const MapDrawing *drawing)
 typedef struct LineField {
     const double *value;
     const Point *place;
-    const int32_t *triangles;   // [3 * count]
-    int64_t count;
+    const MapTriangles *triangles;
 } LineField;
 
 // Where the level crosses a triangle: 2 points, or none (false).
@@ -253,14 +247,15 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
     Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
     Point labels[LEVELS_WANTED + 1];
     int32_t labelled = 0;
-    Point *pieces = NEW_ARRAY(Point, 3 * field->count + 3, err);
+    Point *pieces = NEW_ARRAY(Point, 3 * (int64_t)field->triangles->count + 3, err);
     if (!pieces) return false;
     for (int32_t t = 0; t < ticks.count; t++) {
         double level = tick_value(&ticks, t), slack = LEVEL_INSIDE * (range->high - range->low);
         int64_t count = 0;
         if (level < range->low + slack || level > range->high - slack) continue;
-        for (int64_t k = 0; k < field->count; k++) {
-            if (!cross_triangle(field, field->triangles + 3 * k, level, pieces + count)) continue;
+        for (int64_t k = 0; k < field->triangles->count; k++) {
+            const int32_t *corner = field->triangles->points + 3 * k;
+            if (!cross_triangle(field, corner, level, pieces + count)) continue;
             pieces[count + 2] = (Point){NAN, NAN};
             count += 3;
         }
@@ -276,18 +271,12 @@ static bool contours_draw(const MapDrawing *drawing, Error *err)
 {
     const MapGrid *grid = &drawing->grid;
     SmoothGrid smooth = {0};
-    LineField field = {.value = drawing->map->contour,
-                       .place = drawing->place,
-                       .triangles = drawing->triangles.points,
-                       .count = drawing->triangles.count};
+    LineField field = {drawing->map->contour, drawing->place, &drawing->triangles};
     double cell = grid->columns > 0 ? point_distance(drawing) : 0;
     int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * drawing->page->point)), PARTS_MOST);
     if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
         TRY(map_smooth(grid, drawing->map->contour, drawing->place, parts, &smooth, err));
-        field = (LineField){.value = smooth.value,
-                            .place = smooth.place,
-                            .triangles = smooth.triangles,
-                            .count = smooth.triangle_count};
+        field = (LineField){smooth.value, smooth.place, &smooth.triangles};
     }
     TRY(levels_draw(drawing, &field, err));
 cleanup:

@@ -111,9 +111,7 @@ bool map_grid_find(const PlotMap *map, bool x_is_log, bool y_is_log, MapGrid *gr
 
 void map_grid_destroy(MapGrid *grid)
 {
-    memory_free(grid->x);
-    memory_free(grid->y);
-    memory_free(grid->point);
+    memory_free_all(grid->x, grid->y, grid->point);
     *grid = (MapGrid){0};
 }
 

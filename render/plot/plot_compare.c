@@ -163,7 +163,7 @@ bool plot_compare_write(const Plot *plot, const char *picture, Error *err)
     if (!plot->computed) return true;
     const PlotSeries *series = &plot->main.series[plot->main.series_count - 1];
     int length = snprintf(path, sizeof path, "%.*s-compared.csv", (int)(dot - picture), picture);
-    if (length >= (int)sizeof path) FAIL(err, ERROR_INPUT, "the picture's path is too long");
+    if (length >= (int)sizeof path) return REFUSE(err, "the picture's path is too long");
     CsvWriter *csv = csv_create(path, err);
     if (!csv) return false;
     for (int32_t c = 0; c < 2; ++c) csv_text(csv, plot->column[c][0] ? plot->column[c] : plain[c]);
@@ -178,6 +178,4 @@ bool plot_compare_write(const Plot *plot, const char *picture, Error *err)
         csv_end_row(csv);
     }
     return csv_finish(csv, err);
-cleanup:
-    return false;
 }

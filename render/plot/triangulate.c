@@ -81,7 +81,6 @@ bool triangulate(const Point *points, int32_t count, int32_t **corners, int32_t 
     if (kept >= POINTS_MIN) TRY(hull_make(places, index, kept, corners, triangles, err));
     if (!*corners) TRY(*corners = NEW_ARRAY(int32_t, 1, err));
 cleanup:
-    memory_free(places);
-    memory_free(index);
+    memory_free_all(places, index);
     return error_is_clean(err);
 }

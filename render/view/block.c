@@ -39,9 +39,7 @@ bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err)
         snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "",
                  block_words(*quantity).name);
     }
-    FAIL(err, ERROR_INPUT, "there is no field called \"%.40s\"; known are: %s", name, names);
-cleanup:
-    return false;
+    return REFUSE(err, "there is no field called \"%.40s\"; known are: %s", name, names);
 }
 
 // --- times ---------------------------------------------------------------------------------------

@@ -220,19 +220,13 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
     keep_outline(sides, count, plane);
     find_extent(plane);
 cleanup:
-    memory_free(sides);
-    memory_free(faces.corner);
-    memory_free(faces.point);
+    memory_free_all(sides, faces.corner, faces.point);
     if (!error_is_clean(err)) contact_plane_destroy(plane);
     return error_is_clean(err);
 }
 
 void contact_plane_destroy(ContactPlane *plane)
 {
-    memory_free(plane->x);
-    memory_free(plane->y);
-    memory_free(plane->weight);
-    memory_free(plane->patches);
-    memory_free(plane->sides);
+    memory_free_all(plane->x, plane->y, plane->weight, plane->patches, plane->sides);
     *plane = (ContactPlane){0};
 }

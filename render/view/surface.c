@@ -155,16 +155,13 @@ bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface 
     TRY(add_lines(block, sides, side_count, cut, surface, err));
     for (int32_t k = 0; k < cut->count; ++k) TRY(surface_add_section(block, cut, k, surface, err));
 cleanup:
-    memory_free(faces);
-    memory_free(sides);
+    memory_free_all(faces, sides);
     if (!error_is_clean(err)) surface_destroy(surface);
     return error_is_clean(err);
 }
 
 void surface_destroy(Surface *surface)
 {
-    memory_free(surface->triangles.points);
-    memory_free(surface->outline.points);
-    memory_free(surface->edges.points);
+    memory_free_all(surface->triangles.points, surface->outline.points, surface->edges.points);
     *surface = (Surface){.with_edges = false};
 }
