@@ -39,7 +39,7 @@ enum { SPARSE_WIDE = 8 };
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
                        int64_t columns, double *y, double *work);
 
-// The fill-reducing order and symbolic factor of one pattern, made once.
+// The fill-reducing order and symbolic factor of one pattern, which must outlive it.
 typedef struct SparseAnalysis SparseAnalysis;
 SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
                                int32_t border_count, Error *err);

@@ -50,12 +50,12 @@ static void add_group(const ElementGroup *group, const ElementMatrices *matrices
             }
         }
     }
+    bulk->area += matrices->area;
 }
 
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
 {
     *bulk = (Bulk){.dim = mesh->dim, .dof_count = mesh->dim * mesh->node_count};
-    for (int32_t e = 0; e < mesh->element_count; e++) bulk->area += mesh_element_area(mesh, e);
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
     return error_is_clean(err);

@@ -11,13 +11,13 @@
 typedef struct Bulk {
     int32_t dim;   // unknowns of a node
     int32_t dof_count;   // dim * nodes
-    double area;
     double *load;   // [dof_count] f, force/width; starts at 0; owned
     uint8_t *held;   // [dof_count] 1: stays at 0 (bulk_hold); owned
     SparsePattern pattern;   // of K and C, empty before bulk_assemble; owned
     double *stiffness;   // [pattern.start[dof_count]]; owned
     double *damping;   // same; owned
     double *mass;   // [dof_count] lumped, all directions alike; owned
+    double area;   // length^2; in space the volume
 } Bulk;
 
 // Without loads and supports, and without matrices.

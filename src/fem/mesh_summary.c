@@ -10,14 +10,15 @@
 // By the element's own quadrature: exact where sides are straight.
 double mesh_element_area(const Mesh *mesh, int32_t e)
 {
-    MeshPlace offset[ELEMENT_NODES_MAX];
+    MeshPlace position[ELEMENT_NODES_MAX];
     double area = 0;
     ElementKind kind = mesh->kind[e];
-    mesh_offsets(mesh, mesh->element_nodes + mesh->first_node[e], element_node_count(kind), offset);
+    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], element_node_count(kind),
+                position);
     Quadrature rule = shape_quadrature(kind);
     for (int32_t q = 0; q < rule.count; q++) {
         ShapeValues shape = shape_at(kind, rule.point[q]);
-        area += rule.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)offset);
+        area += rule.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)position);
     }
     return area;
 }

@@ -72,7 +72,7 @@ static bool adopt_basis(Model *model, Error *err)
     double load = model->unit_load.size * load_reference(model->scene);
     model->reduced.scales = bulk_scales(model, load);
     return bulk_operator_reduce(&model->reduced, model->length,
-                                model->bulk.area * model->materials.mean.density, &model->system,
+                                model->reduced.area * model->reduced.scales.mass, &model->system,
                                 err);
 }
 
