@@ -163,6 +163,15 @@ class Sweep(unittest.TestCase):
         self.assertEqual(stamps, {p: p.stat().st_mtime_ns for p in stamps})
         self.assertIn("8 computed", self.sweep("--fresh").stdout)
 
+    def test_half_a_report_is_computed_again(self):
+        """A disk that lost half of a run.json: its point is computed again, no other, to the same table."""
+        study = self.study(HEAD + "cases:\n" + "".join(QUICK[:2]))
+        self.sweep(study=study)
+        before, path = self.without_times("out"), next((self.folder / "out/points").glob("*/run.json"))
+        path.write_text(path.read_text()[:path.stat().st_size // 2])
+        self.assertIn("2 points: 1 computed", self.sweep(study=study).stdout)
+        self.assertEqual(self.without_times("out"), before)
+
     def test_same_bits_whoever_fills_the_cache(self):
         """The basis is made by the first point that asks, for all lengths and pressures: it must not show which."""
         tables = []

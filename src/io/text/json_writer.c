@@ -213,6 +213,18 @@ void json_boolean(JsonWriter *json, const char *key, bool value)
     append_text(json, value ? "true" : "false");
 }
 
+void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) json_number(json, numbers[k].key, numbers[k].value);
+}
+
+void json_number_list(JsonWriter *json, const char *key, const double *values, int32_t count)
+{
+    json_begin_list(json, key);
+    for (int32_t k = 0; k < count; k++) json_number(json, NULL, values[k]);
+    json_end(json);
+}
+
 // A missing end is a bug of the caller; the file would not be JSON.
 static bool end_document(JsonWriter *json, Error *err)
 {

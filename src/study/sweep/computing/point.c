@@ -153,11 +153,14 @@ PointValue point_value(const char *report, const char *path)
     return found;
 }
 
-// An interrupted run is not finished, though it left a run.json.
+// An interrupted run is not finished, though it left a run.json; nor is one whose run.json a disk
+// lost in part.
 PointStatus point_status(const char *report)
 {
     char status[20] = "", failure[40] = "";
-    if (!report || !json_find_text(report, "status", status, sizeof status)) return POINT_PENDING;
+    if (!report || !json_is_whole(report) ||
+        !json_find_text(report, "status", status, sizeof status))
+        return POINT_PENDING;
     if (strcmp(status, "done") == 0) return POINT_DONE;
     json_find_text(report, "failure", failure, sizeof failure);
     return strcmp(failure, amontons_error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING
