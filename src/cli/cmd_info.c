@@ -4,19 +4,12 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const CommandText text = {.name = "info",
-                                 .argument = "FILE\nkeys",
-                                 .what = "file",
-                                 .example = "amontons info validation/paper/fig1.yaml",
-                                 .help = info_txt};
-
-int command_info(int argc, char **argv)
+int command_info(const Command *command, int argc, char **argv)
 {
     const char *file = NULL, *picture = NULL;
     OptionWords settings = {0};
@@ -32,7 +25,7 @@ int command_info(int argc, char **argv)
         option_overwrite(&overwrite),
         option_trust(&trusted),
         {0}};
-    int status = options_read(&text, options, argc, argv, &file);
+    int status = options_read(command, options, argc, argv, &file);
     if (status == 0) status = option_may_write(picture, overwrite);
     if (status != 0) return status;
     if (trusted) trust_meshes();

@@ -26,18 +26,21 @@ typedef struct Option {
     OptionWords *words;   // all of them, also `--set a=1 b=2`
 } Option;
 
-typedef struct CommandText {
+typedef struct Command Command;
+struct Command {
     const char *name;   // "run"
-    const char *argument;   // "SCENE"; NULL: none is taken
+    int (*run)(const Command *command, int argc, char **argv);   // the exit status
+    const char *argument;   // "SCENE", or several forms, a line each; NULL: none is taken
+    const char *sentence;   // in the list of commands
     const char *what;   // "scene", of which one must be given
     const char *example;   // `amontons run validation/paper/fig1.yaml`
     const char *help;   // before the list of options; and behind it, after a \v
     OptionWords *all;   // all arguments, where several are taken; NULL: one is
-} CommandText;
+};
 
 // Puts the options given to where `options` say, and what the command works on into *argument.
 // `--help` and unknown options end the program. The exit status, 0 or 2.
-int options_read(const CommandText *text, const Option *options, int argc, char **argv,
+int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument);
 
 // The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give

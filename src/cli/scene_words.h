@@ -14,7 +14,7 @@ typedef struct SceneWords {
 } SceneWords;
 
 // Reads them, and the command's own options (a table that ends with {0}). The exit status, 0 or 2.
-int scene_words_read(const CommandText *text, const Option *own, int argc, char **argv,
+int scene_words_read(const Command *command, const Option *own, int argc, char **argv,
                      SceneWords *words);
 
 // Reads the scene with its settings; on failure it says why, and *scene is NULL. The exit status.

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-int study_words_read(const CommandText *text, const char *ending, bool has_elements, int argc,
+int study_words_read(const Command *command, const char *ending, bool has_elements, int argc,
                      char **argv, StudyWords *words)
 {
     char output[160];
@@ -32,7 +32,7 @@ int study_words_read(const CommandText *text, const char *ending, bool has_eleme
         option_trust(&words->trusted),
         {has_elements ? "element" : NULL, 0, NULL, NULL, .flag = &words->is_element},
         {0}};
-    int status = options_read(text, options, argc, argv, &words->study);
+    int status = options_read(command, options, argc, argv, &words->study);
     if (words->trusted) trust_meshes();
     return status;
 }
