@@ -39,7 +39,7 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
         int32_t first = mesh->first_node[e];
         for (int32_t k = 0; k < element_node_count(kind); k++)
             files->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
-        files->cell_types[e] = element_info(kind)->vtk_type;
+        files->cell_types[e] = ELEMENTS[kind].vtk_type;
     }
     return true;
 }
