@@ -146,12 +146,11 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     request.parameter_count = given.count;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
-    if (found) {
-        mesh->origin = MESH_OF_CACHE;
-    } else {
+    if (!found) {
         TRY(mesh_apart_read(&request, mesh, err));
         mesh_cache_store(key, mesh);
     }
+    mesh->origin = found ? MESH_OF_CACHE : key[0] ? MESH_OF_GMSH : MESH_OF_OTHER_FILES;
 cleanup:
     memory_free(given.list);
     return error_is_clean(err);
