@@ -39,7 +39,7 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
         int32_t first = mesh->first_node[e];
         for (int32_t k = 0; k < element_node_count(kind); k++)
             files->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
-        files->cell_types[e] = element_info(kind)->vtk_type;
+        files->cell_types[e] = ELEMENTS[kind].vtk_type;
     }
     return true;
 }
@@ -162,7 +162,7 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
                       .time = state->time,
                       .point_array_count = (int32_t)(sizeof arrays / sizeof arrays[0]),
                       .point_arrays = arrays};
-    return field_file_write_vtu(path, &grid, err);
+    return field_file_write(path, &grid, err);
 }
 
 // What belongs to a point: its own, and of a corner that touches nothing the mean of the points
@@ -227,5 +227,5 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
                       .time = time,
                       .point_array_count = FIELD_LINE_ARRAYS,
                       .point_arrays = arrays};
-    return field_file_write_vtp(path, &grid, err);
+    return field_file_write(path, &grid, err);
 }
