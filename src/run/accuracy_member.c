@@ -4,7 +4,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/step_rule.h"
-#include "run/end_wait.h"
 #include "run/level_scene.h"
 #include "run/one_mesh.h"
 #include "scene/programs.h"

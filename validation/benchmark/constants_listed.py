@@ -216,7 +216,7 @@ NOT_A_CHOICE = {
                         "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
     "record/drops.h": {"SLIP_CELLS_ENOUGH": "of slip: 48 cases, in run/warnings; scatter by cells in priors.md"},
-    "record/fields.c": {"PATH_SIZE": SIZE, "FIRST_ROOM": SIZE, "NAME_SIZE": SIZE,
+    "record/fields.c": {"PATH_SIZE": SIZE, "FIRST_ROOM": SIZE,
                         "LIST_EVERY": "times in a list that is late"},
     "record/fields.h": {"FIELD_SLOTS": SIZE},
     "record/field_files.h": {"FIELD_LINE_ARRAYS": "of the interface's file"},
