@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/order.h"
+#include "io/text/picture_options.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -294,9 +295,12 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
 static bool write_map_entries(PlotFigure *self, Error *err)
 {
     const Quantity *const *quantity = self->sources[0].quantity;
-    char label[QUANTITY_LABEL_SIZE + 8];
+    char label[QUANTITY_LABEL_SIZE + 40];
     if (quantity[PLOT_CONTOURS]) {
-        Curve line = {.label = quantity[PLOT_CONTOURS]->label.words, .line = "solid"};
+        bool many = self->sources[0].table.count / self->panels.count > MAP_MANY;
+        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+                 quantity[PLOT_CONTOURS]->label.words, MAP_MEDIANS, MAP_MEDIANS);
+        Curve line = {.label = label, .line = "solid"};
         if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
     snprintf(label, sizeof label, "no %s", quantity[PLOT_COLOR]->label.words);
