@@ -337,7 +337,8 @@ static bool write_axes(PlotFigure *self, Error *err)
             !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
             return false;
         QuantityLabel label = quantity->label;
-        label.column = plot->text[key] + strspn(plot->text[key], "= ");
+        const char *equals = strchr(plot->text[key], '=');
+        label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
         figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }
