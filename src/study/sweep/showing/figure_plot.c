@@ -319,7 +319,8 @@ static bool write_map_entries(PlotFigure *self, Error *err)
         Curve line = {.label = quantity[PLOT_CONTOURS]->label.words, .line = "solid"};
         if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
-    snprintf(label, sizeof label, "no %s", quantity[PLOT_COLOR]->label.words);
+    bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
+    snprintf(label, sizeof label, "no %s", formula ? "value" : quantity[PLOT_COLOR]->label.words);
     Curve missing = {.label = label, .line = "none", .marker = "cross"};
     return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
 }
