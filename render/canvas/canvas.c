@@ -40,9 +40,8 @@ static bool bytes_add(void *self, const uint8_t *bytes, size_t length)
     Canvas *canvas = self;
     int64_t size = canvas->size + (int64_t)length;
     if (size > canvas->room) {
-        char *longer = memory_resize(canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure);
-        if (!longer) return false;
-        canvas->bytes = longer;
+        if (!memory_resize(&canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure))
+            return false;
         canvas->room = 2 * size;
     }
     memcpy(canvas->bytes + canvas->size, bytes, length);

@@ -181,11 +181,9 @@ static bool fill_add(void *context, const Corner corner[3])
     Fill *fill = context;
     for (int32_t k = 0; k < 3; ++k)
         if (!isfinite(corner[k].at.x + corner[k].at.y + corner[k].value)) return true;
-    GlCorner *longer =
-        memory_grow(fill->corners, fill->count, &fill->room, 3 * sizeof(GlCorner), fill->err);
-    if (!longer) return false;
-    fill->corners = longer;
-    GlCorner *to = longer + 3 * (int64_t)fill->count++;
+    if (!memory_grow(&fill->corners, fill->count, &fill->room, 3 * sizeof(GlCorner), fill->err))
+        return false;
+    GlCorner *to = fill->corners + 3 * (int64_t)fill->count++;
     for (int32_t k = 0; k < 3; ++k)
         to[k] = (GlCorner){(float)(corner[k].at.x - fill->box->left),
                            (float)(corner[k].at.y - fill->box->top),

@@ -53,11 +53,10 @@ SurfacePoint surface_point_at(const Block *block, ElementKind kind, const int32_
 
 static bool add(SurfaceParts *parts, const SurfacePoint *points, int32_t each, Error *err)
 {
-    SurfacePoint *longer =
-        memory_grow(parts->points, parts->count, &parts->room, (size_t)each * sizeof *points, err);
-    if (!longer) return false;
-    parts->points = longer;
-    memcpy(longer + (int64_t)each * parts->count++, points, (size_t)each * sizeof *points);
+    if (!memory_grow(&parts->points, parts->count, &parts->room, (size_t)each * sizeof *points,
+                     err))
+        return false;
+    memcpy(parts->points + (int64_t)each * parts->count++, points, (size_t)each * sizeof *points);
     return true;
 }
 
