@@ -303,7 +303,8 @@ static bool write_map_entries(PlotFigure *self, Error *err)
         Curve line = {.label = label, .line = "solid"};
         if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
-    snprintf(label, sizeof label, "no %s", quantity[PLOT_COLOR]->label.words);
+    bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
+    snprintf(label, sizeof label, "no %s", formula ? "value" : quantity[PLOT_COLOR]->label.words);
     Curve missing = {.label = label, .line = "none", .marker = "cross"};
     return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
 }
@@ -321,7 +322,8 @@ static bool write_axes(PlotFigure *self, Error *err)
             !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
             return false;
         QuantityLabel label = quantity->label;
-        label.column = plot->text[key] + strspn(plot->text[key], "= ");
+        const char *equals = strchr(plot->text[key], '=');
+        label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
         figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }
