@@ -54,12 +54,6 @@ static void judge_misfit(Search *search, int32_t d)
     }
 }
 
-// Misfits differ by powers of ten.
-static double tell_logarithm(double misfit)
-{
-    return log1p(misfit);
-}
-
 // --- the best -----------------------------------------------------------------------------------
 
 static bool make_response(Fit *fit, Error *err)
@@ -142,7 +136,7 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
     if (fit->measured.count < search->study->search.key_count)
         return REFUSE(err, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
                       search->study->search.key_count);
-    search->judge = (SearchJudge){take_results, judge_misfit, tell_logarithm, fit};
+    search->judge = (SearchJudge){take_results, judge_misfit, fit};
     if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
         return false;
     int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;

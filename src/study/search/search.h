@@ -15,7 +15,6 @@ typedef struct SearchJudge {
     // Condition `c` of design `d`; report: its run.json; NULL: it failed, or was not computed.
     bool (*take)(Search *search, int32_t d, int32_t c, const char *report, Error *err);
     void (*judge)(Search *search, int32_t d);   // sets its value, when all conditions are taken
-    double (*told)(double value);   // to the chooser: rises with `value`, over a scale that suits
     void *context;
 } SearchJudge;
 

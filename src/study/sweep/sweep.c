@@ -126,7 +126,8 @@ static bool find_baselines(Sweep *sweep, Error *err)
     if (study->rank.against != AGAINST_KEYS) return true;
     for (int32_t k = 0; k < study->point_count; k++) {
         char hash[HASH_TEXT_SIZE];
-        if (!study_baseline_scene(study, k, sweep->scene, err)) return false;
+        if (!study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err))
+            return false;
         if (!point_hash(sweep, sweep->scene, hash, err)) return false;
         sweep->points[k].baseline = points_look_up(sweep, hash);
         found = found || sweep->points[k].baseline >= 0;

@@ -35,7 +35,8 @@ int32_t study_add_column(Study *study, const char *key, Error *err)
         snprintf(study->columns[study->column_count], STUDY_NAME_SIZE, "%s", key);
         return study->column_count++;
     }
-    REFUSE(err, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+    FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+cleanup:
     return -1;
 }
 

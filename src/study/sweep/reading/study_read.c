@@ -23,17 +23,12 @@ static bool check_keys(const Study *study, Error *err)
         bool is_known = false;
         for (int32_t k = 0; k < COUNT; k++) is_known = is_known || strcmp(key, known[k]) == 0;
         if (is_known) continue;
-        int32_t nearest = text_nearest(key, known, COUNT);
-        if (nearest >= 0)
-            yaml_key_error(study->file, item, err,
-                           "%.60s: unknown key of a study; did you mean `%s`?", key,
-                           known[nearest]);
-        else
-            yaml_key_error(study->file, item, err,
-                           "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record, keep, rank, plot, search, where, best, fit",
-                           key);
-        return false;
+        char hint[TEXT_HINT_SIZE];
+        return yaml_key_error(study->file, item, err, "%.60s: unknown key of a study%s", key,
+                              text_hint(key, known, COUNT,
+                                        "; allowed: title, scene, set, cases, vary, record, keep, "
+                                        "rank, plot, search, where, best, fit",
+                                        hint));
     }
     return true;
 }
@@ -78,7 +73,7 @@ static bool read_keep(Study *study, Error *err)
     return yaml_refuse(study->file, node, "keep", "points or table", err);
 }
 
-// What is wrong with values shows when scenes are made, point by point (study_point_scene).
+// What is wrong with values shows when scenes are made, point by point (study_point).
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
                 Study *study, Error *err)
 {

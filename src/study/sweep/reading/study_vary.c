@@ -74,14 +74,11 @@ bool study_check_key(const YamlDocument *document, YamlNode item, Error *err)
                     scene_key_above(key, &part) >= 0;
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
-    else if (!is_known && nearest)
-        yaml_key_error(
-            document, item, err,
-            "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists them all)",
-            key, nearest);
     else if (!is_known)
         yaml_key_error(document, item, err,
-                       "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
+                       "%s: unknown key of a scene%s%s%s (`amontons info keys` lists them all)",
+                       key, nearest ? "; did you mean `" : "", nearest ? nearest : "",
+                       nearest ? "`?" : "");
     return error_is_clean(err);
 }
 

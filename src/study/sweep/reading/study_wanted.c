@@ -74,6 +74,7 @@ static const char *new_name(const char *name)
 static bool find_record(Study *study, const WantedName *wanted, int32_t *column, Error *err)
 {
     const char *name = wanted->name, *what = wanted->what, *names[KNOWN_RECORD_COUNT];
+    char hint[TEXT_HINT_SIZE];
     YamlNode node = wanted->node;
     const char *path = strchr(name, '.') && strlen(name) < STUDY_NAME_SIZE ? name : NULL;
     for (*column = 0; *column < study->record_count; ++*column)
@@ -92,16 +93,12 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
         add_record(study, name, path, what, node);
         return true;
     }
-    int32_t nearest = text_nearest(name, names, KNOWN_RECORD_COUNT);
-    if (nearest >= 0)
-        yaml_error(study->file, node, err, "%s: unknown name `%.60s`; did you mean `%s`?", what,
-                   name, names[nearest]);
-    else
-        yaml_error(study->file, node, err,
-                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` lists, "
-                   "or a path in run.json, as in results.mu_max",
-                   what, name);
-    return false;
+    return yaml_error(
+        study->file, node, err, "%s: unknown name `%.60s`%s", what, name,
+        text_hint(name, names, KNOWN_RECORD_COUNT,
+                  "; allowed: a name that `amontons sweep --help` lists, or a path in "
+                  "run.json, as in results.mu_max",
+                  hint));
 }
 
 const char *study_record_path(const char *name)

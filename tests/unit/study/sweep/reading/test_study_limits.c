@@ -21,7 +21,7 @@ static void assert_refused(const char *const *overrides, int32_t count, const ch
     Scene *scene = NEW_ARRAY(Scene, 1, &err);
     bool done = study_read(path, overrides, count, study, &err);
     for (int32_t k = 0; done && k < study->point_count; k++)
-        done = study_point_scene(study, k, scene, &err);
+        done = study_scene(study, &(PointChoice){.point = k}, scene, &err);
     if (done || err.code != ERROR_INPUT || !strstr(err.message, says))
         fail_msg("%.300s: \"%s\" lacks \"%s\"", text, err.message, says);
     memory_free(scene);
