@@ -289,7 +289,7 @@ TEST(test_faults)
     static const struct {
         const char *body, *message;
     } known[] = {
-        {"varry: {}\n", ":2:1: varry: unknown key of a study; did you mean `vary`?"},
+        {"varry: {}\n", ":2:1: study: unknown key `varry`; did you mean `vary`?"},
         {"vary: {load.presure: [1]}\n", ":2:8: load.presure: unknown key of a scene; did you mean"},
         {"set: {colour: red}\n", ":2:7: colour: unknown key of a scene ("},
         {"cases: [{}, {rod: {kind: glued}}]\n", "rod.kind: found `glued`"},

@@ -48,9 +48,9 @@ static void add_many(int32_t count, const char *format, const char *end)
 TEST(test_words)
 {
     static const char *const known[][2] = {
-        {"zzzzzzzzzz: 1\n", ":2:1: zzzzzzzzzz: unknown key of a study; allowed: title, scene"},
-        {"keep: some\n", ":2:7: keep: found `some`; allowed: points or table"},
-        {"keep: [table]\n", "allowed: points or table"},
+        {"zzzzzzzzzz: 1\n", ":2:1: study: unknown key `zzzzzzzzzz`; allowed: title, scene"},
+        {"keep: some\n", ":2:7: keep: found `some`; allowed: points, table"},
+        {"keep: [table]\n", "allowed: points, table"},
         {"cases: []\n", "cases: found a list of 0"},
         {"record: []\n", "record: found a list of 0"},
         {"record: [mu_peaks_low]\n", "record: `mu_peaks_low` is called `low` now"},
