@@ -18,6 +18,26 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
            isfinite(*value);
 }
 
+bool study_pair(const Study *study, YamlNode node, double pair[2])
+{
+    YamlNode first = yaml_first(study->file, node);
+    return yaml_kind(study->file, node) == YAML_LIST && yaml_count(study->file, node) == 2 &&
+           study_plain_number(study, first, &pair[0]) &&
+           study_plain_number(study, yaml_next(study->file, first), &pair[1]);
+}
+
+bool study_whole(const Study *study, const WantedKey *key, int32_t most, int32_t *value, Error *err)
+{
+    double number = 0;
+    char allowed[60];
+    if (key->node == YAML_NO_NODE) return true;
+    bool good = study_plain_number(study, key->node, &number) && number == floor(number) &&
+                number >= 1 && number <= most;
+    *value = good ? (int32_t)number : 0;
+    snprintf(allowed, sizeof allowed, "a whole number from 1 to %d", most);
+    return good || yaml_refuse(study->file, key->node, key->name, allowed, err);
+}
+
 // -1: no key of this name varies.
 int32_t study_column(const Study *study, const char *name)
 {

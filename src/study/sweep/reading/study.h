@@ -27,6 +27,7 @@
 #include "scene/scene.h"
 #include "study/sweep/reading/plot_words.h"
 #include "study/sweep/reading/study_goal.h"
+#include "study/sweep/reading/wanted_keys.h"
 
 enum {
     STUDY_AXES_MAX = 16,
@@ -130,5 +131,9 @@ bool study_is_chosen(const Study *study, const char *key);
 // *values: the children of a list, to be found by number at once (memory_free).
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
+bool study_pair(const Study *study, YamlNode node, double pair[2]);   // [from, to]; false: is none
+// A whole number from 1 to `most`; *value stays where the key is missing.
+bool study_whole(const Study *study, const WantedKey *key, int32_t most, int32_t *value,
+                 Error *err);
 
 #endif

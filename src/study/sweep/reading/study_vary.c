@@ -164,37 +164,22 @@ static bool write_range(const double bounds[2], bool is_log, int32_t points, cha
 // place.
 static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
 {
-    YamlNode ends = YAML_NO_NODE, points = YAML_NO_NODE;
-    bool is_log = false, is_known = true;
-    double bounds[2] = {0, 0}, count = 0;
+    WantedKey keys[] = {{.name = "log"}, {.name = "linear"}, {.name = "points"}};
+    double bounds[2] = {0, 0};
+    int32_t count = 0;
     char *text = NULL, name[SCENE_TEXT_SIZE + 80];
-    YAML_EACH (item, study->file, node) {
-        const char *key = yaml_key(study->file, item);
-        if (strcmp(key, "log") == 0 || strcmp(key, "linear") == 0) {
-            is_known = is_known && ends == YAML_NO_NODE;
-            ends = item;
-            is_log = key[1] == 'o';
-        } else if (strcmp(key, "points") == 0) {
-            points = item;
-        } else {
-            is_known = false;
-        }
-    }
-    if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
+    if (!wanted_find(study->file, node, axis->key, keys, 3, err)) return false;
+    bool is_log = keys[0].node != YAML_NO_NODE;
+    YamlNode ends = keys[is_log ? 0 : 1].node;
+    if (yaml_count(study->file, node) != 2 || ends == YAML_NO_NODE || keys[2].node == YAML_NO_NODE)
         return yaml_refuse(study->file, node, axis->key, AXIS_ALLOWED, err);
-    YamlNode first = yaml_first(study->file, ends);
-    bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
-                study_plain_number(study, first, &bounds[0]) &&
-                study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
-    if (!good) return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
+    if (!study_pair(study, ends, bounds))
+        return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
     if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
         return yaml_refuse(study->file, ends, axis->key, "two numbers > 0 in a range of logarithms",
                            err);
-    if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
-        count > STUDY_RANGE_MAX)
-        return yaml_refuse(study->file, points, axis->key,
-                           "a whole number of points, from 1 to 10000", err);
-    TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
+    if (!study_whole(study, &keys[2], STUDY_RANGE_MAX, &count, err)) return false;
+    TRY(write_range(bounds, is_log, count, &text, err));
     snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
              yaml_line(study->file, node), yaml_column(study->file, node));
     TRY(yaml_parse(name, text, 0, &study->made[study->made_count], err));

@@ -8,7 +8,6 @@
 #include "study/sweep/reading/study_records.h"
 #include "study/sweep/reading/wanted_keys.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -232,14 +231,10 @@ static bool read_rank(Study *study, Error *err)
     if (!read_against(study, &keys[3], err)) return false;
     if (!read_refine(study, &keys[4], err)) return false;
     if (!read_also(study, &keys[5], err)) return false;
-    double top = TOP_STANDARD;
-    bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
-    if (!good || top != floor(top) || top < 1 || top > TOP_MAX)
-        return yaml_refuse(study->file, keys[2].node, "top", "a whole number from 1 to 1000", err);
     rank->wanted = true;
     rank->lowest = order == 1;
-    rank->top = (int32_t)top;
-    return error_is_clean(err);
+    rank->top = TOP_STANDARD;
+    return study_whole(study, &keys[2], TOP_MAX, &rank->top, err);
 }
 
 // --- plots --------------------------------------------------------------------------------------
