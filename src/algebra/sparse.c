@@ -4,10 +4,55 @@
 #include "algebra/lanes.h"
 #include "base/memory.h"
 
+#include <cholmod.h>
+
 void sparse_pattern_destroy(SparsePattern *pattern)
 {
     memory_free_all(pattern->start, pattern->index);
     *pattern = (SparsePattern){0};
+}
+
+// With B [points * groups] the entries of B B' are the pairs of points. From points to unknowns: each
+// neighbour gives `width` columns, and the rows of a point are alike.
+static bool couple_unknowns(const cholmod_sparse *pairs, int32_t width, SparsePattern *pattern,
+                            Error *err)
+{
+    const int32_t *first = pairs->p, *neighbour = pairs->i;
+    int32_t points = (int32_t)pairs->ncol, filled = 0;
+    pattern->size = width * points;
+    pattern->start = NEW_ARRAY(int32_t, (int64_t)pattern->size + 1, err);
+    pattern->index = NEW_ARRAY(int32_t, (int64_t)width * width * first[points], err);
+    for (int32_t row = 0; error_is_clean(err) && row < pattern->size; row++) {
+        for (int32_t k = first[row / width]; k < first[row / width + 1]; k++)
+            for (int32_t d = 0; d < width; d++) pattern->index[filled++] = width * neighbour[k] + d;
+        pattern->start[row + 1] = filled;
+    }
+    return error_is_clean(err);
+}
+
+bool sparse_pattern_of_groups(int32_t groups, int32_t *start, int32_t *member, int32_t points,
+                              int32_t width, SparsePattern *pattern, Error *err)
+{
+    cholmod_common common;
+    cholmod_sparse b = {.nrow = (size_t)points,
+                        .ncol = (size_t)groups,
+                        .nzmax = (size_t)start[groups],
+                        .p = start,
+                        .i = member,
+                        .itype = CHOLMOD_INT,
+                        .xtype = CHOLMOD_PATTERN,
+                        .packed = 1};
+    cholmod_start(&common);
+    common.print = 0;
+    cholmod_sparse *pairs = cholmod_aat(&b, NULL, 0, 0, &common);
+    bool done = pairs && cholmod_sort(pairs, &common);
+    if (!done)
+        error_set(err, ERROR_MEMORY, __FILE__, __LINE__, "no memory for the pattern of %d unknowns",
+                  width * points);
+    done = done && couple_unknowns(pairs, width, pattern, err);
+    cholmod_free_sparse(&pairs, &common);
+    cholmod_finish(&common);
+    return done;
 }
 
 // Bisection: the columns of a row are ascending. The entry must exist.

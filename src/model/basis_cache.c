@@ -55,6 +55,7 @@ static void archive_basis(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;
     archive_index(archive, &reduced->dim, 2, DIM_MAX + 1);
+    archive_number(archive, &reduced->area);
     archive_length(archive, &reduced->interface_count);
     archive_length(archive, &reduced->mirrored);
     archive_length(archive, &reduced->count);

@@ -124,9 +124,7 @@ static bool make_room(Fields *fields, Error *err)
 {
     if (fields->written < fields->room) return true;
     if (!fields_flush(fields, err)) return false;
-    double *times = memory_grow(fields->times, fields->written, &fields->room, sizeof *times, err);
-    if (times) fields->times = times;
-    return times;
+    return memory_grow(&fields->times, fields->written, &fields->room, sizeof(double), err);
 }
 
 // line: [field_line_columns][contact_count]; the law is asked here: a plug-in need not be safe

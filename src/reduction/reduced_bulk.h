@@ -59,6 +59,7 @@ enum { REDUCED_PARTS_MAX = 1 << (DIM_MAX - 1) };   // two for each axis of the f
 typedef struct ReducedBulk {
     int32_t dim;
     int32_t full_dofs;
+    double area;   // of the block over L^2; in space its volume over L^3
     int32_t interface_count;
     int32_t mirrored;   // unknowns of u_R
     int32_t count;   // of x

@@ -62,8 +62,11 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
 {
     Mirror mirror = {0};
     Parts parts = {.mirror = &mirror, .def = def, .reduced = reduced};
-    *reduced = (ReducedBulk){
-        .dim = bulk->dim, .interface_count = m, .part_count = 1, .scales = def->scales};
+    *reduced = (ReducedBulk){.dim = bulk->dim,
+                             .area = bulk->area,
+                             .interface_count = m,
+                             .part_count = 1,
+                             .scales = def->scales};
     if (def->node_image) TRY(mirror_find(bulk, def->node_image, interface_dofs, m, &mirror, err));
     if (mirror.part_count > 0) {
         reduced->part_count = mirror.part_count;

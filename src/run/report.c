@@ -79,24 +79,17 @@ static void write_expected(JsonWriter *json, const Model *model)
     json_end(json);
 }
 
-// NULL: nobody, since the shape is in the cache.
-static const char *mesh_maker(const Model *model)
-{
-    static const char *const makers[] = {[MESH_OF_GMSH] = "gmsh", [MESH_OF_CACHE] = "cache"};
-    return model->mesh.element_count > 0 ? makers[model->mesh_origin] : NULL;
-}
-
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
     json_begin_object(json, "model");
     json_numbers_of(json, {"contact_nodes", model->interface.contact_count},
-                    {"rod_nodes", model->interface.rod_count});
-    json_integer(json, "elements", model->elements);
-    json_integer(json, "full_dofs", model->full_dofs);
+                    {"rod_nodes", model->interface.rod_count},
+                    {"elements", model->mesh.element_count},
+                    {"full_dofs", model->bulk.dof_count});
     json_integer(json, "reduced_dofs", model->system.dof_count);
     json_boolean(json, "by_halves", model->reduced.part_count > 1);
-    json_text(json, "mesh_by", mesh_maker(model));
+    json_text(json, "mesh_by", model->mesh_origin == MESH_OF_CACHE ? "cache" : "gmsh");
     json_boolean(json, "from_cache", model->from_cache);
     write_expected(json, model);
     json_numbers_of(json, {"length", model->length}, {"height", model->height});

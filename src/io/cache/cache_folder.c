@@ -84,11 +84,9 @@ static int by_use(const void *left, const void *right)
 
 static bool add_entry(CacheFolder *folder, const char *name, const struct stat *about, Error *err)
 {
-    CacheFolderEntry *grown =
-        memory_grow(folder->entries, folder->count, &folder->room, sizeof *grown, err);
-    if (!grown) return false;
-    folder->entries = grown;
-    CacheFolderEntry *entry = &grown[folder->count++];
+    if (!memory_grow(&folder->entries, folder->count, &folder->room, sizeof *folder->entries, err))
+        return false;
+    CacheFolderEntry *entry = &folder->entries[folder->count++];
     double read = (double)about->st_atim.tv_sec + 1e-9 * (double)about->st_atim.tv_nsec;
     double written = (double)about->st_mtim.tv_sec + 1e-9 * (double)about->st_mtim.tv_nsec;
     *entry = (CacheFolderEntry){.bytes = about->st_size, .used = read > written ? read : written};

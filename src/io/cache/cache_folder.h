@@ -12,7 +12,6 @@
 // X(kind, ending of its files, what notes call it)
 #define CACHE_KINDS(X)                                                                             \
     X(CACHE_MESH, "mesh", "mesh")                                                                  \
-    X(CACHE_SHAPE, "shape", "shape")                                                               \
     X(CACHE_BASIS, "basis", "basis")                                                               \
     X(CACHE_MODES, "modes", "basis")
 

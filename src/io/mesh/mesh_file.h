@@ -53,8 +53,9 @@ typedef struct MeshGroup {
     // group: which of the two an element belongs to is not known
 } MeshGroup;
 
-// Made by gmsh now, or before (io/mesh/mesh_cache).
-typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE } MeshOrigin;
+// Made by gmsh now, or before (io/mesh/mesh_cache); or of files that it says itself, so that it is
+// made anew each time.
+typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE, MESH_OF_OTHER_FILES } MeshOrigin;
 
 typedef struct MeshFile {
     MeshOrigin origin;

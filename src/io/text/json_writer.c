@@ -41,9 +41,7 @@ static void append_bytes(JsonWriter *json, const char *bytes, int64_t count)
     if (!error_is_clean(&json->first)) return;
     if (json->length + count > json->capacity) {
         int64_t capacity = 2 * (json->length + count);   // doubled: copied twice on average
-        char *longer = memory_resize(json->text, json->length, capacity, 1, &json->first);
-        if (!longer) return;
-        json->text = longer;
+        if (!memory_resize(&json->text, json->length, capacity, 1, &json->first)) return;
         json->capacity = capacity;
     }
     memcpy(json->text + json->length, bytes, (size_t)count);

@@ -155,10 +155,7 @@ static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 static bool plan_points(Sweep *sweep, Error *err)
 {
     int32_t count = sweep->study.point_count;
-    SweepPoint *points =
-        memory_resize(sweep->points, sweep->point_count, count, sizeof *points, err);
-    TRY(points);
-    sweep->points = points;
+    TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
     for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, err));
     TRY(blocks_count(sweep->points, count, err));
     TRY(points_find_same(sweep, err));

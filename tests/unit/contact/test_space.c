@@ -218,7 +218,8 @@ static void check_patch(bool mean)
         Bulk bulk;
         space_build(&def, &mesh);
         if (mean) assert_true(element_groups_find((uint8_t[]){1}, &mesh, &err));
-        assert_true(bulk_assemble(&mesh, &MATERIAL, &bulk, &err));
+        assert_true(bulk_create(&mesh, &bulk, &err) &&
+                    bulk_assemble(&mesh, &MATERIAL, &bulk, &err));
         for (int side = 0; side < 6; side++) {
             MeshBoundary boundary;
             double traction[3];

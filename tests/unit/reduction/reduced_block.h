@@ -41,7 +41,8 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
     memset(block, 0, sizeof *block);
     block_build(shape, &block->mesh);
     mark_layer(&block->mesh, layer, &materials);
-    assert_true(bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
+    assert_true(bulk_create(&block->mesh, &block->bulk, &err) &&
+                bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
     assert_true(mesh_boundary(&block->mesh, "contact", &contact, &err));
     assert_true(mesh_boundary(&block->mesh, "rod", &rod, &err));
     assert_true(mesh_boundary(&block->mesh, "top", &top, &err));

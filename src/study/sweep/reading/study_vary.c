@@ -102,9 +102,8 @@ static bool read_set(Study *study, Error *err)
 static bool add_case(Study *study, const YamlDocument *document, YamlNode map, Error *err)
 {
     int32_t count = study->case_list ? study->case_count : 0;   // without cases there is one point
-    StudyCase *list = memory_grow(study->case_list, count, &study->case_room, sizeof *list, err);
-    if (!list) return false;
-    study->case_list = list;
+    if (!memory_grow(&study->case_list, count, &study->case_room, sizeof *study->case_list, err))
+        return false;
     study->case_list[count] = (StudyCase){document, map};
     study->case_count = count + 1;
     YAML_EACH (item, document, map) {
@@ -291,15 +290,14 @@ bool study_read_vary(Study *study, const char *const *overrides, int32_t overrid
 bool study_add_designs(Study *study, const char *text, Error *err)
 {
     int32_t count = study->design_count;
-    char **texts = memory_grow(study->designs, count, &study->design_room, sizeof *texts, err);
-    if (!texts) return false;
-    study->designs = texts;
-    YamlDocument **files =
-        memory_grow(study->design_files, count, &study->design_file_room, sizeof *files, err);
-    if (!files) return false;
-    study->design_files = files;
-    if (!(texts[count] = memory_text(text, err))) return false;
+    if (!memory_grow(&study->designs, count, &study->design_room, sizeof *study->designs, err))
+        return false;
+    if (!memory_grow(&study->design_files, count, &study->design_file_room,
+                     sizeof *study->design_files, err))
+        return false;
+    if (!(study->designs[count] = memory_text(text, err))) return false;
     study->design_count++;   // half of it is freed as well
-    return yaml_parse("designs of the search", text, 0, &files[count], err) &&
-           read_cases(study, files[count], YAML_ROOT, err) && count_points(study, err);
+    YamlDocument **file = &study->design_files[count];
+    return yaml_parse("designs of the search", text, 0, file, err) &&
+           read_cases(study, *file, YAML_ROOT, err) && count_points(study, err);
 }
