@@ -24,11 +24,8 @@ static bool take_results(Search *search, int32_t d, int32_t c, const char *repor
 {
     Fit *fit = search->judge.context;
     int32_t count = fit->measured.count;
-    char history[AMONTONS_PATH_SIZE];
-    search_run_path(search, d, c, history);
-    size_t length = strlen(history);
-    if (length > 8 && length < sizeof history - 8)
-        strcpy(history + length - 8, "history.h5");   // beside run.json
+    char history[POINT_PATH_SIZE + 16];
+    point_path(search->sweep, search->designs.list[d].point + c, "history.h5", history);
     for (int32_t k = 0; k < count; k++) {
         const Datum *datum = &fit->measured.list[k];
         int64_t at = (int64_t)d * count + k;

@@ -91,16 +91,6 @@ bool search_compute_from(Search *search, int32_t first, Error *err)
     return search_compute(search, which, count, err);
 }
 
-void search_run_path(const Search *search, int32_t design, int32_t condition,
-                     char path[AMONTONS_PATH_SIZE])
-{
-    char whole[POINT_PATH_SIZE + 16];
-    *path = 0;
-    if (search->study->keep_table) return;
-    point_report_path(search->sweep, search->designs.list[design].point + condition, whole);
-    if (strlen(whole) < AMONTONS_PATH_SIZE) memcpy(path, whole, strlen(whole) + 1);
-}
-
 // --- designs ------------------------------------------------------------------------------------
 
 // At the first condition.

@@ -39,35 +39,6 @@ static void add_record(Study *study, const char *name, const char *path, const c
     snprintf(record->path, sizeof record->path, "%s", path);
 }
 
-// Results of earlier versions, and what they are called now.
-static const struct {
-    const char *old, *name;
-} RENAMED[] = {
-    {"mu_trusted", "mu_hold"},
-    {"mu_trusted_error", "mu_hold_error"},
-    {"mu_falls", "mu_drops"},
-    {"mu_falls_error", "mu_drops_error"},
-    {"falls", "drops"},
-    {"falls_period", "drops_period"},
-    {"falls_enough", "drops_enough"},
-    {"falls.period", "drops_period"},
-    {"falls.enough", "drops_enough"},
-    {"falls.counted", "drops"},
-    {"falls.mean", "mu_drops"},
-    {"falls.mean_error", "mu_drops_error"},
-    {"mu_peaks_low", "low"},
-    {"mu_peaks_high", "high"},
-};
-
-// NULL: `name` was never another's. Also as a path in run.json.
-static const char *new_name(const char *name)
-{
-    const char *old = strncmp(name, "results.", 8) == 0 ? name + 8 : name;
-    for (size_t k = 0; k < sizeof RENAMED / sizeof RENAMED[0]; k++)
-        if (strcmp(old, RENAMED[k].old) == 0) return RENAMED[k].name;
-    return NULL;
-}
-
 // The column of `name`, which stands at `node` under the key `what` (static storage): a name of
 // STUDY_RECORDS or a path in run.json. What no column holds yet gets one.
 static bool find_record(Study *study, const WantedName *wanted, int32_t *column, Error *err)
@@ -82,9 +53,6 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
         names[k] = KNOWN_RECORDS[k].name;
         if (strcmp(name, names[k]) == 0) path = KNOWN_RECORDS[k].path;
     }
-    if (new_name(name))
-        return yaml_error(study->file, node, err, "%s: `%.60s` is called `%s` now", what, name,
-                          new_name(name));
     if (path && study->record_count == STUDY_RECORDS_MAX)
         return yaml_error(study->file, node, err, "%s: more than %d columns", what,
                           STUDY_RECORDS_MAX);

@@ -53,8 +53,6 @@ TEST(test_words)
         {"keep: [table]\n", "allowed: points, table"},
         {"cases: []\n", "cases: found a list of 0"},
         {"record: []\n", "record: found a list of 0"},
-        {"record: [mu_peaks_low]\n", "record: `mu_peaks_low` is called `low` now"},
-        {"record: [results.mu_peaks_low]\n", "is called `low` now"},
         {"vary: {load.pressure: {log: [1, 2], points: 0}}\n", "points: found"},
         {"vary: {load.pressure: {log: [1, 2], points: 20000}}\n", "points: found"},
         {"vary: {load.pressure: {log: [1, 0], points: 3}}\n", "load.pressure: "},
