@@ -30,12 +30,11 @@ cleanup:
 bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err)
 {
     const char *folder = search->options->folder;
-    char path[POINT_PATH_SIZE], picture[POINT_PATH_SIZE], *text = NULL;
-    size_t size = 0;
+    char path[POINT_PATH_SIZE], picture[POINT_PATH_SIZE];
     int32_t point = search->designs.list[design].point + condition;
     JsonWriter *json = NULL;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) FAIL(err, ERROR_MEMORY, "no memory for the best design");
+    SearchAnswer nowhere;   // what is said of the mesh beside its picture
+    if (!search_answer_begin(&nowhere, err)) return false;
     snprintf(path, sizeof path, "%s/best.yaml", folder);
     snprintf(picture, sizeof picture, "%s/figures/best.png", folder);
     const Scene *scene = point_scene(search->sweep, point, err);
@@ -43,9 +42,9 @@ bool search_leave_best(const Search *search, int32_t design, int32_t condition, 
     TRY(json = json_create(path, err));
     scene_write_json(scene, json, NULL, folder);
     TRY(json_finish(json, err));
-    TRY(amontons_info(path, &(InfoOptions){.picture = picture}, out, err));
+    TRY(amontons_info(path, &(InfoOptions){.picture = picture}, nowhere.out, err));
 cleanup:
-    if (out) fclose(out);
-    free(text);
+    fclose(nowhere.out);
+    free(nowhere.text);
     return error_is_clean(err);
 }

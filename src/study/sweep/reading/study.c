@@ -80,10 +80,10 @@ void study_destroy(Study *study)
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
     for (int32_t k = 0; k < STUDY_AXES_MAX; k++) memory_free(study->axes[k].values);
     for (int32_t k = 0; k < study->design_count; k++) {
-        memory_free(study->designs[k]);
-        yaml_destroy(study->design_files[k]);
+        memory_free(study->designs[k].text);
+        yaml_destroy(study->designs[k].file);
     }
-    memory_free_all(study->designs, study->design_files, study->case_list);
+    memory_free_all(study->designs, study->case_list);
     yaml_destroy(study->file);
     scene_source_close(study->source);
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};

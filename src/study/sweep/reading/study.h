@@ -58,6 +58,12 @@ typedef struct StudyCase {
     YamlNode map;   // of the scene's keys
 } StudyCase;
 
+// Cases that a search adds.
+typedef struct StudyDesigns {
+    char *text;   // a list of maps; owned, like the next
+    YamlDocument *file;   // what it says
+} StudyDesigns;
+
 typedef struct StudyAxis {
     char key[STUDY_NAME_SIZE];
     const YamlDocument *document;   // not owned: the study's, or a range's in `made`
@@ -100,10 +106,8 @@ typedef struct Study {
     int32_t case_count;   // at least 1
     StudyCase *case_list;   // [case_count] NULL: none; owned
     int32_t case_room;
-    char *
-        *designs;   // [design_count] of a search: texts of its cases, in the order they came; owned
-    YamlDocument **design_files;   // [design_count] what they say; owned
-    int32_t design_count, design_room, design_file_room;
+    int32_t design_count, design_room;
+    StudyDesigns *designs;   // [design_room] of a search, in the order they came; owned
     int32_t axis_count;
     StudyAxis axes[STUDY_AXES_MAX];
     int32_t column_count;   // scene keys that vary, in the order of the file

@@ -292,12 +292,10 @@ bool study_add_designs(Study *study, const char *text, Error *err)
     int32_t count = study->design_count;
     if (!memory_grow(&study->designs, count, &study->design_room, sizeof *study->designs, err))
         return false;
-    if (!memory_grow(&study->design_files, count, &study->design_file_room,
-                     sizeof *study->design_files, err))
-        return false;
-    if (!(study->designs[count] = memory_text(text, err))) return false;
+    StudyDesigns *one = &study->designs[count];
+    *one = (StudyDesigns){.text = memory_text(text, err)};
+    if (!one->text) return false;
     study->design_count++;   // half of it is freed as well
-    YamlDocument **file = &study->design_files[count];
-    return yaml_parse("designs of the search", text, 0, file, err) &&
-           read_cases(study, *file, YAML_ROOT, err) && count_points(study, err);
+    return yaml_parse("designs of the search", text, 0, &one->file, err) &&
+           read_cases(study, one->file, YAML_ROOT, err) && count_points(study, err);
 }
