@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/order.h"
+#include "io/files/folder.h"
 #include "io/text/picture_options.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
@@ -36,12 +37,8 @@ typedef struct PlotFigure {
 static bool folder_of(const char *beside, const char *given, char folder[AMONTONS_PATH_SIZE],
                       Error *err)
 {
-    const char *slash = beside ? strrchr(beside, '/') : NULL;
-    int length = slash && given[0] != '/' ? (int)(slash - beside) + 1 : 0;
-    if (snprintf(folder, AMONTONS_PATH_SIZE, "%.*s%s", length, length ? beside : "", given) >=
-        AMONTONS_PATH_SIZE)
-        return REFUSE(err, "plot: the path %.60s is too long", given);
-    return true;
+    return folder_beside(beside, given, folder, AMONTONS_PATH_SIZE) ||
+           REFUSE(err, "plot: the path %.60s is too long", given);
 }
 
 // The title of its study; where another sweep has the same, its folder.
