@@ -52,14 +52,13 @@ static bool draw_all(const Page *page, const Panels *panels, ResultView *view, B
         part.zoom_name = panels->zoom_name[0] ? panels->zoom_name : NULL;
         part.bare_x = k + 1 < panels->count && !enlarges(panels, k) && !enlarges(panels, k + 1);
         view->state = panels->figures[k].state;
-        TRY(panels->figures[k].draw(&part, view, err));
+        if (!panels->figures[k].draw(&part, view, err)) return false;
         snprintf(letter, sizeof letter, "(%c)", 'a' + k);
         text_draw(page->text, &style, (Point){LETTER_LEFT * point, top + LETTER_DROP * point},
                   letter);
         top = part.room.bottom;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // What the widest names and numbers take beside the frames, points.
@@ -92,11 +91,8 @@ bool panels_draw(Page *page, PageDef *def, const PanelFigure *figures, int32_t c
     Box frame[PANELS_MAX];
     double beside[2];
     def->height = page_shape(def->style, panels.shapes);
-    TRY(measure(def, &panels, view, beside, err));
-    TRY(page_begin(page, def, err));
+    if (!measure(def, &panels, view, beside, err) || !page_begin(page, def, err)) return false;
     for (int32_t side = 0; side < 2; ++side)
         page->beside[side] = ceil((beside[side] + SLACK) * page->point);
-    TRY(draw_all(page, &panels, view, frame, err));
-cleanup:
-    return error_is_clean(err);
+    return draw_all(page, &panels, view, frame, err);
 }

@@ -132,11 +132,12 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
 }
 
 // The same colour map as the picture's, sampled along the bar, so the two cannot differ.
-void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box)
+void colorbar_draw(const Page *page, const Colorbar *bar, const Box *frame, double gap)
 {
     Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
-    Box colors = *box, patch;
+    Box colors = *frame, patch;
     float values[MAP_SIZE];
+    colors.left = round(frame->right + gap * page->point);
     colors.right = round(colors.left + BAR_WIDTH * page->point);
     if (bar->neutral) {
         patch = colors;

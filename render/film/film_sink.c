@@ -72,13 +72,12 @@ static bool pattern_read(const char *path, Pattern *pattern, Error *err)
         pattern->digits = 10 * pattern->digits + (*d - '0');
     if (*d != 'd' || strchr(d, '%') || !ends_in_png(d) || pattern->digits > DIGITS_MAX ||
         strlen(d) > NAME_MAX || length >= PATH_MAX)
-        FAIL(err, ERROR_INPUT,
-             "%s: a pattern of frames has one number and ends in .png: run-%%04d.png", path);
+        return REFUSE(err, "%s: a pattern of frames has one number and ends in .png: run-%%04d.png",
+                      path);
     memcpy(pattern->before, path, length);
     pattern->before[length] = '\0';
     snprintf(pattern->behind, sizeof pattern->behind, "%s", d + 1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // A folder's name has no ending, ends in a slash, or is that of one.
@@ -95,14 +94,7 @@ bool film_sink_check(const char *path, Error *err)
     Pattern pattern;
     if (find_mark(path)) return pattern_read(path, &pattern, err);
     if (path[0] && (video_file_is_known(path) || is_folder_name(path))) return true;
-    FAIL(err, ERROR_INPUT, "%s: %s", path, ENDINGS);
-cleanup:
-    return false;
-}
-
-bool film_sink_is_gif(const char *path)
-{
-    return video_file_is_gif(path);
+    return REFUSE(err, "%s: %s", path, ENDINGS);
 }
 
 static void frame_path(const Pattern *pattern, int32_t frame, char path[2 * PATH_MAX])
@@ -118,7 +110,7 @@ static bool frames_begin(FilmSink *sink, Error *err)
     Pattern *pattern = &sink->pattern;
     char folder[PATH_MAX], first[2 * PATH_MAX];
     if (find_mark(path)) {
-        TRY(pattern_read(path, pattern, err));
+        if (!pattern_read(path, pattern, err)) return false;
     } else {
         bool slash = path[strlen(path) - 1] == '/';
         snprintf(pattern->before, sizeof pattern->before, "%s%sframe-", path, slash ? "" : "/");
@@ -129,15 +121,15 @@ static bool frames_begin(FilmSink *sink, Error *err)
     char *last = strrchr(folder, '/');
     if (last && last != folder) {
         *last = '\0';
-        TRY(folder_make(folder, err));
+        if (!folder_make(folder, err)) return false;
     }
     frame_path(pattern, 1, first);
     if (access(first, F_OK) == 0 && !sink->def.overwrite)
-        FAIL(err, ERROR_INPUT,
-             "%s is there already: name another folder, say --overwrite, or remove those frames",
-             first);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "%s is there already: name another folder, say --overwrite, or remove those frames",
+            first);
+    return true;
 }
 
 // --- encoding ------------------------------------------------------------------------------------

@@ -18,7 +18,6 @@ typedef struct FilmSinkDef {
 
 // ERROR_INPUT lists the endings there are.
 bool film_sink_check(const char *path, Error *err);
-bool film_sink_is_gif(const char *path);
 
 // Makes the folder of PNGs; refuses one that has frames already (ERROR_INPUT).
 FilmSink *film_sink_create(const FilmSinkDef *def, Error *err);

@@ -12,8 +12,7 @@ typedef struct SmoothGrid {
     int32_t columns, rows;
     Point *place;   // [rows * columns] owned, as the next
     double *value;   // [rows * columns] NaN: between points of which one has none
-    int32_t *triangles;   // [3 * triangle_count] corners, two triangles a cell; owned
-    int64_t triangle_count;
+    MapTriangles triangles;   // two between any four of them
 } SmoothGrid;
 
 // values, place: of the map's points; parts: of each distance between two points. A cell of the

@@ -17,17 +17,21 @@ static const CommandText text = {.name = "sweep",
                                  .example = "amontons sweep validation/paper/fig2a.yaml",
                                  .help = sweep_txt};
 
-// One point, in a job of a Slurm array. list: the file that the sweep wrote for the array; Slurm
-// puts into the environment which element this process is, and keeps its exit status.
-static int run_element(const char *list)
+// A share of the points, in a job of a Slurm array. Slurm puts into the environment which element
+// this process is, and keeps its exit status.
+static int run_element(const StudyWords *words)
 {
     const char *index = getenv("SLURM_ARRAY_TASK_ID");
     char *end = NULL;
     Error err = {0};
     long element = index ? strtol(index, &end, 10) : -1;
-    if (!index || !*index || *end || element < 0 || element > INT32_MAX)
+    if (!index || !*index || *end || element < 0 || element > INT32_MAX || !words->folder)
         return report_misuse("--element is for jobs that `amontons sweep --slurm` submits");
-    return amontons_sweep_element(list, (int32_t)element, &err) ? 0 : report_error(&err);
+    SweepOptions options = {.folder = words->folder,
+                            .overrides = words->settings.list,
+                            .override_count = words->settings.count};
+    bool done = amontons_sweep_element(words->study, &options, (int32_t)element, &err);
+    return done ? 0 : report_error(&err);
 }
 
 // Failed points are no error of the sweep, but its exit status shows them.
@@ -62,7 +66,7 @@ int command_sweep(int argc, char **argv)
     SweepSummary summary;
     Error err = {0};
     int status = study_words_read(&text, ENDING, true, argc, argv, &words);
-    if (status == 0 && words.is_element) return run_element(words.study);   // a signal ends it
+    if (status == 0 && words.is_element) return run_element(&words);   // a signal ends it
     if (status == 0) status = study_run_begin(&words, ENDING, &run);
     if (status != 0) return status;
     bool done = amontons_sweep(words.study, &run.options, &summary, &err);

@@ -74,9 +74,7 @@ void events_destroy(Events *events)
 static bool start_event(Events *events, EventKind kind, const Observation *seen, int32_t *index,
                         Error *err)
 {
-    Event *list = memory_grow(events->list, events->count, &events->room, sizeof(Event), err);
-    if (!list) return false;
-    events->list = list;
+    if (!memory_grow(&events->list, events->count, &events->room, sizeof(Event), err)) return false;
     *index = events->count++;
     events->kinds[kind]++;
     events->list[*index] = (Event){.kind = kind,

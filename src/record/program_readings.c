@@ -226,6 +226,7 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
     (void)err;
     ProgramReadings *readings = self;
     ProgramStretch *now = &readings->now;
+    if (!readings->course) return true;
     while (readings->started && now->ends < seen->t * (1 - REACHED))
         begin_stretch(readings, now->ends);
     see_contact(readings, seen);

@@ -14,8 +14,8 @@
 //     slip distance   from there on until 1/e of what mu still has to go to the new level is left
 //     healing         the first peak of mu after a hold, less the level before the hold
 //
-// Errors add up what levels, velocities, slip so far and bins leave open. Made by run/ only where a
-// program has jumps (program_jumps); record/program_results says what they come to.
+// Errors add up what levels, velocities, slip so far and bins leave open. Only of a
+// program that jumps (program_jumps); record/program_results says what they come to.
 #ifndef AMONTONS_RECORD_PROGRAM_READINGS_H
 #define AMONTONS_RECORD_PROGRAM_READINGS_H
 

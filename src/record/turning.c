@@ -71,12 +71,8 @@ double turning_share(const Turning *turning)
 
 void turning_write_json(const Turning *turning, JsonWriter *json)
 {
-    json_begin_object(json, "turning");
-    json_number(json, "angle", turning->angle);
-    json_number(json, "drift", turning->drift);
-    json_number(json, "across", turning->across);
-    json_number(json, "way", turning->way);
-    json_end(json);
+    json_object_of(json, "turning", {"angle", turning->angle}, {"drift", turning->drift},
+                   {"across", turning->across}, {"way", turning->way});
 }
 
 void turning_archive(Turning *turning, Archive *archive)

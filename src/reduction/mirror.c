@@ -4,6 +4,7 @@
 #include "reduction/mirror.h"
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "reduction/mirror_nodes.h"
 
 #include <math.h>
@@ -206,6 +207,23 @@ bool mirror_count_parts(const Bulk *bulk, int32_t *const *node_image, const int3
     return done;
 }
 
+typedef struct Parts {
+    const Finder *find;
+    MirrorPart *part;
+    Error error[REDUCED_PARTS_MAX];
+} Parts;
+
+static void make_part(void *context, int32_t p, int32_t worker)
+{
+    Parts *parts = context;
+    MirrorPart *part = &parts->part[p];
+    Error *err = &parts->error[p];
+    (void)worker;
+    if (list_unknowns(parts->find, p, &part->unknowns, err) &&
+        list_border_unknowns(parts->find, p, part, err))
+        bulk_transform(parts->find->bulk, &part->unknowns, &part->bulk, err);
+}
+
 bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
                  int32_t m, Mirror *mirror, Error *err)
 {
@@ -215,12 +233,9 @@ bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *in
     if (find.axes == 0) goto cleanup;
     mirror->part_count = 1 << find.axes;
     mirror->mirrored = find.border_count - m;
-    for (int p = 0; p < mirror->part_count; p++) {
-        MirrorPart *part = &mirror->part[p];
-        TRY(list_unknowns(&find, p, &part->unknowns, err));
-        TRY(list_border_unknowns(&find, p, part, err));
-        TRY(bulk_transform(bulk, &part->unknowns, &part->bulk, err));
-    }
+    Parts parts = {.find = &find, .part = mirror->part};
+    parallel_for(mirror->part_count, make_part, &parts);
+    for (int p = 0; p < mirror->part_count && error_is_clean(err); p++) *err = parts.error[p];
     mirror->border = find.border;
     find.border = NULL;
 cleanup:

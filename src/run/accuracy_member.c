@@ -7,7 +7,6 @@
 #include "run/end_wait.h"
 #include "run/level_scene.h"
 #include "run/one_mesh.h"
-#include "run/stop_request.h"
 #include "scene/programs.h"
 
 #include <math.h>
@@ -210,7 +209,7 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
     *err = (Error){0};
     accuracy->out_of_time = !(stop && *stop);
     if (!accuracy->out_of_time)
-        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar", cut->mesh);
+        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
 cleanup:
     return;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // mesh -> bulk and interface -> steps prepared -> relaxed -> recorders -> steps -> results.
-#include "run/stop_request.h"
 #include "run/simulation_state.h"
 
 #include "base/clock.h"
@@ -40,33 +39,29 @@ static bool report_step(void *self, const Observation *seen, Error *err)
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
-    if (!events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
-                       &simulation->events, err))
-        return false;
-    recorders_add(&simulation->recorders, &simulation->events, events_record);
-    if (!drops_create(&simulation->model.interface, &simulation->events,
-                      simulation->scene.time.periodic_tolerance, &simulation->drops, err))
+    const Model *model = &simulation->model;
+    const Recorder recorders[] = {{&simulation->events, events_record},
+                                  {&simulation->drops, drops_record},
+                                  {&simulation->steady, steady_record},
+                                  {&simulation->pads, pads_record},
+                                  {&simulation->contact, contact_arrays_record},
+                                  {&simulation->readings, program_readings_record},
+                                  {&simulation->turning, turning_record}};
+    Events *events = &simulation->events;
+    if (!events_create(&model->interface, model->scales.slip_velocity, events, err) ||
+        !drops_create(&model->interface, events, simulation->scene.time.periodic_tolerance,
+                      &simulation->drops, err) ||
+        !pads_create(&model->interface, events, &simulation->pads, err) ||
+        !contact_arrays_create(&model->interface, &model->law, &simulation->contact, err))
         return false;
     bool remembers = simulation->control.scheme.memory.laws != NULL;
-    simulation->drops.mu_static = remembers ? NAN : simulation->model.law.mu_static;
-    recorders_add(&simulation->recorders, &simulation->drops, drops_record);
-    simulation->steady =
-        steady_of(&simulation->events, model_friction_slip(&simulation->model) +
-                                           model_machine_yield(&simulation->model));
-    recorders_add(&simulation->recorders, &simulation->steady, steady_record);
-    if (!pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err))
-        return false;
-    recorders_add(&simulation->recorders, &simulation->pads, pads_record);
-    if (!contact_arrays_create(&simulation->model.interface, &simulation->model.law,
-                               &simulation->contact, err))
-        return false;
-    recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
-    if (program_jumps(&simulation->rod_course)) {
+    simulation->drops.mu_static = remembers ? NAN : model->law.mu_static;
+    simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model));
+    if (program_jumps(&simulation->rod_course))
         simulation->readings = program_readings_of(&simulation->rod_course);
-        recorders_add(&simulation->recorders, &simulation->readings, program_readings_record);
-    }
     simulation->turning = turning_of(&simulation->contact);
-    recorders_add(&simulation->recorders, &simulation->turning, turning_record);
+    for (size_t k = 0; k < sizeof recorders / sizeof *recorders; k++)
+        recorders_add(&simulation->recorders, recorders[k].self, recorders[k].record);
     if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
     bool in_part = simulation->window.def.given;
     recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
@@ -166,7 +161,7 @@ static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
              "(--extend U=...)",
              simulation->t_end, head.time);
     if (simulation->scene.output.history)
-        TRY(checkpoint_try_history(simulation->folder.path, &head.history, err));
+        TRY(checkpoint_fits_history(simulation->folder.path, &head.history, err));
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
     start_programs(simulation);

@@ -126,9 +126,7 @@ static bool add_point(Table *table, const double *column, Error *err)
     if (!(gap >= 0 && finite))
         return REFUSE(err, "%s:%d: at x = %g the gap is %g; a number >= 0 is needed", table->path,
                       table->number, x, gap);
-    ProfilePoint *list = memory_grow(table->points, table->count, &table->room, sizeof point, err);
-    if (!list) return false;
-    table->points = list;
+    if (!memory_grow(&table->points, table->count, &table->room, sizeof point, err)) return false;
     table->points[table->count++] = point;
     return error_is_clean(err);
 }

@@ -15,14 +15,11 @@ bool field_file_write_vtu(const char *path, const FieldGrid *grid, Error *err);
 bool field_file_write_vtp(const char *path, const FieldGrid *grid,
                           Error *err);   // cells: all lines, or polygons
 
-typedef struct FieldSeriesEntry {
-    double time;
-    const char *part;   // "bulk" or "interface"
-    const char *file;   // relative to the .pvd
-} FieldSeriesEntry;
+// Of time number k, in the folder fields/ beside the .pvd.
+#define FIELD_BULK_NAME "bulk_%06d.vtu"
+#define FIELD_LINE_NAME "interface_%06d.vtp"
 
-// Writes the collection anew (atomic); entries of equal time may differ in `part`.
-bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int32_t count,
-                          Error *err);
+// Writes the collection of both files of each time anew (atomic). times: [count]
+bool field_file_write_pvd(const char *path, const double *times, int32_t count, Error *err);
 
 #endif

@@ -41,10 +41,8 @@ bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Err
     while (fgets(line, sizeof line, list)) {
         FieldTime time;
         if (!read_entry(line, &time)) continue;
-        FieldTime *longer = memory_grow(*times, *count, &room, sizeof time, err);
-        TRY(longer);
-        *times = longer;
-        longer[(*count)++] = time;
+        TRY(memory_grow(times, *count, &room, sizeof time, err));
+        (*times)[(*count)++] = time;
     }
     if (*count == 0) FAIL(err, ERROR_INPUT, "%s names no time", path);
 cleanup:

@@ -98,11 +98,10 @@ static bool append_block(RawElements *elements, const RawBlock *block, int32_t g
     int64_t total = elements->count + block->count;
     if (total > INT32_MAX / ELEMENT_NODES_MAX)
         return REFUSE(err, "%lld elements are too many", (long long)total);
-    RawElement *items = memory_resize(elements->items, elements->count, total, sizeof *items, err);
-    if (!items) return false;
-    elements->items = items;
+    if (!memory_resize(&elements->items, elements->count, total, sizeof *elements->items, err))
+        return false;
     for (int64_t k = 0; k < block->count; k++)
-        items[elements->count++] =
+        elements->items[elements->count++] =
             (RawElement){.number = block->number[k],
                          .nodes = block->nodes + k * block->nodes_per_element,
                          .count = block->nodes_per_element,

@@ -41,9 +41,7 @@ static void append_bytes(JsonWriter *json, const char *bytes, int64_t count)
     if (!error_is_clean(&json->first)) return;
     if (json->length + count > json->capacity) {
         int64_t capacity = 2 * (json->length + count);   // doubled: copied twice on average
-        char *longer = memory_resize(json->text, json->length, capacity, 1, &json->first);
-        if (!longer) return;
-        json->text = longer;
+        if (!memory_resize(&json->text, json->length, capacity, 1, &json->first)) return;
         json->capacity = capacity;
     }
     memcpy(json->text + json->length, bytes, (size_t)count);
@@ -211,6 +209,18 @@ void json_boolean(JsonWriter *json, const char *key, bool value)
 {
     begin_item(json, key, true);
     append_text(json, value ? "true" : "false");
+}
+
+void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) json_number(json, numbers[k].key, numbers[k].value);
+}
+
+void json_number_list(JsonWriter *json, const char *key, const double *values, int32_t count)
+{
+    json_begin_list(json, key);
+    for (int32_t k = 0; k < count; k++) json_number(json, NULL, values[k]);
+    json_end(json);
 }
 
 // A missing end is a bug of the caller; the file would not be JSON.

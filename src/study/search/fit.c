@@ -66,31 +66,21 @@ static bool make_response(Fit *fit, Error *err)
 {
     const Designs *designs = &fit->search.designs;
     int32_t n = fit->search.study->search.key_count, data = fit->measured.count, count = 0;
-    double *room = NEW_ARRAY(double, (int64_t)designs->count *(n + 2 * data + 1) + 2 * data, err);
-    TRY(room);
-    double *places = room, *found = places + (int64_t)designs->count * n;
-    double *own = found + (int64_t)designs->count * data;
-    double *misfit = own + (int64_t)designs->count * data, *measured = misfit + designs->count;
+    ResponseDesign *list = NEW_ARRAY(ResponseDesign, designs->count, err);
+    TRY(list);
     for (int32_t d = 0; d < designs->count; d++) {
         if (isnan(designs->list[d].value)) continue;
-        for (int32_t k = 0; k < n; k++)
-            places[count * n + k] = fit_scaled(fit, k, designs->list[d].x[k]);
-        memcpy(&found[(int64_t)count * data], &fit->found[(int64_t)d * data],
-               (size_t)data * sizeof *found);
-        memcpy(&own[(int64_t)count * data], &fit->own[(int64_t)d * data],
-               (size_t)data * sizeof *own);
-        misfit[count++] = designs->list[d].value;
-    }
-    for (int32_t k = 0; k < data; k++) {
-        measured[k] = fit->measured.list[k].value;
-        measured[data + k] = fit->measured.list[k].error;
+        ResponseDesign *one = &list[count++];
+        for (int32_t k = 0; k < n; k++) one->place[k] = fit_scaled(fit, k, designs->list[d].x[k]);
+        one->found = &fit->found[(int64_t)d * data];
+        one->own = &fit->own[(int64_t)d * data];
+        one->misfit = designs->list[d].value;
     }
     response_destroy(&fit->response);
-    ResponseDef def = {n,   count,  data,     places,          found,
-                       own, misfit, measured, measured + data, FAR * fit_threshold(fit, 1)};
+    ResponseDef def = {n, count, data, list, fit->measured.list, FAR * fit_threshold(fit, 1)};
     TRY(response_make(&def, &fit->response, err));
 cleanup:
-    memory_free(room);
+    memory_free(list);
     return error_is_clean(err);
 }
 
@@ -185,8 +175,8 @@ static void summarise(const Fit *fit, FitSummary *summary)
     for (int32_t d = 0; d < search->designs.count; d++)
         summary->designs += !isnan(search->designs.list[d].value);
     for (int32_t k = 0; k < data; k++) {
-        double own = fit->response.own[k] * fit->response.own[k];
-        summary->own_share += own / (own + fit->response.error[k] * fit->response.error[k]) / data;
+        double own = pow(fit->response.own[k], 2), error = fit->measured.list[k].error;
+        summary->own_share += own / (own + error * error) / data;
     }
 }
 

@@ -81,13 +81,6 @@ static void print_combinations(const Fit *fit, FILE *out)
 
 // --- words --------------------------------------------------------------------------------------
 
-static double errors_off(const Fit *fit, int32_t k)
-{
-    const Response *response = &fit->response;
-    double error = hypot(response->error[k], response->own[k]);
-    return (response_at(response, k, fit->best) - response->measured[k]) / error;
-}
-
 static void print_datum(const Fit *fit, int32_t k, FILE *out)
 {
     const Datum *datum = &fit->measured.list[k];
@@ -95,7 +88,7 @@ static void print_datum(const Fit *fit, int32_t k, FILE *out)
     fprintf(out, "    %s%s%s", condition, *condition ? ": " : "", datum->name);
     if (*datum->along) fprintf(out, " at %s = %.4g", datum->along, datum->at);
     fprintf(out, " measured %.4g +- %.2g, found %.4g: off by %.1f errors\n", datum->value,
-            datum->error, response_at(&fit->response, k, fit->best), fabs(errors_off(fit, k)));
+            datum->error, response_at(&fit->response, k, fit->best), fabs(fit_errors_off(fit, k)));
 }
 
 // The worst first.
@@ -103,7 +96,7 @@ static void print_worst(const Fit *fit, FILE *out)
 {
     double before = INFINITY;
     int32_t count = 0, off = 0;
-    for (int32_t k = 0; k < fit->measured.count; k++) off += fabs(errors_off(fit, k)) > OFF;
+    for (int32_t k = 0; k < fit->measured.count; k++) off += fabs(fit_errors_off(fit, k)) > OFF;
     fprintf(
         out,
         "  %d of %d measurements are off by more than %g errors (1 in 20 is to be expected)%s\n",
@@ -111,13 +104,13 @@ static void print_worst(const Fit *fit, FILE *out)
     while (count < WORST_SHOWN) {
         int32_t worst = -1;
         for (int32_t k = 0; k < fit->measured.count; k++) {
-            double by = fabs(errors_off(fit, k));
-            if (by < before && by > OFF && (worst < 0 || by > fabs(errors_off(fit, worst))))
+            double by = fabs(fit_errors_off(fit, k));
+            if (by < before && by > OFF && (worst < 0 || by > fabs(fit_errors_off(fit, worst))))
                 worst = k;
         }
         if (worst < 0) break;
         print_datum(fit, worst, out);
-        before = fabs(errors_off(fit, worst));
+        before = fabs(fit_errors_off(fit, worst));
         count++;
     }
 }
@@ -194,7 +187,7 @@ static bool write_table(const Fit *fit, Error *err)
         csv_number(csv, datum->error);
         csv_number(csv, response_at(&fit->response, k, fit->best));
         csv_number(csv, fit->response.own[k]);
-        csv_number(csv, errors_off(fit, k));
+        csv_number(csv, fit_errors_off(fit, k));
         csv_end_row(csv);
     }
     return csv_finish(csv, err);

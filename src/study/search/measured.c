@@ -123,11 +123,9 @@ static bool find_condition(Measured *measured, const Table *table, int32_t row, 
     if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
     for (*found = 0; *found < measured->condition_count; ++*found)
         if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
-    char **list = memory_grow(measured->conditions, measured->condition_count,
-                              &measured->condition_room, sizeof *list, err);
-    TRY(list);
-    measured->conditions = list;
-    TRY(list[measured->condition_count] = memory_text(text, err));
+    TRY(memory_grow(&measured->conditions, measured->condition_count, &measured->condition_room,
+                    sizeof *measured->conditions, err));
+    TRY(measured->conditions[measured->condition_count] = memory_text(text, err));
     measured->condition_count++;
 cleanup:
     free(text);
@@ -136,10 +134,10 @@ cleanup:
 
 static bool add_datum(Measured *measured, const Datum *datum, Error *err)
 {
-    Datum *list = memory_grow(measured->list, measured->count, &measured->room, sizeof *list, err);
-    if (!list) return false;
-    measured->list = list;
-    list[measured->count++] = *datum;
+    if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
+                     err))
+        return false;
+    measured->list[measured->count++] = *datum;
     return true;
 }
 

@@ -168,6 +168,12 @@ static void print_answer(const void *context, FILE *out)
     fprintf(out, ":\n  %s: ", summary->best);
     print_estimate(&designs->list[best], out);
     fprintf(out, "\n");
+    int32_t finer = 0;
+    for (int32_t d = 0; d < designs->count; d++) finer += designs->list[d].is_finer;
+    if (designs->list[best].is_finer)
+        fprintf(out,
+                "  computed once more for half its bar, as the best of many is so by luck, too%s\n",
+                finer > 1 ? "; what was better before came out worse" : "");
     print_gain(search, summary, best, out);
     print_open(search, best, out);
     for (int32_t k = 0; k < search->study->search.key_count; k++)

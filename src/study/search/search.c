@@ -135,8 +135,9 @@ static bool make_scene(Search *search, const StudyCase *trial, int32_t condition
     return true;
 }
 
-// Those of `vary`, or of what was measured; the first comes last, as limits are checked at it.
-bool search_allows(Search *search, const double *x, bool *allowed, Error *err)
+// Whether its scenes, those of `vary` or of what was measured, are accepted and keep all of
+// `where`; the first comes last, as limits are checked at it.
+static bool is_allowed(Search *search, const double *x, bool *allowed, Error *err)
 {
     const Designs *designs = &search->designs;
     Design design = {.choice = -1};
@@ -167,7 +168,7 @@ bool search_add(Search *search, double *x, int32_t *added, Error *err)
     *added = -1;
     designs_round(search->study, x);
     if (search->designs.count == DESIGNS_MAX || designs_find(&search->designs, x) >= 0) return true;
-    if (!search_allows(search, x, &allowed, err)) return false;
+    if (!is_allowed(search, x, &allowed, err)) return false;
     if (allowed) *added = designs_add(&search->designs, x, -1);
     return true;
 }

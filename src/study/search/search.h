@@ -47,8 +47,6 @@ bool search_open(Search *search, const char *path, const SweepOptions *options, 
 bool search_begin(Search *search, int32_t conditions, char *const *texts, Error *err);
 // `count` more designs, by a chooser that knows all those so far; before the first also the start.
 bool search_designs(Search *search, int32_t count, Error *err);
-// Whether its scenes are accepted and keep all of `where`.
-bool search_allows(Search *search, const double *x, bool *allowed, Error *err);
 // Adds a design if it is new and allowed; x is rounded. *added: its index, -1: not added.
 bool search_add(Search *search, double *x, int32_t *added, Error *err);
 // Computes designs, [count]; new ones, or others once more with another accuracy.

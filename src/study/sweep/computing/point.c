@@ -13,7 +13,7 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
+#include <search.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -60,54 +60,46 @@ bool point_hash(Sweep *sweep, const Scene *scene, char text[HASH_TEXT_SIZE], Err
 
 static int compare_hashes(const void *a, const void *b)
 {
-    const HashedPoint *one = a, *other = b;
-    int order = strcmp(one->hash, other->hash);
-    return order != 0 ? order : one->point - other->point;
+    const SweepPoint *one = a, *other = b;
+    return strcmp(one->hash, other->hash);
+}
+
+static void keep_point(void *point)
+{
+    (void)point;   // the tree does not own it
+}
+
+void points_forget(void **tree)
+{
+    if (*tree) tdestroy(*tree, keep_point);
+    *tree = NULL;
 }
 
 // A study may have a million points: none is compared with all others.
-bool points_sort(Sweep *sweep, PointsByHash *points, Error *err)
+bool points_find_same(Sweep *sweep, Error *err)
 {
-    int32_t count = sweep->study.point_count;
-    *points = (PointsByHash){.sweep = sweep, .list = NEW_ARRAY(HashedPoint, count, err)};
-    if (!points->list) return false;
-    for (int32_t k = 0; k < count; k++) points->list[k] = (HashedPoint){sweep->points[k].hash, k};
-    qsort(points->list, (size_t)count, sizeof *points->list, compare_hashes);
+    points_forget(&sweep->by_hash);
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *const *first = tsearch(&sweep->points[k], &sweep->by_hash, compare_hashes);
+        if (!first) return FAULT(err, ERROR_MEMORY, "no memory for %d points", k);
+        sweep->points[k].same_as = (int32_t)(*first - sweep->points);
+    }
     return true;
 }
 
-int32_t points_look_up(const PointsByHash *points, const char *hash)
+int32_t points_look_up(const Sweep *sweep, const char *hash)
 {
-    int32_t low = 0, count = points->sweep->study.point_count, high = count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (strcmp(points->list[middle].hash, hash) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    bool found = low < count && strcmp(points->list[low].hash, hash) == 0;
-    return found ? points->list[low].point : -1;
+    SweepPoint like = {0};
+    snprintf(like.hash, sizeof like.hash, "%s", hash);
+    SweepPoint *const *first = tfind(&like, &sweep->by_hash, compare_hashes);
+    return first ? (int32_t)(*first - sweep->points) : -1;
 }
 
 void points_note_place(void *context, const char *hash, ReportPlace place)
 {
-    const PointsByHash *points = context;
-    int32_t point = points_look_up(points, hash);
-    if (point >= 0) points->sweep->points[point].place = place;
-}
-
-bool points_find_same(Sweep *sweep, Error *err)
-{
-    PointsByHash sorted;
-    if (!points_sort(sweep, &sorted, err)) return false;
-    for (int32_t k = 0, first = 0; k < sweep->study.point_count; k++) {
-        const HashedPoint *list = sorted.list;
-        if (strcmp(list[k].hash, list[first].hash) != 0) first = k;
-        sweep->points[list[k].point].same_as = list[first].point;
-    }
-    memory_free(sorted.list);
-    return true;
+    Sweep *sweep = context;
+    int32_t point = points_look_up(sweep, hash);
+    if (point >= 0) sweep->points[point].place = place;
 }
 
 const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
@@ -148,25 +140,27 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
 
 PointValue point_value(const char *report, const char *path)
 {
-    PointValue found = {NAN, NAN, NAN};
+    PointValue found = {NAN, NAN, NAN, NAN};
     char beside[STUDY_NAME_SIZE + 16];
-    double error = NAN;
     if (!report) return found;
     json_find_number(report, path, &found.value);
     snprintf(beside, sizeof beside, "%s_error", path);
-    json_find_number(report, beside, &error);
+    json_find_number(report, beside, &found.error);
     snprintf(beside, sizeof beside, "%s_known_to", path);
     if (!json_find_number(report, beside, &found.known_to))
-        found.known_to = isnan(error) ? 0 : error;
-    if (error == found.known_to) found.bar = error;
+        found.known_to = isnan(found.error) ? 0 : found.error;
+    if (found.error == found.known_to) found.bar = found.error;
     return found;
 }
 
-// An interrupted run is not finished, though it left a run.json.
+// An interrupted run is not finished, though it left a run.json; nor is one whose run.json a disk
+// lost in part.
 PointStatus point_status(const char *report)
 {
     char status[20] = "", failure[40] = "";
-    if (!report || !json_find_text(report, "status", status, sizeof status)) return POINT_PENDING;
+    if (!report || !json_is_whole(report) ||
+        !json_find_text(report, "status", status, sizeof status))
+        return POINT_PENDING;
     if (strcmp(status, "done") == 0) return POINT_DONE;
     json_find_text(report, "failure", failure, sizeof failure);
     return strcmp(failure, amontons_error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING
@@ -284,18 +278,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What does not fit into POINT_WORDS_SIZE is left out, key by key.
 void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE])
 {
-    size_t used = 0;
     words[0] = 0;
-    for (int32_t k = 0; k < sweep->study.column_count; k++) {
-        char text[160];
-        double number = 0;
-        study_scene_value(scene, sweep->study.columns[k], text, sizeof text, &number);
-        int length = snprintf(words + used, POINT_WORDS_SIZE - used, "%s%s=%s", used ? " " : "",
-                              sweep->study.columns[k], *text ? text : "none");
-        if (length < 0 || (size_t)length >= POINT_WORDS_SIZE - used) break;
-        used += (size_t)length;
-    }
+    for (int32_t k = 0; k < sweep->study.column_count; k++)
+        study_add_words(scene, sweep->study.columns[k], words, POINT_WORDS_SIZE);
 }

@@ -27,32 +27,22 @@ int32_t study_column(const Study *study, const char *name)
 }
 
 // A key that is given in several places is one column.
-bool study_add_column(Study *study, const char *key, Error *err)
+int32_t study_add_column(Study *study, const char *key, Error *err)
 {
-    if (study_column(study, key) >= 0) return true;
-    if (study->column_count == STUDY_COLUMNS_MAX)
-        return REFUSE(err, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
-    snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
-    return true;
-}
-
-// `key` itself, or a map that it is in.
-static bool sets(const char *given, const char *key)
-{
-    size_t length = strlen(given);
-    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
+    int32_t column = study_column(study, key);
+    if (column >= 0) return column;
+    if (study->column_count < STUDY_COLUMNS_MAX) {
+        snprintf(study->columns[study->column_count], STUDY_NAME_SIZE, "%s", key);
+        return study->column_count++;
+    }
+    (void)REFUSE(err, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+    return -1;
 }
 
 bool study_is_chosen(const Study *study, const char *key)
 {
-    for (int32_t k = 0; k < study->axis_count; k++)
-        if (sets(study->axes[k].key, key)) return true;
-    for (int32_t k = 0; study->case_list && k < study->case_count; k++) {
-        const YamlDocument *document = study->case_list[k].document;
-        YAML_EACH (item, document, study->case_list[k].map)
-            if (sets(yaml_key(document, item), key)) return true;
-    }
-    return false;
+    int32_t column = study_column(study, key);
+    return column >= 0 && study->chosen[column];
 }
 
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err)

@@ -107,6 +107,8 @@ typedef struct Study {
     StudyAxis axes[STUDY_AXES_MAX];
     int32_t column_count;   // scene keys that vary, in the order of the file
     char columns[STUDY_COLUMNS_MAX][STUDY_NAME_SIZE];
+    bool varied[STUDY_COLUMNS_MAX];   // by `vary`
+    bool chosen[STUDY_COLUMNS_MAX];   // by `vary` or `cases`, not by a formula of `set`
     int32_t record_count;
     StudyRecord records[STUDY_RECORDS_MAX];
     int32_t point_count;
@@ -120,11 +122,10 @@ typedef struct Study {
 void study_destroy(Study *study);   // also of one half read
 
 // --- what the files that read a study share
-// Makes `key` a column, once.
-bool study_add_column(Study *study, const char *key, Error *err);
+// Makes `key` a column, once; its index; -1: the error says why not.
+int32_t study_add_column(Study *study, const char *key, Error *err);
 // The index in `columns` of the key `name`; -1: it does not vary.
 int32_t study_column(const Study *study, const char *name);
-// Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.
 bool study_is_chosen(const Study *study, const char *key);
 // *values: the children of a list, to be found by number at once (memory_free).
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);

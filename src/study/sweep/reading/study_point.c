@@ -41,6 +41,17 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
     if (index >= 0 && keys[index].type == KEY_FLAG) *number = strcmp(words, "true") == 0;
 }
 
+void study_add_words(const Scene *scene, const char *key, char *words, int32_t size)
+{
+    char text[160];
+    double number = 0;
+    size_t used = strlen(words), room = (size_t)size - used;
+    study_scene_value(scene, key, text, sizeof text, &number);
+    int length =
+        snprintf(words + used, room, "%s%s=%s", used ? " " : "", key, *text ? text : "none");
+    if (length < 0 || (size_t)length >= room) words[used] = 0;   // what does not fit is left out
+}
+
 // --- gathering ----------------------------------------------------------------------------------
 
 // Formulas are put aside, to be worked out when all plain values are in.

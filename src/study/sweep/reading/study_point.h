@@ -17,4 +17,7 @@ bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error
 void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
                        double *number);
 
+// Adds "load.pressure=0.003" to `words`, which has room for `size` bytes.
+void study_add_words(const Scene *scene, const char *key, char *words, int32_t size);
+
 #endif

@@ -42,7 +42,7 @@ static bool read_key(Study *study, YamlNode item, Error *err)
     if (study_is_chosen(study, key->key))
         return yaml_key_error(study->file, item, err, "%s: searched, and given by `vary` as well",
                               key->key);
-    return study_add_column(study, key->key, err);
+    return study_add_column(study, key->key, err) >= 0;
 }
 
 // {value: = mesh.set.n * mesh.set.pad_height, least: 0.1, most: 0.6}

@@ -16,19 +16,54 @@ static const char AXIS_ALLOWED[] = "a list of values, {log: [from, to], points: 
 
 // The keys that a value given under `key` sets: itself, or those of the map below it.
 static bool add_columns(Study *study, const char *key, const YamlDocument *document, YamlNode node,
-                        Error *err)
+                        bool varied, Error *err)
 {
     bool opens = yaml_kind(document, node) == YAML_MAP;
     bool is_map_of_keys = strcmp(key, "mesh.set") == 0 || strcmp(key, "output.fields") == 0 ||
                           strcmp(key, "materials") == 0 || strncmp(key, "materials.", 10) == 0 ||
                           (scene_key_is_group(key) && scene_key_index(key) < 0);
-    if (!opens || !is_map_of_keys) return study_add_column(study, key, err);
+    if (!opens || !is_map_of_keys) {
+        int32_t column = study_add_column(study, key, err);
+        if (column < 0) return false;
+        study->chosen[column] = true;
+        study->varied[column] = study->varied[column] || varied;
+        return true;
+    }
     YAML_EACH (item, document, node) {
         char path[STUDY_NAME_SIZE];
         snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        if (!add_columns(study, path, document, item, err)) return false;
+        if (!add_columns(study, path, document, item, varied, err)) return false;
     }
     return error_is_clean(err);
+}
+
+// The first column that a value given under `key` sets, by itself or in the map it is, and that is
+// one of `among`; NULL: none.
+static const char *find_given(const Study *study, const bool *among, const char *key,
+                              const YamlDocument *document, YamlNode node)
+{
+    int32_t column = study_column(study, key);
+    if (column >= 0 && among[column]) return study->columns[column];
+    YAML_EACH (item, document, node) {
+        char path[STUDY_NAME_SIZE];
+        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
+        const char *found = find_given(study, among, path, document, item);
+        if (found) return found;
+    }
+    return NULL;
+}
+
+// Refuses an item of `what` that gives a key that varies. A formula of `cases` over that key itself
+// (= 2 * load.pressure) takes what varies, and is no second value.
+static bool check_given(const Study *study, const char *what, YamlNode item, bool takes, Error *err)
+{
+    const char *found =
+        find_given(study, study->varied, yaml_key(study->file, item), study->file, item);
+    if (!found || (takes && scene_is_formula(study->file, item) &&
+                   strstr(yaml_text(study->file, item), found)))
+        return true;
+    return yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`", found,
+                          what);
 }
 
 // Whether the key can be set is known here; whether its value is right when a scene is made.
@@ -59,8 +94,9 @@ static bool read_set(Study *study, Error *err)
         return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
     YAML_EACH (item, study->file, study->set) {
         if (!study_check_key(study->file, item, err)) return false;
+        if (!check_given(study, "set", item, false, err)) return false;
         if (scene_is_formula(study->file, item) &&
-            !study_add_column(study, yaml_key(study->file, item), err))
+            study_add_column(study, yaml_key(study->file, item), err) < 0)
             return false;
     }
     return error_is_clean(err);
@@ -69,14 +105,13 @@ static bool read_set(Study *study, Error *err)
 static bool add_case(Study *study, const YamlDocument *document, YamlNode map, Error *err)
 {
     int32_t count = study->case_list ? study->case_count : 0;   // without cases there is one point
-    StudyCase *list = memory_grow(study->case_list, count, &study->case_room, sizeof *list, err);
-    if (!list) return false;
-    study->case_list = list;
+    if (!memory_grow(&study->case_list, count, &study->case_room, sizeof *study->case_list, err))
+        return false;
     study->case_list[count] = (StudyCase){document, map};
     study->case_count = count + 1;
     YAML_EACH (item, document, map) {
         if (!study_check_key(document, item, err)) return false;
-        if (!add_columns(study, yaml_key(document, item), document, item, err)) return false;
+        if (!add_columns(study, yaml_key(document, item), document, item, false, err)) return false;
     }
     return error_is_clean(err);
 }
@@ -190,8 +225,12 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
         return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
     if (!study_list(axis->document, axis->list, &axis->values, err)) return false;
     study->axis_count++;
+    YAML_EACH (value, axis->document, axis->list) {
+        const char *found = find_given(study, study->varied, axis->key, axis->document, value);
+        if (found) return yaml_key_error(study->file, item, err, "%s: varied twice", found);
+    }
     YAML_EACH (value, axis->document, axis->list)
-        if (!add_columns(study, axis->key, axis->document, value, err)) return false;
+        if (!add_columns(study, axis->key, axis->document, value, true, err)) return false;
     return error_is_clean(err);
 }
 
@@ -206,65 +245,14 @@ static bool read_vary(Study *study, Error *err)
     return error_is_clean(err);
 }
 
-// Whether `node`, given under `key`, gives the key `wanted`: by itself, or in the map it is.
-static bool gives(const YamlDocument *document, const char *key, YamlNode node, const char *wanted)
-{
-    size_t length = strlen(key);
-    char path[STUDY_NAME_SIZE];
-    if (strcmp(key, wanted) == 0) return true;
-    if (strncmp(wanted, key, length) != 0 || wanted[length] != '.') return false;
-    YAML_EACH (item, document, node) {
-        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        if (gives(document, path, item, wanted)) return true;
-    }
-    return false;
-}
-
-// Whether any of its values gives it; the values of a range are numbers.
-static bool axis_gives(const StudyAxis *axis, const char *wanted)
-{
-    YAML_EACH (value, axis->document, axis->list)
-        if (gives(axis->document, axis->key, value, wanted)) return true;
-    return false;
-}
-
-// Refuses a key of `map` (under `what`) that gives the varied key `wanted` once more. A formula
-// over that key itself (= 2 * load.pressure) takes what varies, and is no second value.
-static bool check_map(const Study *study, const char *what, YamlNode map, const char *wanted,
-                      Error *err)
-{
-    if (map == YAML_NO_NODE) return true;
-    YAML_EACH (item, study->file, map) {
-        if (!gives(study->file, yaml_key(study->file, item), item, wanted)) continue;
-        if (strcmp(what, "cases") == 0 && scene_is_formula(study->file, item) &&
-            strstr(yaml_text(study->file, item), wanted))
-            continue;
-        return yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`",
-                              wanted, what);
-    }
-    return true;
-}
-
 // A key has one value at a point, from one place. Cases may replace what `set` gives: it is what
 // the other cases have.
-static bool check_twice(const Study *study, Error *err)
+static bool check_cases(const Study *study, Error *err)
 {
-    YamlNode vary = yaml_look_up(study->file, "vary"), item = YAML_NO_NODE;
-    for (int32_t c = 0; c < study->column_count; c++) {
-        const char *wanted = study->columns[c];
-        int32_t given = 0;
-        if (vary != YAML_NO_NODE) item = yaml_first(study->file, vary);
-        for (int32_t k = 0; k < study->axis_count; k++, item = yaml_next(study->file, item)) {
-            given += axis_gives(&study->axes[k], wanted);
-            if (given < 2) continue;
-            return yaml_key_error(study->file, item, err, "%s: varied twice", wanted);
-        }
-        if (given == 0) continue;
-        if (!check_map(study, "set", study->set, wanted, err)) return false;
-        if (study->cases == YAML_NO_NODE) continue;
-        YAML_EACH (one, study->file, study->cases)
-            if (!check_map(study, "cases", one, wanted, err)) return false;
-    }
+    if (study->cases == YAML_NO_NODE) return true;
+    YAML_EACH (one, study->file, study->cases)
+        YAML_EACH (item, study->file, one)
+            if (!check_given(study, "cases", item, true, err)) return false;
     return error_is_clean(err);
 }
 
@@ -281,9 +269,8 @@ static bool read_override(Study *study, const char *text, Error *err)
     YamlDocument **document = &study->made[study->made_count];
     if (!yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err)) return false;
     study->made_count++;
-    for (int32_t c = 0; c < study->column_count; c++)
-        if (gives(*document, key, YAML_ROOT, study->columns[c]))
-            return REFUSE(err, "--set %s: %s varies %s", key, study->path, study->columns[c]);
+    const char *found = find_given(study, study->chosen, key, *document, YAML_ROOT);
+    if (found) return REFUSE(err, "--set %s: %s varies %s", key, study->path, found);
     study->overrides[study->override_count++] =
         (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
     return true;
@@ -315,21 +302,20 @@ bool study_read_vary(Study *study, const char *const *overrides, int32_t overrid
     if (!read_vary(study, err)) return false;
     for (int32_t k = 0; k < override_count; k++)
         if (!read_override(study, overrides[k], err)) return false;
-    return read_set(study, err) && check_twice(study, err) && count_points(study, err);
+    return read_set(study, err) && check_cases(study, err) && count_points(study, err);
 }
 
 bool study_add_designs(Study *study, const char *text, Error *err)
 {
     int32_t count = study->design_count;
-    char **texts = memory_grow(study->designs, count, &study->design_room, sizeof *texts, err);
-    if (!texts) return false;
-    study->designs = texts;
-    YamlDocument **files =
-        memory_grow(study->design_files, count, &study->design_file_room, sizeof *files, err);
-    if (!files) return false;
-    study->design_files = files;
-    if (!(texts[count] = memory_text(text, err))) return false;
+    if (!memory_grow(&study->designs, count, &study->design_room, sizeof *study->designs, err))
+        return false;
+    if (!memory_grow(&study->design_files, count, &study->design_file_room,
+                     sizeof *study->design_files, err))
+        return false;
+    if (!(study->designs[count] = memory_text(text, err))) return false;
     study->design_count++;   // half of it is freed as well
-    return yaml_parse("designs of the search", text, 0, &files[count], err) &&
-           read_cases(study, files[count], YAML_ROOT, err) && count_points(study, err);
+    YamlDocument **file = &study->design_files[count];
+    return yaml_parse("designs of the search", text, 0, file, err) &&
+           read_cases(study, *file, YAML_ROOT, err) && count_points(study, err);
 }

@@ -186,7 +186,7 @@ static bool read_refine(Study *study, const WantedKey *key, Error *err)
     if (length == 0 || (text[length] && !percent) || !(*share > 0 && *share < 1))
         return yaml_refuse(study->file, key->node, key->name,
                            "the smallest error bar worth computing, as in 0.5%", err);
-    return study_add_column(study, "accuracy.mu", err);
+    return study_add_column(study, "accuracy.mu", err) >= 0;
 }
 
 // {mu_first_pad: highest, scene.mesh.set.pad_height: lowest}

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "io/cache/store.h"
+#include "io/files/part_file.h"
 #include "cache_fixture.h"
 
 #include <fcntl.h>
@@ -109,6 +110,33 @@ TEST_BETWEEN(test_writing_keeps_the_limit, cache_begin, cache_end)
     CacheFolder folder = folder_now();
     assert_int_equal(folder.count, 1);
     assert_string_equal(folder.entries[0].name, name_of('d', "mesh"));
+    cache_folder_destroy(&folder);
+}
+
+static void make_part(PartFile *part, char letter)
+{
+    Error err = {0};
+    assert_true(part_file_create(part, place_path(cache, name_of(letter, "basis")), &err));
+    assert_true(part_file_write(part, "half", 4, &err));
+}
+
+// What a process left that was killed while it wrote counts, and goes; what one writes now stays.
+TEST_BETWEEN(test_parts_of_killed_writers, cache_begin, cache_end)
+{
+    PartFile killed, writing;
+    int64_t bytes = 0;
+    make_part(&killed, 'a');
+    part_file_leave(&killed);   // its lock ends with its process
+    make_part(&writing, 'b');
+    CacheFolder folder = folder_now();
+    assert_int_equal(folder.count, 2);
+    assert_int_equal(folder.bytes, 8);
+    assert_int_equal(cache_folder_trim(&folder, 0, NULL, &bytes), 1);
+    assert_int_equal(bytes, 4);
+    assert_false(place_has(cache, name_of('a', "basis.part")));
+    assert_false(place_has(cache, name_of('a', "basis")));
+    assert_true(place_has(cache, name_of('b', "basis.part")));
+    part_file_discard(&writing);
     cache_folder_destroy(&folder);
 }
 

@@ -167,6 +167,20 @@ TEST(numbers_are_short_and_exact)
     fclose(file);
 }
 
+TEST(several_numbers_are_members_lists_and_objects)
+{
+    const double speeds[] = {1.5, NAN};
+    JsonWriter *json = create();
+    json_begin_object(json, NULL);
+    json_numbers_of(json, {"whole", 123456789012345}, {"half", 0.5});
+    json_object_of(json, "inner", {"one", 1}, {"none", NAN});
+    json_number_list(json, "speeds", speeds, 2);
+    json_end(json);
+    finish(json);
+    assert_document("{\n  \"whole\": 123456789012345,\n  \"half\": 0.5,\n  \"inner\": {\n"
+                    "    \"one\": 1,\n    \"none\": null\n  },\n  \"speeds\": [1.5, null]\n}\n");
+}
+
 TEST(text_is_escaped)
 {
     static const struct {

@@ -24,7 +24,7 @@ static void smooth_make(const double *values, SmoothGrid *smooth)
     MapGrid grid = {.columns = COLUMNS, .rows = ROWS, .point = point};
     assert_true(map_smooth(&grid, values, place, PARTS, smooth, &err));
     assert_int_equal(smooth->columns, FINE);
-    assert_int_equal((int)smooth->triangle_count, 2 * (FINE - 1) * (smooth->rows - 1));
+    assert_int_equal(smooth->triangles.count, 2 * (FINE - 1) * (smooth->rows - 1));
 }
 
 // A plane stays one, at the places where it says it is.
