@@ -47,7 +47,7 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
         for (int32_t k = 0; k < element_node_count(kind); k++)
             bulk->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
         bulk->offsets[e + 1] = mesh->first_node[e + 1];
-        bulk->types[e] = element_info(kind)->vtk_type;
+        bulk->types[e] = ELEMENTS[kind].vtk_type;
     }
     return true;
 }
@@ -165,7 +165,7 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
         {.name = "von_mises", .components = 1, .values = files->stress.von_mises}};
     FieldGrid grid =
         grid_of(&files->bulk, arrays, (int32_t)(sizeof arrays / sizeof arrays[0]), state->time);
-    return field_file_write_vtu(path, &grid, err);
+    return field_file_write(path, &grid, err);
 }
 
 // What belongs to a point: its own, and of a corner that touches nothing the mean of the points
@@ -222,5 +222,5 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
         line += rows[k].columns * (int64_t)files->contact_count;
     }
     FieldGrid grid = grid_of(&files->line, arrays, FIELD_LINE_ARRAYS, time);
-    return field_file_write_vtp(path, &grid, err);
+    return field_file_write(path, &grid, err);
 }
