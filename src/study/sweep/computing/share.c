@@ -14,11 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum {
-    SHARE_PATH_SIZE = POINT_PATH_SIZE + 64,
-    SHARE_BYTES_MAX = 1 << 28,
-    LINE_SIZE = HASH_TEXT_SIZE + 60
-};
+enum { SHARE_PATH_SIZE = POINT_PATH_SIZE + 64, SHARE_BYTES_MAX = 1 << 28 };
 
 static void share_path(const Sweep *sweep, int32_t share, const char *what,
                        char path[SHARE_PATH_SIZE])
@@ -52,7 +48,7 @@ bool share_write_designs(const Sweep *sweep, Error *err)
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
     if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = 0; k < study->design_count; k++)
-            fwrite(study->designs[k].text, 1, strlen(study->designs[k].text) + 1, out.out);
+            fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, out.out);
         text_writer_finish(&out, err);
     }
     text_writer_close(&out);
