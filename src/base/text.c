@@ -62,6 +62,15 @@ int32_t text_nearest(const char *given, const char *const *names, int32_t count)
     return nearest;
 }
 
+const char *text_hint(const char *given, const char *const *names, int32_t count,
+                      const char *otherwise, char hint[TEXT_HINT_SIZE])
+{
+    int32_t nearest = text_nearest(given, names, count);
+    if (nearest < 0) return otherwise;
+    snprintf(hint, TEXT_HINT_SIZE, "; did you mean `%.130s`?", names[nearest]);
+    return hint;
+}
+
 // The first byte says how many follow and, in the four cases below, narrows the range of the next
 // (RFC 3629, section 4). A text that ends within a character ends with a zero byte, which is no
 // continuation: nothing is read beyond it.
