@@ -220,6 +220,7 @@ NOT_A_CHOICE = {
     "record/fields.h": {"FIELD_SLOTS": SIZE},
     "record/field_files.h": {"FIELD_LINE_ARRAYS": "of the interface's file"},
     "record/field_files.c": {"VTK_LINE_CELL": "VTK's", "VTK_TRIANGLE_CELL": "VTK's", "VTK_QUAD_CELL": "VTK's",
+                             "types": "VTK's",
                              "FACE_CELLS_MAX": "of a face", "whole": "of a face", "six": "of a face", "nine": "of a face"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
