@@ -356,7 +356,7 @@ static bool hdf5_remove(ArrayFile *file, const char *name, Error *err)
 static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
-    char cause[HDF5_CAUSE_SIZE];
+    char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
     hid_t dataset = -1;
     int32_t components = 1;
     *values = NULL;
@@ -367,8 +367,8 @@ static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_
     dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
-    if (!series_shape(dataset, rows, width, &components))
-        FAIL(err, ERROR_FILE, "%s: %s has a shape that cannot be true", file->path, name);
+    if (!series_shape(dataset, rows, width, &components, why))
+        FAIL(err, ERROR_FILE, "%s: %s %s", file->path, name, why);
     TRY((*values = memory_bytes(*rows * *width * (int64_t)sizeof(double), err)));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
         FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -109,31 +110,37 @@ static bool find_type(hid_t stored, ArrayType *type)
 }
 
 // The numbers come from a file, which may be damaged: bytes of all values must fit into 64 bits.
-bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components)
+bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components,
+                  char why[SHAPE_WHY_SIZE])
 {
     hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1}, across = 0, most = INT64_MAX / sizeof(double);
     hid_t space = H5Dget_space(dataset);
     int rank = H5Sget_simple_extent_ndims(space);
-    bool known = rank >= 1 && rank <= ARRAY_RANK_MAX &&
-                 H5Sget_simple_extent_dims(space, shape, NULL) >= 0 && shape[1] <= INT32_MAX &&
-                 shape[2] <= INT32_MAX && (across = shape[1] * shape[2]) <= INT32_MAX &&
-                 shape[0] <= most / (across > 0 ? across : 1);
+    bool known = rank >= 1 && rank <= ARRAY_RANK_MAX;
+    snprintf(why, SHAPE_WHY_SIZE, "has %d dimensions, not 1 to %d", rank, ARRAY_RANK_MAX);
+    if (known) {
+        snprintf(why, SHAPE_WHY_SIZE, "is too large to be true");
+        known = H5Sget_simple_extent_dims(space, shape, NULL) >= 0 && shape[1] <= INT32_MAX &&
+                shape[2] <= INT32_MAX && (across = shape[1] * shape[2]) <= INT32_MAX &&
+                shape[0] <= most / (across > 0 ? across : 1);
+    }
     H5Sclose(space);
-    if (!known) return false;
     *rows = (int64_t)shape[0];
     *width = (int32_t)across;
     *components = (int32_t)shape[2];
-    return true;
+    return known;
 }
 
 // Type, width and rows of the dataset; its chunks are those that series_create would give it.
 static bool read_layout(SeriesWriter *writer)
 {
+    char why[SHAPE_WHY_SIZE];
     hid_t type = H5Dget_type(writer->dataset);
     bool known = find_type(type, &writer->type);
     H5Tclose(type);
     return known &&
-           series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components) &&
+           series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components,
+                        why) &&
            writer->width > 0;
 }
 

@@ -30,8 +30,10 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
                    Error *err);
 void series_destroy(SeriesWriter *writer);
 
-// Rows of a dataset, values a row, and of a vector its components. false: it is none of ours.
-bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components);
+// Rows of a dataset, values a row, and of a vector its components. false: none of ours, and why.
+enum { SHAPE_WHY_SIZE = 60 };
+bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components,
+                  char why[SHAPE_WHY_SIZE]);
 
 // One that is in the file already, as it was created. *writer as above.
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err);

@@ -34,5 +34,6 @@ bool text_writer_finish(TextWriter *writer, Error *err)
 void text_writer_close(TextWriter *writer)
 {
     if (writer->out) fclose(writer->out);
+    writer->out = NULL;
     part_file_discard(&writer->file);
 }

@@ -202,6 +202,22 @@ TEST(test_numbers_of_regions)
         if (scene_materials_find(&scene, unknown[k], &number)) fail_msg("%s", unknown[k]);
 }
 
+// A word of an item with a name may be set alone, be it a number or a formula.
+TEST(test_one_word_of_an_item)
+{
+    static const char *const overrides[] = {
+        "friction={law: formula, formula: '0.3 * theta / (1 + theta)', slip_distance: 1e-3, "
+        "state: {theta: {rate: 1 - v * theta / D_c, start: 10}}}",
+        "friction.state.theta.start=7", "materials={pads: {young: 2}}", "materials.pads.eta1=3"};
+    Scene scene = read_fig1(overrides, 4);
+    assert_int_equal(scene.own_friction.states.count, 1);
+    assert_string_equal(scene.own_friction.states.state[0].start, "7");
+    assert_string_equal(scene.own_friction.states.state[0].rate, "1 - v * theta / D_c");
+    assert_int_equal(scene.materials.count, 1);
+    assert_true(scene.materials.region[0].number[MATERIAL_YOUNG] == 2);
+    assert_true(scene.materials.region[0].number[MATERIAL_ETA1] == 3);
+}
+
 // Warned of: weakening where nothing damps, also in one region alone.
 TEST(test_scenes_without_viscosity)
 {
