@@ -48,7 +48,7 @@ bool share_write_designs(const Sweep *sweep, Error *err)
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
     if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = 0; k < study->design_count; k++)
-            fwrite(study->designs[k].text, 1, strlen(study->designs[k].text) + 1, out.out);
+            fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, out.out);
         text_writer_finish(&out, err);
     }
     text_writer_close(&out);
