@@ -110,6 +110,7 @@ TEST(test_silence)
     for (; slurm_list(&jobs, &answered, &err); times++) assert_false(answered);
     assert_int_equal(times, 60);
     assert_says(err.message, "squeue does not answer: no controller");
+    fake_slurm_says(place, "squeue", "", "0");
     slurm_jobs_close(&jobs);
     assert_false(slurm_jobs_open("/nowhere/at/all", 2, &jobs, &err));
 }
