@@ -85,8 +85,7 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_begin_object(json, "model");
     json_numbers_of(json, {"contact_nodes", model->interface.contact_count},
                     {"rod_nodes", model->interface.rod_count},
-                    {"elements", model->mesh.element_count},
-                    {"full_dofs", model->bulk.dof_count});
+                    {"elements", model->mesh.element_count}, {"full_dofs", model->bulk.dof_count});
     json_integer(json, "reduced_dofs", model->system.dof_count);
     json_boolean(json, "by_halves", model->reduced.part_count > 1);
     json_text(json, "mesh_by", model->mesh_origin == MESH_OF_CACHE ? "cache" : "gmsh");
