@@ -66,8 +66,8 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work);
 // `a`. What stands before them is of no use.
 bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work);
 
-// Values and vectors (columns, in the place of `a`) of a y = value b y, y'b y = 1, a and b symmetric
-// [n * n]. b is destroyed; false also: it is not positive definite.
+// Values, and vectors (columns) in the place of `a`, of a y = value b y, y'b y = 1, a and b
+// symmetric [n * n]. b is destroyed; false also: it is not positive definite.
 bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *work);
 
 // Eigenvalues (re, im: [n]) and right eigenvectors of a general `a` [n * n], which is destroyed. A

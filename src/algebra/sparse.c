@@ -11,8 +11,7 @@ void sparse_pattern_destroy(SparsePattern *pattern)
     *pattern = (SparsePattern){0};
 }
 
-// With B [points * groups] the entries of B B' are the pairs of points. From points to unknowns: each
-// neighbour gives `width` columns, and the rows of a point are alike.
+// From points to unknowns: each neighbour gives `width` columns, and the rows of a point are alike.
 static bool couple_unknowns(const cholmod_sparse *pairs, int32_t width, SparsePattern *pattern,
                             Error *err)
 {
@@ -29,15 +28,16 @@ static bool couple_unknowns(const cholmod_sparse *pairs, int32_t width, SparsePa
     return error_is_clean(err);
 }
 
-bool sparse_pattern_of_groups(int32_t groups, int32_t *start, int32_t *member, int32_t points,
-                              int32_t width, SparsePattern *pattern, Error *err)
+// With B [points * groups] the entries of B B' are the pairs of points.
+bool sparse_pattern_of_groups(const PointGroups *groups, int32_t width, SparsePattern *pattern,
+                              Error *err)
 {
     cholmod_common common;
-    cholmod_sparse b = {.nrow = (size_t)points,
-                        .ncol = (size_t)groups,
-                        .nzmax = (size_t)start[groups],
-                        .p = start,
-                        .i = member,
+    cholmod_sparse b = {.nrow = (size_t)groups->points,
+                        .ncol = (size_t)groups->count,
+                        .nzmax = (size_t)groups->start[groups->count],
+                        .p = groups->start,
+                        .i = groups->member,
                         .itype = CHOLMOD_INT,
                         .xtype = CHOLMOD_PATTERN,
                         .packed = 1};
@@ -47,7 +47,7 @@ bool sparse_pattern_of_groups(int32_t groups, int32_t *start, int32_t *member, i
     bool done = pairs && cholmod_sort(pairs, &common);
     if (!done)
         error_set(err, ERROR_MEMORY, __FILE__, __LINE__, "no memory for the pattern of %d unknowns",
-                  width * points);
+                  width * groups->points);
     done = done && couple_unknowns(pairs, width, pattern, err);
     cholmod_free_sparse(&pairs, &common);
     cholmod_finish(&common);

@@ -24,10 +24,14 @@ typedef struct SparsePattern {
     int32_t *index;   // [start[size]] ascending in a column; owned
 } SparsePattern;
 void sparse_pattern_destroy(SparsePattern *pattern);
-// That in which all points of a group are neighbours, each of `width` unknowns. start: [groups + 1]
-// of their points in `member`.
-bool sparse_pattern_of_groups(int32_t groups, int32_t *start, int32_t *member, int32_t points,
-                              int32_t width, SparsePattern *pattern, Error *err);
+// Points in groups: those of group g are member[start[g] .. start[g + 1] - 1].
+typedef struct PointGroups {
+    int32_t points, count;
+    int32_t *start, *member;   // not owned
+} PointGroups;
+// That in which all points of a group are neighbours, each of `width` unknowns.
+bool sparse_pattern_of_groups(const PointGroups *groups, int32_t width, SparsePattern *pattern,
+                              Error *err);
 
 // Where (row, column), which the pattern holds, stands among the values.
 int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);

@@ -24,7 +24,8 @@ static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
         start[count + 1] = start[count] + group.node_count;
         count++;
     }
-    TRY(sparse_pattern_of_groups(count, start, nodes, mesh->node_count, mesh->dim, pattern, err));
+    PointGroups groups = {mesh->node_count, count, start, nodes};
+    TRY(sparse_pattern_of_groups(&groups, mesh->dim, pattern, err));
 cleanup:
     memory_free_all(start, nodes);
     return error_is_clean(err);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A basis goes by the content of the block that it is made of (reduction/reduction_block), which mesh,
-// loads and interface tell: of one that is in the cache no matrix is assembled.
+// A basis goes by the content of the block that it is made of (reduction/reduction_block), which
+// mesh, loads and interface tell: of one that is in the cache no matrix is assembled.
 #include "model/obtain.h"
 
 #include "base/clock.h"
@@ -65,8 +65,8 @@ static double reduction_tolerance(const Scene *scene)
                                           : REDUCTION_TOLERANCES[scene->time.accuracy];
 }
 
-// Steps on the reduced bulk that is there. Matrices are kept normalised; the scales of this scene (E,
-// eta, rho L^2, load) are set here and multiply whatever is asked of them.
+// Steps on the reduced bulk that is there. Matrices are kept normalised; the scales of this scene
+// (E, eta, rho L^2, load) are set here and multiply whatever is asked of them.
 static bool adopt_basis(Model *model, Error *err)
 {
     double load = model->unit_load.size * load_reference(model->scene);

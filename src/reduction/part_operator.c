@@ -24,11 +24,10 @@ void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double 
     if (r > 0) dense_apply_transposed(coupling, x + m, 1, 1, y);
 }
 
-// A but for its part in K: mass [rows], and of C's column those from `first` on.
-static void combine_column(const ReducedPart *part, OperatorTerms terms, const double *mass,
-                           int64_t column, int64_t first, int64_t rows, double *out)
+// Of a column of A, but for its part in K; mass: NULL is 0.
+static void combine_column(OperatorTerms terms, const double *mass, const double *damping,
+                           int64_t rows, double *out)
 {
-    const double *damping = part->damping + column * part->count + first;
     for (int64_t row = 0; row < rows; row++)
         out[row] = terms.mass * (mass ? mass[row] : 0) + terms.damping * damping[row];
 }
@@ -46,14 +45,15 @@ bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, Condens
     condensed->half = NEW_ARRAY(double, r, err);
     if (!error_is_clean(err)) goto cleanup;
     for (int64_t column = 0; column < r; column++) {
-        combine_column(part, terms, NULL, m + column, m, r, condensed->inverse + column * r);
+        const double *inside = part->damping + (m + column) * part->count + m;
+        combine_column(terms, NULL, inside, r, condensed->inverse + column * r);
         condensed->inverse[column * (r + 1)] += terms.mass * part->masses[column] + terms.stiffness;
     }
     for (int64_t column = 0; column < m; column++) {
         const double *stiffness = part->stiffness + column * m;
-        const double *mass = part->mass + column * m, *beside = part->coupling + column * r;
-        combine_column(part, terms, beside, column, m, r, coupling + column * r);
-        combine_column(part, terms, mass, column, 0, m, schur + column * m);
+        const double *damping = part->damping + column * part->count;
+        combine_column(terms, part->coupling + column * r, damping + m, r, coupling + column * r);
+        combine_column(terms, part->mass + column * m, damping, m, schur + column * m);
         for (int64_t row = 0; row < m; row++)
             schur[column * m + row] += terms.stiffness * stiffness[row];
     }

@@ -240,6 +240,26 @@ TEST(test_apply)
     free_case(&made);
 }
 
+// Two groups that share a point, and a point of none, of two unknowns each.
+TEST(test_groups)
+{
+    Error err = {0};
+    int32_t start[] = {0, 3, 5}, member[] = {3, 0, 1, 3, 2};
+    static const int32_t neighbours[][5] = {
+        {3, 0, 1, 3}, {3, 0, 1, 3}, {2, 2, 3}, {4, 0, 1, 2, 3}, {0}};
+    const PointGroups groups = {5, 2, start, member};
+    SparsePattern pattern = {0};
+    if (!sparse_pattern_of_groups(&groups, 2, &pattern, &err)) fail_msg("%s", err.message);
+    assert_int_equal(pattern.size, 10);
+    for (int32_t row = 0, at = 0; row < 10; row++) {
+        const int32_t *wanted = neighbours[row / 2];
+        assert_int_equal(pattern.start[row + 1] - pattern.start[row], 2 * wanted[0]);
+        for (int32_t k = 0; k < 2 * wanted[0]; k++)
+            assert_int_equal(pattern.index[at++], 2 * wanted[1 + k / 2] + k % 2);
+    }
+    sparse_pattern_destroy(&pattern);
+}
+
 TEST(test_entries)
 {
     Random random = {.state = 22};

@@ -71,7 +71,8 @@ static void check_modes(const ReducedBlock *block, const double *stiffness)
     free(force);
 }
 
-// K = diag(S_K, 1), M, diagonal inside, and C: what stands in the struct is what the modes make of the full matrices.
+// K = diag(S_K, 1), M, diagonal inside, and C: what stands in the struct is what the modes make of
+// the full matrices.
 TEST(test_blocks)
 {
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
