@@ -589,14 +589,6 @@ class Sweep(unittest.TestCase):
         self.sweep(study=self.study(STUDY + "record: [results.peaks.99.mu, scene.rod.kind, results.pads.7.l_c]\n"))
         self.assertEqual([row["scene.rod.kind"] for row in self.table()], ["push", "bonded"] * 4)
 
-    def test_names_of_earlier_versions(self):
-        for words, old, new in [("rank: {by: mu_trusted}", "mu_trusted", "mu_hold"),
-                                ("record: [results.mu_trusted_error]", r"results\.mu_trusted_error", "mu_hold_error"),
-                                ("record: [mu_M, results.falls.period]", r"results\.falls\.period", "drops_period"),
-                                ("plot: {x: load.pressure, y: mu_falls}", "mu_falls", "mu_drops")]:
-            done = self.sweep(study=self.study(STUDY + words + "\n"), status=2)
-            self.assertRegex(done.stderr, rf":9:\d+: \w+: `{old}` is called `{new}` now")
-
     def test_wrong_words(self):
         for words, message in [((), "needs a study"), (("a", "b"), "one study"), (("a", "-j", "0"), "-j 0"),
                                (("a", "-j", "x"), "-j x"), (("a", "-o", ""), "no name")]:

@@ -24,11 +24,8 @@ static bool take_results(Search *search, int32_t d, int32_t c, const char *repor
 {
     Fit *fit = search->judge.context;
     int32_t count = fit->measured.count;
-    char history[AMONTONS_PATH_SIZE];
-    search_run_path(search, d, c, history);
-    size_t length = strlen(history);
-    if (length > 8 && length < sizeof history - 8)
-        strcpy(history + length - 8, "history.h5");   // beside run.json
+    char history[POINT_PATH_SIZE + 16];
+    point_path(search->sweep, search->designs.list[d].point + c, "history.h5", history);
     for (int32_t k = 0; k < count; k++) {
         const Datum *datum = &fit->measured.list[k];
         int64_t at = (int64_t)d * count + k;
@@ -52,12 +49,6 @@ static void judge_misfit(Search *search, int32_t d)
         double off = (fit->found[at] - datum->value) / datum->error;
         design->value += off * off / square + log(square);
     }
-}
-
-// Misfits differ by powers of ten.
-static double tell_logarithm(double misfit)
-{
-    return log1p(misfit);
 }
 
 // --- the best -----------------------------------------------------------------------------------
@@ -142,7 +133,7 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
     if (fit->measured.count < search->study->search.key_count)
         return REFUSE(err, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
                       search->study->search.key_count);
-    search->judge = (SearchJudge){take_results, judge_misfit, tell_logarithm, fit};
+    search->judge = (SearchJudge){take_results, judge_misfit, fit};
     if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
         return false;
     int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;

@@ -130,15 +130,8 @@ static void print_parameter(const Fit *fit, const FitParameter *parameter, FILE 
                                                         : "");
 }
 
-typedef struct Answer {
-    const Fit *fit;
-    const FitSummary *summary;
-} Answer;
-
-static void print_answer(const void *context, FILE *out)
+static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
 {
-    const Fit *fit = ((const Answer *)context)->fit;
-    const FitSummary *summary = ((const Answer *)context)->summary;
     int32_t freedom = fit_freedom(fit), best = designs_best(&fit->search.designs);
     char words[OPTIMISE_WORDS_SIZE];
     fprintf(out, "%d measurements, %d keys, %d designs: misfit %.4g", summary->measurements,
@@ -195,7 +188,10 @@ static bool write_table(const Fit *fit, Error *err)
 
 bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
 {
-    return search_answer(&fit->search, print_answer, &(Answer){fit, summary}, err) &&
-           write_table(fit, err) && fit_figures(fit, err) &&
+    SearchAnswer answer;
+    if (!search_answer_begin(&answer, err)) return false;
+    print_answer(fit, summary, answer.out);
+    return search_answer_end(&fit->search, &answer, err) && write_table(fit, err) &&
+           fit_figures(fit, err) &&
            search_leave_best(&fit->search, designs_best(&fit->search.designs), 0, err);
 }

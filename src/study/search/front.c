@@ -55,7 +55,7 @@ static bool aim_words(const Search *search, int32_t aim, char words[POINT_WORDS_
     const Study *study = search->study;
     words[0] = 0;
     int32_t c = aim % search->designs.conditions;
-    if (!study_point_scene(study, c, search->scene, err)) return false;
+    if (!study_scene(study, &(PointChoice){.point = c}, search->scene, err)) return false;
     for (int32_t k = 0; k < study->axis_count; k++)
         study_add_words(search->scene, study->axes[k].key, words, POINT_WORDS_SIZE);
     return true;

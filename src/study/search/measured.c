@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/folder.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
 #include "scene/keys.h"
@@ -189,11 +190,10 @@ cleanup:
 static bool read_named(const Study *study, YamlNode node, Measured *measured, Error *err)
 {
     char path[2 * SCENE_TEXT_SIZE];
-    const char *given = yaml_text(study->file, node), *slash = strrchr(study->path, '/');
+    const char *given = yaml_text(study->file, node);
     if (yaml_kind(study->file, node) != YAML_SCALAR || !*given || strlen(given) >= SCENE_TEXT_SIZE)
         return yaml_refuse(study->file, node, "measured", "a table's path, or a list of them", err);
-    int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
-    snprintf(path, sizeof path, "%.*s%s", folder, study->path, given);
+    folder_beside(study->path, given, path, sizeof path);   // there is room
     return read_table(measured, path, err);
 }
 

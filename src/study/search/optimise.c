@@ -46,11 +46,6 @@ static void judge_design(Search *search, int32_t d)
     designs_judge(&search->designs, d);
 }
 
-static double tell_as_it_is(double value)
-{
-    return value;
-}
-
 // --- sections -----------------------------------------------------------------------------------
 
 // Along key `k` through the best design, the others as in it.
@@ -228,7 +223,7 @@ static bool open_study(Search *search, const char *path, const SweepOptions *opt
             err, "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
     if (search->study->search.over == OVER_FRONT && rank->refine > 0)
         return REFUSE(err, "%s: best: `over: front` does not go with `refine`", path);
-    search->judge = (SearchJudge){take_value, judge_design, tell_as_it_is, NULL};
+    search->judge = (SearchJudge){take_value, judge_design, NULL};
     if (!search_begin(search, 0, NULL, err)) return false;
     search->planned += search->designs.conditions * count_parts(search) * (SECTION_POINTS - 1) *
                        search->study->search.key_count;

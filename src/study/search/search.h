@@ -15,7 +15,6 @@ typedef struct SearchJudge {
     // Condition `c` of design `d`; report: its run.json; NULL: it failed, or was not computed.
     bool (*take)(Search *search, int32_t d, int32_t c, const char *report, Error *err);
     void (*judge)(Search *search, int32_t d);   // sets its value, when all conditions are taken
-    double (*told)(double value);   // to the chooser: rises with `value`, over a scale that suits
     void *context;
 } SearchJudge;
 
@@ -55,8 +54,5 @@ bool search_compute(Search *search, const int32_t *which, int32_t count, Error *
 bool search_compute_from(Search *search, int32_t first, Error *err);
 // The table, also of a search that was stopped, and the figures of the study where it was not.
 void search_close(Search *search, Error *err);
-// "a folder's run.json" of a design at a condition; "": it left none.
-void search_run_path(const Search *search, int32_t design, int32_t condition,
-                     char path[AMONTONS_PATH_SIZE]);
 
 #endif

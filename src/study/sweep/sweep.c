@@ -39,32 +39,24 @@ static bool take_lock(int descriptor)
     return true;
 }
 
-static bool refuse_taken_figure(const char *folder, const char *name, Error *err)
-{
-    static const char *const endings[] = {"json", "h5", "png"};
-    char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
-    for (size_t k = 0; k < sizeof endings / sizeof endings[0]; k++) {
-        snprintf(path, sizeof path, "%s/figures/%.*s.%s", folder, STUDY_NAME_SIZE - 1, name,
-                 endings[k]);
-        if (!own_mark_check(path, err)) return false;
-    }
-    return true;
-}
-
 // What has the name of one of the sweep's tables or figures and is none is told before hours of
 // computing, not behind them.
 static bool refuse_taken(const Sweep *sweep, Error *err)
 {
     static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv"};
-    char path[POINT_PATH_SIZE];
+    static const char *const endings[] = {"json", "h5", "png"};
+    const Study *study = &sweep->study;
+    char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
         snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
         if (!own_mark_check(path, err)) return false;
     }
-    if (sweep->study.rank.wanted && !refuse_taken_figure(sweep->folder, "ranking", err))
-        return false;
-    for (int32_t k = 0; k < sweep->study.plot_count; k++)
-        if (!refuse_taken_figure(sweep->folder, sweep->study.plots[k].name, err)) return false;
+    for (int32_t k = study->rank.wanted ? -1 : 0; k < study->plot_count; k++)
+        for (size_t e = 0; e < sizeof endings / sizeof endings[0]; e++) {
+            snprintf(path, sizeof path, "%s/figures/%.*s.%s", sweep->folder, STUDY_NAME_SIZE - 1,
+                     k < 0 ? "ranking" : study->plots[k].name, endings[e]);
+            if (!own_mark_check(path, err)) return false;
+        }
     return true;
 }
 
@@ -126,7 +118,8 @@ static bool find_baselines(Sweep *sweep, Error *err)
     if (study->rank.against != AGAINST_KEYS) return true;
     for (int32_t k = 0; k < study->point_count; k++) {
         char hash[HASH_TEXT_SIZE];
-        if (!study_baseline_scene(study, k, sweep->scene, err)) return false;
+        if (!study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err))
+            return false;
         if (!point_hash(sweep, sweep->scene, hash, err)) return false;
         sweep->points[k].baseline = points_look_up(sweep, hash);
         found = found || sweep->points[k].baseline >= 0;

@@ -20,6 +20,10 @@
 
 enum { REPORT_BYTES_MAX = 1 << 28 };
 
+static const char RUN_REPORT[] = "run.json";   // whose presence makes a point finished
+static const char CHECKPOINT[] =
+    "checkpoint.bin";   // of a run that was cut off; short ones have none
+
 // The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
 // makes of it with this point's parameters, every time.
 static bool hash_mesh(const Scene *scene, PointMesh *mesh, Error *err)
@@ -106,23 +110,18 @@ const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
 {
     Scene *scene = sweep->scene;
     double accuracy = sweep->points[point].accuracy;
-    if (!study_point_scene(&sweep->study, point, scene, err)) return NULL;
+    if (!study_scene(&sweep->study, &(PointChoice){.point = point}, scene, err)) return NULL;
     scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
     return scene;
 }
 
 // By hash, not by number: a study that is changed finds its old points again.
-static void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
+void point_path(const Sweep *sweep, int32_t point, const char *file,
+                char path[POINT_PATH_SIZE + 16])
 {
-    snprintf(folder, POINT_PATH_SIZE, "%s/points/%s", sweep->folder, sweep->points[point].hash);
-}
-
-// The file whose presence makes a point finished.
-void point_report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
-{
-    point_folder(sweep, point, path);
-    strcat(path, "/run.json");
+    snprintf(path, POINT_PATH_SIZE + 16, "%s/points/%s%s%s", sweep->folder,
+             sweep->points[point].hash, *file ? "/" : "", file);
 }
 
 // Missing is no error; unreadable is.
@@ -133,7 +132,7 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
         return first->place.size > 0 ? reports_read(&sweep->reports, first->place, err) : NULL;
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
     int32_t size = 0;
-    point_report_path(sweep, point, path);
+    point_path(sweep, point, RUN_REPORT, path);
     if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
     return bytes;
 }
@@ -174,23 +173,16 @@ const char *point_status_name(PointStatus status)
     return names[status];
 }
 
-// Of a run that was cut off. Short ones have none.
-static void checkpoint_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
-{
-    point_folder(sweep, point, path);
-    strcat(path, "/checkpoint.bin");
-}
-
 // run.json, which alone makes a point finished; anew: and what it could be gone on with from.
 void point_remove(Sweep *sweep, int32_t point, bool anew)
 {
     sweep->points[point].place = (ReportPlace){0};
     if (sweep->reports.open) return;
     char path[POINT_PATH_SIZE + 16];
-    point_report_path(sweep, point, path);
+    point_path(sweep, point, RUN_REPORT, path);
     unlink(path);   // the rest is the next run's to overwrite
     if (!anew) return;
-    checkpoint_path(sweep, point, path);
+    point_path(sweep, point, CHECKPOINT, path);
     unlink(path);
 }
 
@@ -226,18 +218,18 @@ bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err)
 // have left in the folder.
 bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
 {
-    char folder[POINT_PATH_SIZE], checkpoint[POINT_PATH_SIZE + 16];
+    char folder[POINT_PATH_SIZE + 16], checkpoint[POINT_PATH_SIZE + 16];
     RunSummary summary;
     RunOptions options = {.folder = folder, .overwrite = true};
     const Scene *scene = point_scene(sweep, point, err);
     *report = NULL;
     TRY(scene);
-    point_folder(sweep, point, folder);
+    point_path(sweep, point, "", folder);
     if (sweep->reports.open) {
         TRY(run_for_table(scene, report, err));
         goto cleanup;
     }
-    checkpoint_path(sweep, point, checkpoint);
+    point_path(sweep, point, CHECKPOINT, checkpoint);
     options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
     if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;
     if (err->code != ERROR_INPUT) goto cleanup;
@@ -252,14 +244,14 @@ cleanup:
 bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const char *message,
                          Error *err)
 {
-    char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16], *report = NULL;
+    char folder[POINT_PATH_SIZE + 16], path[POINT_PATH_SIZE + 16], *report = NULL;
     bool table = sweep->reports.open;
     const Scene *scene = point_scene(sweep, point, err);
     JsonWriter *json = NULL;
     TRY(scene);
-    point_folder(sweep, point, folder);
+    point_path(sweep, point, "", folder);
     if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
-    point_report_path(sweep, point, path);
+    point_path(sweep, point, RUN_REPORT, path);
     TRY((json = json_create(table ? NULL : path, err)));
     json_begin_object(json, NULL);
     json_text(json, "status", "failed");

@@ -86,7 +86,9 @@ PointValue point_value(const char *report, const char *path);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
 void point_remove(Sweep *sweep, int32_t point, bool anew);
-void point_report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16]);
+// Of a file of the point's, "run.json"; "": of its folder.
+void point_path(const Sweep *sweep, int32_t point, const char *file,
+                char path[POINT_PATH_SIZE + 16]);
 // In this process. *report: with `keep: table` what run.json would hold, but for the scene and the
 // list of events, on one line (memory_free); else NULL.
 bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err);

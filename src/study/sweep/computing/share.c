@@ -53,7 +53,7 @@ bool share_write_designs(const Sweep *sweep, Error *err)
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
     if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = 0; k < study->design_count; k++)
-            text_writer_put(&out, study->designs[k], strlen(study->designs[k]) + 1);
+            text_writer_put(&out, study->designs[k].text, strlen(study->designs[k].text) + 1);
         text_writer_finish(&out, err);
     }
     text_writer_close(&out);
@@ -77,35 +77,34 @@ cleanup:
 
 // Marks the point of a line as waiting. Its scene must have the hash that it had when the sweep
 // began: a study that was changed meanwhile would answer another question.
-static bool add_point(Sweep *sweep, char **line, Error *err)
+static bool add_point(Sweep *sweep, const char *line, Error *err)
 {
-    char *hash = NULL, *rest = NULL;
-    long point = strtol(*line, &hash, 10);
-    if (*hash != ' ' || point < 0 || point >= sweep->study.point_count)
+    char hash[HASH_TEXT_SIZE] = "";
+    int point = -1, runs = 0;
+    double accuracy = 0;
+    if (sscanf(line, "%d %32s %d %lf", &point, hash, &runs, &accuracy) < 2 || point < 0 ||
+        point >= sweep->study.point_count)
         return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     SweepPoint *at = &sweep->points[point];
-    char *end = strchr(hash, '\n');
-    if (strlen(hash) > HASH_TEXT_SIZE) {
-        at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, &rest, 10);
-        at->accuracy = strtod(rest, NULL);
-    }
-    const Scene *scene = point_scene(sweep, (int32_t)point, err);
+    at->runs = runs;
+    at->accuracy = accuracy;
+    const Scene *scene = point_scene(sweep, point, err);
     if (!scene || !point_hash(sweep, scene, at->hash, err)) return false;
-    if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
+    if (strcmp(hash, at->hash) != 0)
         return REFUSE(err, "the study, its scene or a mesh was changed after the sweep began");
-    at->same_as = (int32_t)point;
-    *line = end ? end + 1 : hash + strlen(hash);
+    at->same_as = point;
     return true;
 }
 
 static bool read_points(Sweep *sweep, const char *path, Error *err)
 {
-    char *text = NULL;
+    char *text = NULL, *rest = NULL;
     int32_t size = 0;
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) sweep->points[k].same_as = -1;
     TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
-    for (char *line = text; *line;) TRY(add_point(sweep, &line, err));
+    for (const char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
+        TRY(add_point(sweep, line, err));
 cleanup:
     memory_free(text);
     return error_is_clean(err);

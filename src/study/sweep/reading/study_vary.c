@@ -74,14 +74,11 @@ bool study_check_key(const YamlDocument *document, YamlNode item, Error *err)
                     scene_key_above(key, &part) >= 0;
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
-    else if (!is_known && nearest)
-        yaml_key_error(
-            document, item, err,
-            "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists them all)",
-            key, nearest);
     else if (!is_known)
         yaml_key_error(document, item, err,
-                       "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
+                       "%s: unknown key of a scene%s%s%s (`amontons info keys` lists them all)",
+                       key, nearest ? "; did you mean `" : "", nearest ? nearest : "",
+                       nearest ? "`?" : "");
     return error_is_clean(err);
 }
 
@@ -166,37 +163,22 @@ static bool write_range(const double bounds[2], bool is_log, int32_t points, cha
 // place.
 static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
 {
-    YamlNode ends = YAML_NO_NODE, points = YAML_NO_NODE;
-    bool is_log = false, is_known = true;
-    double bounds[2] = {0, 0}, count = 0;
+    WantedKey keys[] = {{.name = "log"}, {.name = "linear"}, {.name = "points"}};
+    double bounds[2] = {0, 0};
+    int32_t count = 0;
     char *text = NULL, name[SCENE_TEXT_SIZE + 80];
-    YAML_EACH (item, study->file, node) {
-        const char *key = yaml_key(study->file, item);
-        if (strcmp(key, "log") == 0 || strcmp(key, "linear") == 0) {
-            is_known = is_known && ends == YAML_NO_NODE;
-            ends = item;
-            is_log = key[1] == 'o';
-        } else if (strcmp(key, "points") == 0) {
-            points = item;
-        } else {
-            is_known = false;
-        }
-    }
-    if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
+    if (!wanted_find(study->file, node, axis->key, keys, 3, err)) return false;
+    bool is_log = keys[0].node != YAML_NO_NODE;
+    YamlNode ends = keys[is_log ? 0 : 1].node;
+    if (yaml_count(study->file, node) != 2 || ends == YAML_NO_NODE || keys[2].node == YAML_NO_NODE)
         return yaml_refuse(study->file, node, axis->key, AXIS_ALLOWED, err);
-    YamlNode first = yaml_first(study->file, ends);
-    bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
-                study_plain_number(study, first, &bounds[0]) &&
-                study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
-    if (!good) return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
+    if (!study_pair(study, ends, bounds))
+        return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
     if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
         return yaml_refuse(study->file, ends, axis->key, "two numbers > 0 in a range of logarithms",
                            err);
-    if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
-        count > STUDY_RANGE_MAX)
-        return yaml_refuse(study->file, points, axis->key,
-                           "a whole number of points, from 1 to 10000", err);
-    TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
+    if (!study_whole(study, &keys[2], STUDY_RANGE_MAX, &count, err)) return false;
+    TRY(write_range(bounds, is_log, count, &text, err));
     snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
              yaml_line(study->file, node), yaml_column(study->file, node));
     TRY(yaml_parse(name, text, 0, &study->made[study->made_count], err));
@@ -310,12 +292,10 @@ bool study_add_designs(Study *study, const char *text, Error *err)
     int32_t count = study->design_count;
     if (!memory_grow(&study->designs, count, &study->design_room, sizeof *study->designs, err))
         return false;
-    if (!memory_grow(&study->design_files, count, &study->design_file_room,
-                     sizeof *study->design_files, err))
-        return false;
-    if (!(study->designs[count] = memory_text(text, err))) return false;
+    StudyDesigns *one = &study->designs[count];
+    *one = (StudyDesigns){.text = memory_text(text, err)};
+    if (!one->text) return false;
     study->design_count++;   // half of it is freed as well
-    YamlDocument **file = &study->design_files[count];
-    return yaml_parse("designs of the search", text, 0, file, err) &&
-           read_cases(study, *file, YAML_ROOT, err) && count_points(study, err);
+    return yaml_parse("designs of the search", text, 0, &one->file, err) &&
+           read_cases(study, one->file, YAML_ROOT, err) && count_points(study, err);
 }

@@ -7,6 +7,8 @@
 
 #include "base/memory.h"
 #include "base/order.h"
+#include "io/files/folder.h"
+#include "io/text/picture_options.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -35,12 +37,8 @@ typedef struct PlotFigure {
 static bool folder_of(const char *beside, const char *given, char folder[AMONTONS_PATH_SIZE],
                       Error *err)
 {
-    const char *slash = beside ? strrchr(beside, '/') : NULL;
-    int length = slash && given[0] != '/' ? (int)(slash - beside) + 1 : 0;
-    if (snprintf(folder, AMONTONS_PATH_SIZE, "%.*s%s", length, length ? beside : "", given) >=
-        AMONTONS_PATH_SIZE)
-        return REFUSE(err, "plot: the path %.60s is too long", given);
-    return true;
+    return folder_beside(beside, given, folder, AMONTONS_PATH_SIZE) ||
+           REFUSE(err, "plot: the path %.60s is too long", given);
 }
 
 // The title of its study; where another sweep has the same, its folder.
@@ -294,9 +292,12 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
 static bool write_map_entries(PlotFigure *self, Error *err)
 {
     const Quantity *const *quantity = self->sources[0].quantity;
-    char label[QUANTITY_LABEL_SIZE + 8];
+    char label[QUANTITY_LABEL_SIZE + 40];
     if (quantity[PLOT_CONTOURS]) {
-        Curve line = {.label = quantity[PLOT_CONTOURS]->label.words, .line = "solid"};
+        bool many = self->sources[0].table.count / self->panels.count > MAP_MANY;
+        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+                 quantity[PLOT_CONTOURS]->label.words, MAP_MEDIANS, MAP_MEDIANS);
+        Curve line = {.label = label, .line = "solid"};
         if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
     bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
