@@ -14,11 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum {
-    SHARE_PATH_SIZE = POINT_PATH_SIZE + 64,
-    SHARE_BYTES_MAX = 1 << 28,
-    LINE_SIZE = HASH_TEXT_SIZE + 60
-};
+enum { SHARE_PATH_SIZE = POINT_PATH_SIZE + 64, SHARE_BYTES_MAX = 1 << 28 };
 
 static void share_path(const Sweep *sweep, int32_t share, const char *what,
                        char path[SHARE_PATH_SIZE])
@@ -29,15 +25,14 @@ static void share_path(const Sweep *sweep, int32_t share, const char *what,
 bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
                  int32_t step, Error *err)
 {
-    char path[SHARE_PATH_SIZE], line[LINE_SIZE];
+    char path[SHARE_PATH_SIZE];
     TextWriter out = {0};
     share_path(sweep, share, "points", path);
     if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = share; k < count; k += step) {
             const SweepPoint *point = &sweep->points[points[k]];
-            int length = snprintf(line, sizeof line, "%d %s %d %.17g\n", points[k], point->hash,
-                                  point->runs, point->accuracy);
-            text_writer_put(&out, line, (size_t)length);
+            fprintf(out.out, "%d %s %d %.17g\n", points[k], point->hash, point->runs,
+                    point->accuracy);
         }
         text_writer_finish(&out, err);
     }
@@ -53,7 +48,7 @@ bool share_write_designs(const Sweep *sweep, Error *err)
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
     if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = 0; k < study->design_count; k++)
-            text_writer_put(&out, study->designs[k].text, strlen(study->designs[k].text) + 1);
+            fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, out.out);
         text_writer_finish(&out, err);
     }
     text_writer_close(&out);
