@@ -9,6 +9,7 @@
 
 static const double LETTER_LEFT = 1.5,
                     LETTER_DROP = 7.5;   // points: of (a), from its panel's corner
+static const double LETTER_ROOM = 3;   // points: from the letter to numbers beside it
 static const double SCRATCH_DPI = 100;   // of the page that is measured
 static const double SLACK = 0.4;   // points: what the measured page is coarser
 static const char *const ENLARGES = "contact-density";   // the panel that shows another U
@@ -79,6 +80,7 @@ static bool measure(const PageDef *def, const Panels *panels, ResultView *view, 
         beside[0] = fmax(beside[0], frame[k].left / page.point);
         beside[1] = fmax(beside[1], (page.room.right - frame[k].right) / page.point);
     }
+    beside[0] += LETTER_ROOM;
 cleanup:
     page_destroy(&page);
     return error_is_clean(err);

@@ -202,8 +202,7 @@ static void exponent_write(const Page *page, const TextStyle *style, Point place
                            const Ticks *ticks)
 {
     char words[TICK_LABEL_SIZE];
-    if (ticks->exponent == 0) return;
-    snprintf(words, sizeof words, "\u00d710^{%d}", ticks->exponent);
+    ticks_power(ticks, words);
     text_draw(page->text, style, place, words);
 }
 

@@ -324,27 +324,6 @@ static bool canvas_check(Canvas *canvas, Error *err)
     return true;
 }
 
-bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err)
-{
-    int64_t width = canvas->def.width, height = canvas->def.height;
-    *pixels = NULL;
-    if (!canvas_check(canvas, err)) return false;
-    if (!(*pixels = memory_bytes(3 * width * height, err))) return false;
-    cairo_surface_flush(canvas->surface);
-    const uint8_t *line = cairo_image_surface_get_data(canvas->surface);
-    uint8_t *to = *pixels;
-    for (int64_t row = 0; row < height; ++row) {
-        const uint32_t *pixel = (const uint32_t *)(const void *)line;
-        for (int64_t k = 0; k < width; ++k, to += 3) {
-            to[0] = (uint8_t)(pixel[k] >> 16);
-            to[1] = (uint8_t)(pixel[k] >> 8);
-            to[2] = (uint8_t)pixel[k];
-        }
-        line += cairo_image_surface_get_stride(canvas->surface);
-    }
-    return true;
-}
-
 const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err)
 {
     if (!canvas_check(canvas, err)) return NULL;

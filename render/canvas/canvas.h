@@ -78,12 +78,9 @@ void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corne
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 
-// What is drawn so far: *pixels [height * width * 3] bytes, first row at the top, owned by the
-// caller (memory_free). Only of CANVAS_PNG.
-bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err);
-
-// The pixels themselves, until the next call that draws: four bytes each, blue, green, red, unused,
-// *stride bytes from row to row. NULL: something went wrong. Only of CANVAS_PNG.
+// What is drawn so far, until the next call that draws: pixels of four bytes (blue, green, red,
+// unused), first row at the top, *stride bytes from row to row. NULL: something went wrong. Only of
+// CANVAS_PNG.
 const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err);
 
 // All that is drawn on `from` so far, in place of what is on `canvas`: both CANVAS_PNG, equally

@@ -113,12 +113,10 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
         bar_label(bar, &ticks, k, label);
         text_draw(page->text, &style, (Point){out + NUMBER_GAP * page->point, y}, label);
     }
-    if (ticks.exponent != 0 && !bar->powers) {
-        snprintf(label, sizeof label, "\u00d710^{%d}", ticks.exponent);
-        style.up = 0;
-        text_draw(page->text, &style, (Point){colors->left, colors->top - POWER_GAP * page->point},
-                  label);
-    }
+    ticks_power(&ticks, label);   // of powers none
+    style.up = 0;
+    text_draw(page->text, &style, (Point){colors->left, colors->top - POWER_GAP * page->point},
+              label);
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     style.up = 1;

@@ -24,7 +24,7 @@ typedef struct TextStyle {
 Text *text_create(Canvas *canvas, Error *err);
 void text_destroy(Text *text);   // NULL is fine
 
-// Pixels along the line. A bad font is reported by canvas_read.
+// Pixels along the line. A bad font is reported by canvas_write.
 double text_width(Text *text, double size, const char *words);
 void text_draw(Text *text, const TextStyle *style, Point place, const char *words);
 // As much smaller as it must be to be no wider than `room`, pixels.

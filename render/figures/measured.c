@@ -153,7 +153,6 @@ static bool find_columns(const CsvTable *table, const ResultView *view, Columns 
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
 static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *value)
 {
-    bool when = found->U.index >= 0 || found->t.index >= 0;
     const Column moment = found->U.index >= 0 ? found->U : found->t;
     const Column ats[MEASURED_KINDS] = {moment, moment, moment, found->ratio, found->x};
     const Column values[MEASURED_KINDS] = {found->ratio, found->x, found->area, found->length,
@@ -162,7 +161,6 @@ static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *
     *value = values[kind];
     if (kind == MEASURED_FRONT && (found->area.index >= 0 || found->speed.index >= 0)) return false;
     if (kind == MEASURED_AREA && found->x.index < 0) return false;
-    if (kind <= MEASURED_AREA && !when) return false;
     return at->index >= 0 && value->index >= 0;
 }
 

@@ -6,7 +6,6 @@
 #include "render/render.h"
 
 #include "base/memory.h"
-#include "io/video/video_file.h"
 
 #include <math.h>
 
@@ -126,17 +125,10 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY(read_view(folder, &view, err));
     TRY(set_clock(&film, &view, frames, &clock, err));
     const PictureStyle titled = {.title = film.title};
-    FilmPageDef def = {folder,
-                       &view,
-                       &clock,
-                       film.width,
-                       film.height,
-                       film.of,
-                       film.magnification,
-                       film.dark,
-                       page_title(&titled, view.title, true)};
+    FilmPageDef def = {folder, &view, &clock, &film, page_title(&titled, view.title, true)};
     TRY(page = film_page_create(&def, err));
-    FilmSinkDef file = {film.path, film.width, film.height, film.rate, view.title, film.overwrite};
+    VideoDef file = {film.path,  film.width, film.height,   film.rate,
+                     view.title, NULL,       film.overwrite};
     TRY(sink = film_sink_create(&file, err));
     TRY(shoot(&film, page, sink, frames, err));
     TRY(film_sink_finish(sink, err));

@@ -39,10 +39,12 @@ struct FilmPage {
 
 static bool page_open(const FilmPage *self, Page *page, Error *err)
 {
-    double point = fmax(fmin(self->def.height / HEIGHT, self->def.width / WIDTH), POINT_LEAST);
-    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.dark};
-    style.width = self->def.width / style.dpi * INCH;
-    PageDef def = {.style = &style, .height = (double)self->def.height / self->def.width};
+    double point =
+        fmax(fmin(self->def.film->height / HEIGHT, self->def.film->width / WIDTH), POINT_LEAST);
+    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.film->dark};
+    style.width = self->def.film->width / style.dpi * INCH;
+    PageDef def = {.style = &style,
+                   .height = (double)self->def.film->height / self->def.film->width};
     return page_begin(page, &def, err);
 }
 
@@ -57,7 +59,7 @@ static bool place_contact(FilmPage *page, const Box *cell, Error *err)
 static bool lay_out(FilmPage *page, Error *err)
 {
     double point = page->base.point;
-    double width = page->def.width, height = page->def.height;
+    double width = page->def.film->width, height = page->def.film->height;
     const FilmClock *clock = page->def.clock;
     const double t[2] = {clock->t[0], clock->t[clock->frames - 1]};
     double band = fmin(fmax(BAND_SHARE * height, BAND_LEAST * point), BAND_MOST * point);
@@ -67,8 +69,8 @@ static bool lay_out(FilmPage *page, Error *err)
     left.right = round(main.left + LEFT_SHARE * (main.right - main.left));
     right.left = left.right + GAP * point;
     if (!(main.bottom - main.top > 60 * point) || !(right.right - right.left > 90 * point))
-        return REFUSE(err, "%d by %d pixels are too few for a film", page->def.width,
-                      page->def.height);
+        return REFUSE(err, "%d by %d pixels are too few for a film", page->def.film->width,
+                      page->def.film->height);
     if (page->block.stored) {
         Box lower = right;
         lower.top = right.bottom = (right.top + right.bottom) / 2;
@@ -140,7 +142,7 @@ static void draw_clock(const FilmPage *page, const FilmMoment *now)
     snprintf(words, sizeof words, "%s = %.*f     ~{t} %s = %.*f", U.label, page->U_decimals,
              now->U * U.factor, view->si ? "(s)" : "/ ~{t}_{0}", page->t_decimals, now->t);
     text_draw(page->frame.text, &style,
-              (Point){page->def.width - 2 * MARGIN * point, BASELINE * point}, words);
+              (Point){page->def.film->width - 2 * MARGIN * point, BASELINE * point}, words);
 }
 
 bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err)
@@ -165,15 +167,15 @@ int32_t film_page_still(const FilmPage *page)
     return page->block.still_most;
 }
 
-// Of the contact: the state that def->of names, or slip rates; of the block the field.
+// Of the contact: the state that def->film->of names, or slip rates; of the block the field.
 static bool choose_values(FilmPage *page, Error *err)
 {
     const FilmPageDef *def = &page->def;
     ResultView *view = def->view;
     const FilmClock *clock = def->clock;
     Colorbar bar = slip_scale(view, fabs(view->number[NUMBER_ROD_VELOCITY]));
-    bool state = def->of && result_view_choose_state(view, def->of);
-    if (!block_quantity_find(state ? NULL : def->of, &page->block.source.quantity, err))
+    bool state = def->film->of && result_view_choose_state(view, def->film->of);
+    if (!block_quantity_find(state ? NULL : def->film->of, &page->block.source.quantity, err))
         return false;
     if (state) {
         const double range[2] = {film_moment(view, clock->t[0]).U,
@@ -198,7 +200,7 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     page->def = *def;
     page->block = (FilmBlock){.clock = def->clock,
                               .source = {def->folder, def->view},
-                              .magnification = def->magnification};
+                              .magnification = def->film->magnification};
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;

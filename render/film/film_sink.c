@@ -6,7 +6,6 @@
 #include "io/files/folder.h"
 #include "io/files/own_mark.h"
 #include "io/files/part_file.h"
-#include "io/video/video_file.h"
 #include "render/canvas/color.h"
 #include "render/canvas/png_encode.h"
 
@@ -33,7 +32,7 @@ typedef struct Pattern {
 } Pattern;
 
 struct FilmSink {
-    FilmSinkDef def;
+    VideoDef def;
     VideoFile *video;   // owned; NULL: PNGs
     Pattern pattern;
     uint8_t *slot[SLOTS];   // [height * width * 4] owned
@@ -211,11 +210,10 @@ static void palette_fill(uint8_t palette[3 * PALETTE_SIZE])
 
 // --- the sink ------------------------------------------------------------------------------------
 
-FilmSink *film_sink_create(const FilmSinkDef *def, Error *err)
+FilmSink *film_sink_create(const VideoDef *def, Error *err)
 {
     uint8_t palette[3 * PALETTE_SIZE];
-    VideoDef video = {def->path,  def->width, def->height,   def->rate,
-                      def->title, palette,    def->overwrite};
+    VideoDef video = *def;
     FilmSink *sink = NULL;
     TRY(film_sink_check(def->path, err));
     TRY(sink = NEW_ARRAY(FilmSink, 1, err));
@@ -223,6 +221,7 @@ FilmSink *film_sink_create(const FilmSinkDef *def, Error *err)
     pthread_mutex_init(&sink->lock, NULL);
     pthread_cond_init(&sink->changed, NULL);
     palette_fill(palette);
+    video.palette = palette;
     for (int32_t k = 0; k < SLOTS; ++k)
         TRY(sink->slot[k] = memory_bytes(4 * (int64_t)def->width * def->height, err));
     if (video_file_is_known(def->path))

@@ -270,17 +270,24 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
 static bool contours_draw(const MapDrawing *drawing, Error *err)
 {
     const MapGrid *grid = &drawing->grid;
+    const double *values = drawing->map->contour;
+    double *medians = NULL;
     SmoothGrid smooth = {0};
-    LineField field = {drawing->map->contour, drawing->place, &drawing->triangles};
+    if (drawing->map->count > MAP_MANY && grid->columns > 0) {
+        TRY(values = medians = NEW_ARRAY(double, drawing->map->count, err));
+        map_medians(grid, drawing->map->contour, medians);
+    }
+    LineField field = {values, drawing->place, &drawing->triangles};
     double cell = grid->columns > 0 ? point_distance(drawing) : 0;
     int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * drawing->page->point)), PARTS_MOST);
     if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
-        TRY(map_smooth(grid, drawing->map->contour, drawing->place, parts, &smooth, err));
+        TRY(map_smooth(grid, values, drawing->place, parts, &smooth, err));
         field = (LineField){smooth.value, smooth.place, &smooth.triangles};
     }
     TRY(levels_draw(drawing, &field, err));
 cleanup:
     smooth_destroy(&smooth);
+    memory_free(medians);
     return error_is_clean(err);
 }
 

@@ -2,8 +2,10 @@
 #include "render/plot/map_smooth.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // Slope at a point from the slopes before and behind it, over distances h: 0 at a summit, never so
 // steep that the cubic leaves the values; where there is but one of them, that one.
@@ -128,4 +130,23 @@ void smooth_destroy(SmoothGrid *smooth)
 {
     memory_free_all(smooth->place, smooth->value, smooth->triangles.points);
     *smooth = (SmoothGrid){0};
+}
+
+void map_medians(const MapGrid *grid, const double *values, double *medians)
+{
+    double near[MAP_MEDIANS * MAP_MEDIANS];
+    for (int32_t k = 0; k < grid->rows * grid->columns; ++k) {
+        int32_t count = 0;
+        if (grid->point[k] < 0) continue;
+        for (int32_t n = 0; n < MAP_MEDIANS * MAP_MEDIANS; ++n) {
+            int32_t row = k / grid->columns + n / MAP_MEDIANS - MAP_MEDIANS / 2;
+            int32_t column = k % grid->columns + n % MAP_MEDIANS - MAP_MEDIANS / 2;
+            bool outside = row < 0 || row >= grid->rows || column < 0 || column >= grid->columns;
+            int32_t point = outside ? -1 : grid->point[row * grid->columns + column];
+            if (point >= 0 && isfinite(values[point])) near[count++] = values[point];
+        }
+        qsort(near, (size_t)count, sizeof *near, order_doubles);
+        bool known = isfinite(values[grid->point[k]]);
+        medians[grid->point[k]] = known ? near[count / 2] : NAN;
+    }
 }

@@ -5,6 +5,7 @@
 #ifndef AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 #define AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 
+#include "io/text/picture_options.h"
 #include "render/canvas/canvas.h"
 #include "render/plot/map_cells.h"
 
@@ -20,5 +21,8 @@ typedef struct SmoothGrid {
 bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,
                 SmoothGrid *smooth, Error *err);
 void smooth_destroy(SmoothGrid *smooth);   // zeroed is fine
+
+// Of each point that has a value the median of those in MAP_MEDIANS by MAP_MEDIANS cells around it.
+void map_medians(const MapGrid *grid, const double *values, double *medians);
 
 #endif

@@ -13,8 +13,7 @@ enum {
         20000000   // some ms: with less, threads (20 us each to begin) save little
 };
 
-// Processors of this process, PARALLEL_WORKERS_MAX at most; from within a piece: those that are left
-// to it.
+// Processors of this process, PARALLEL_WORKERS_MAX at most; from within a piece: those left to it.
 int32_t parallel_workers(void);
 
 // Calls piece(context, k, worker) for k from 0 to count - 1; returns when all are done. worker:

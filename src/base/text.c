@@ -125,6 +125,13 @@ void text_estimate(double value, double bar, double known_to, char text[ESTIMATE
         snprintf(text, ESTIMATE_SIZE, "%.*f", decimals, value);
 }
 
+// 17 are always enough (IEEE 754 double).
+void text_shortest(double value, int32_t least, char text[NUMBER_TEXT_SIZE])
+{
+    do snprintf(text, NUMBER_TEXT_SIZE, "%.*g", least++, value);
+    while (least <= 17 && strtod(text, NULL) != value);
+}
+
 bool text_ends_with(const char *text, const char *ending)
 {
     size_t length = strlen(text), size = strlen(ending);

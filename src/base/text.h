@@ -28,6 +28,10 @@ const char *text_hint(const char *given, const char *const *names, int32_t count
 // where that is 0, one where it is NaN. "none": the value is NaN.
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
 
+// The fewest digits, `least` at least, that read back as the same finite number.
+enum { NUMBER_TEXT_SIZE = 32 };
+void text_shortest(double value, int32_t least, char text[NUMBER_TEXT_SIZE]);
+
 bool text_ends_with(const char *text, const char *ending);
 
 // The decimal number that `text` begins with, and the bytes it takes; 0: it begins with none.

@@ -4,19 +4,12 @@
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "cli/study_run.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 static const char ENDING[] = "-sweep";
-static const CommandText text = {.name = "sweep",
-                                 .argument = "STUDY",
-                                 .what = "study",
-                                 .example = "amontons sweep validation/paper/fig2a.yaml",
-                                 .help = sweep_txt};
-
 // A share of the points, in a job of a Slurm array. Slurm puts into the environment which element
 // this process is, and keeps its exit status.
 static int run_element(const StudyWords *words)
@@ -59,13 +52,13 @@ static int close_sweep(const StudyRun *run, const SweepSummary *summary)
     return amontons_error_exit_status(ERROR_COMPUTE);
 }
 
-int command_sweep(int argc, char **argv)
+int command_sweep(const Command *command, int argc, char **argv)
 {
     StudyWords words = {0};
     StudyRun run;
     SweepSummary summary;
     Error err = {0};
-    int status = study_words_read(&text, ENDING, true, argc, argv, &words);
+    int status = study_words_read(command, ENDING, true, argc, argv, &words);
     if (status == 0 && words.is_element) return run_element(&words);   // a signal ends it
     if (status == 0) status = study_run_begin(&words, ENDING, &run);
     if (status != 0) return status;

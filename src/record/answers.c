@@ -106,11 +106,6 @@ Answers answers_of(const Drops *drops)
     return answers;
 }
 
-bool answers_are_known(const Drops *drops)
-{
-    return answers_of(drops).enough;
-}
-
 // --- run.json -----------------------------------------------------------------------------------
 
 // Of the drops of one kind that count; by the number of pads that slid, then the lowest first.

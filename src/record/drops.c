@@ -174,14 +174,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
 
 bool drop_is(const Drop *drop, DropKind kind)
 {
-    switch (kind) {
-    case DROP_BULK:
-        return drop->bulk;
-    case DROP_LOAD:
-        return drop->load;
-    default:
-        return drop->pads > 0;
-    }
+    return kind == DROP_BULK ? drop->bulk : kind == DROP_LOAD ? drop->load : drop->pads > 0;
 }
 
 int32_t drops_count(const Drops *drops, DropKind kind)

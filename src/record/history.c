@@ -27,10 +27,9 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     history->pad_rows = NEW_ARRAY(double, RESULT_SERIES_COUNT * interface->pad_count, err);
     history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
-    for (int32_t i = 0; i < count; i++) {
-        history->pad[i] = interface->pad[i];
-        history->pad_length[interface->pad[i]] += interface->weight[i];
-    }
+    for (int32_t i = 0; i < count; i++) history->pad[i] = interface->pad[i];
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        history->pad_length[p] = pad_size(interface, p).weight;
     for (int32_t k = 0; interface->line && k < interface->line_count; k++)
         history->line[interface->line[k]] = 1;
     head->contact_count = count;

@@ -7,11 +7,6 @@
 
 static const double ROUNDING = 1e-12;   // of the contact's breadth: what went no farther is held
 
-Turning turning_of(const ContactArrays *contact)
-{
-    return (Turning){.contact = contact};
-}
-
 static void keep_largest(double *largest, double value)
 {
     if (fabs(value) > fabs(*largest)) *largest = value;

@@ -71,12 +71,9 @@ static void write_timing(JsonWriter *json, const Model *model, const RunTiming *
 static void write_expected(JsonWriter *json, const Model *model)
 {
     const ExpectedCost *expected = &model->expected;
-    json_begin_object(json, "expected_s");
-    json_numbers_of(json, {"reduction", expected->reduction}, {"reduced", expected->reduced},
-                    {"full", expected->full});
-    json_integer(json, "stages", (int64_t)model->choice.stages);
-    json_integer(json, "runs", (int64_t)model->choice.runs);
-    json_end(json);
+    json_object_of(json, "expected_s", {"reduction", expected->reduction},
+                   {"reduced", expected->reduced}, {"full", expected->full},
+                   {"stages", trunc(model->choice.stages)}, {"runs", trunc(model->choice.runs)});
 }
 
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
@@ -85,8 +82,7 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_begin_object(json, "model");
     json_numbers_of(json, {"contact_nodes", model->interface.contact_count},
                     {"rod_nodes", model->interface.rod_count},
-                    {"elements", model->mesh.element_count},
-                    {"full_dofs", model->bulk.dof_count});
+                    {"elements", model->mesh.element_count}, {"full_dofs", model->bulk.dof_count});
     json_integer(json, "reduced_dofs", model->system.dof_count);
     json_boolean(json, "by_halves", model->reduced.part_count > 1);
     json_text(json, "mesh_by", model->mesh_origin == MESH_OF_CACHE ? "cache" : "gmsh");

@@ -58,8 +58,8 @@ static bool open_recorders(Simulation *simulation, Error *err)
     simulation->drops.mu_static = remembers ? NAN : model->law.mu_static;
     simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model));
     if (program_jumps(&simulation->rod_course))
-        simulation->readings = program_readings_of(&simulation->rod_course);
-    simulation->turning = turning_of(&simulation->contact);
+        simulation->readings.course = &simulation->rod_course;
+    simulation->turning.contact = &simulation->contact;
     for (size_t k = 0; k < sizeof recorders / sizeof *recorders; k++)
         recorders_add(&simulation->recorders, recorders[k].self, recorders[k].record);
     if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
@@ -67,11 +67,6 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
                   report_step);
     return true;
-}
-
-static bool scene_supports_nothing(const Simulation *simulation)
-{
-    return simulation->scene.load.support_count == 0;
 }
 
 // For time.until.mu_below.
@@ -96,7 +91,7 @@ static bool record_step(Simulation *simulation, Error *err)
     errors->penetration = fmax(errors->penetration, seen.penetration);
     errors->equation = fmax(errors->equation, seen.equation_error);
     // What supports take up is not known here: no balance of moments with them.
-    bool balances = scene_supports_nothing(simulation);
+    bool balances = simulation->scene.load.support_count == 0;
     if (balances && control->counters.accepted > 0)
         errors->moment = fmax(errors->moment, seen.moment_error);
     TRY(recorders_record(&simulation->recorders, &seen, err));
@@ -266,7 +261,7 @@ bool simulation_is_finished(const Simulation *simulation)
                     (remaining <= 1e-9 * simulation->t_end ||
                      (implicit && !step_control_fits(control, remaining)));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
-        finished = finished || answers_are_known(&simulation->drops);
+        finished = finished || answers_of(&simulation->drops).enough;
     return finished || simulation_has_event(simulation);
 }
 
@@ -293,8 +288,10 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     StepControl *control = &simulation->control;
     double started = clock_seconds();
     if (!steering_is_open(simulation, err)) return false;
-    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT ? explicit_loop_advance(simulation, err)
-                                                           : advance_implicit(simulation, err)))
+    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT
+              ? step_control_advance_explicit(control, &simulation->explicit_reference,
+                                              simulation->explicit_steps, err)
+              : advance_implicit(simulation, err)))
         return false;
     simulation->timing.solve += clock_seconds() - started;
     if (!record_step(simulation, err)) return false;
@@ -322,7 +319,7 @@ static Answers answers_to_report(const Simulation *simulation, const Event **lea
 {
     Answers answers = simulation_answers(simulation);
     *least = drops_least_resolved(&simulation->drops, answers.first);
-    one_mesh_answer(simulation, *least, &answers);
+    one_mesh_answer(simulation, &answers);
     if (simulation->levels) levels_answer_for(simulation->levels, &answers);
     return answers;
 }

@@ -7,7 +7,8 @@ static const SceneKey FORMULA = {.type = KEY_TEXT};
 static const SceneKey DIRECTION = {
     .type = KEY_CHOICE, .choices = (const char *const[]){"x", "y", "z", "both", "all", NULL}};
 
-// A word of an item of the type `of`, at `field`; its own key, or a flag that says whether it is given.
+// A word of an item of the type `of`, at `field`; with a key of its own; with a flag that says
+// whether it is given.
 #define PART(of, word_, field, ...)                                                                \
     {                                                                                              \
         .word = word_, .offset = offsetof(of, field), __VA_ARGS__                                  \

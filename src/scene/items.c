@@ -131,32 +131,36 @@ static bool set_item(const SceneKey *key, int32_t k, const SceneValue *value, Sc
                                 items->noun, lacks);
 }
 
-// Number k of the item that `name` [length] names, as it is or a new one; of a list a new one.
-static bool take_item(const SceneKey *key, const char *name, size_t length, const SceneValue *value,
-                      Scene *scene, int32_t *k, Error *err)
+// The number of the item that `name` [length] names, as it is or a new one; of a list a new one.
+// -1: it is refused.
+static int32_t take_item(const SceneKey *key, const char *name, size_t length,
+                         const SceneValue *value, Scene *scene, Error *err)
 {
     const SceneItems *items = key->items;
     int32_t *count = (int32_t *)(void *)((char *)scene + items->count);
     bool fits = !items->named || (length > 0 && length < items->name_size);
-    for (*k = 0; items->named && fits && *k < *count; ++*k) {
-        const char *known = scene_item(items, scene, *k);
-        if (strlen(known) == length && memcmp(known, name, length) == 0) return true;
+    for (int32_t k = 0; items->named && fits && k < *count; k++) {
+        const char *known = scene_item(items, scene, k);
+        if (strlen(known) == length && memcmp(known, name, length) == 0) return k;
     }
-    *k = *count;
-    if (!fits || *count == items->most)
-        return yaml_key_error(value->document, value->node, err,
-                              "%s: at most %d items, with names of 1 to %d bytes", key->name,
-                              items->most, (int)items->name_size - 1);
-    if (items == &scene_state_items && !scene_state_may_be(name))
-        return yaml_key_error(value->document, value->node, err,
-                              "%s: `%.40s` cannot be the name of a state; allowed: letters, digits "
-                              "and _, at most 31, and not v, p, a function or a number of friction "
-                              "(mu_S, D_c, a, b, ...)",
-                              key->name, name);
+    if (!fits || *count == items->most) {
+        yaml_key_error(value->document, value->node, err,
+                       "%s: at most %d items, with names of 1 to %d bytes", key->name, items->most,
+                       (int)items->name_size - 1);
+        return -1;
+    }
+    if (items == &scene_state_items && !scene_state_may_be(name)) {
+        yaml_key_error(value->document, value->node, err,
+                       "%s: `%.40s` cannot be the name of a state; allowed: letters, digits and _, "
+                       "at most 31, and not v, p, a function or a number of friction (mu_S, D_c, "
+                       "a, b, ...)",
+                       key->name, name);
+        return -1;
+    }
     char *item = item_of(items, scene, (*count)++);
     memset(item, 0, items->size);
     memcpy(item, name, items->named ? length : 0);
-    return true;
+    return *count - 1;
 }
 
 // The axes of a direction.
@@ -174,12 +178,12 @@ static void hold_axes(Scene *scene)
 // The rest of the path of a --set: an item's map, or one word of an item.
 static bool set_below(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    int32_t k = 0;
     SceneValue one = {.document = value->document, .node = value->node};
     const char *dot = strrchr(value->part, '.');
     bool whole = yaml_kind(value->document, value->node) == YAML_MAP;
     size_t length = whole ? strlen(value->part) : dot ? (size_t)(dot - value->part) : 0;
-    if (!take_item(key, value->part, length, &one, scene, &k, err)) return false;
+    int32_t k = take_item(key, value->part, length, &one, scene, err);
+    if (k < 0) return false;
     if (whole) return set_item(key, k, &one, scene, err);
     one.part = dot + 1;
     return set_word(key, k, &one, scene, err);
@@ -197,11 +201,10 @@ bool scene_items_set(const SceneKey *key, const SceneValue *value, Scene *scene,
         yaml_count(document, value->node) > items->most)
         return yaml_refuse(document, value->node, key->name, items->allowed, err);
     YAML_EACH (node, document, value->node) {
-        int32_t k = 0;
         SceneValue one = {.document = document, .node = node};
         const char *name = yaml_key(document, node);
-        if (!take_item(key, name, strlen(name), &one, scene, &k, err)) return false;
-        if (!set_item(key, k, &one, scene, err)) return false;
+        int32_t k = take_item(key, name, strlen(name), &one, scene, err);
+        if (k < 0 || !set_item(key, k, &one, scene, err)) return false;
     }
     hold_axes(scene);
     return true;

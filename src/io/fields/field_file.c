@@ -4,6 +4,7 @@
 #include "io/fields/field_file.h"
 
 #include "base/module.h"
+#include "base/text.h"
 #include "io/fields/field_file_module.h"
 #include "io/files/part_file.h"
 
@@ -19,9 +20,10 @@ static bool write_bytes(void *file, const char *bytes, int64_t size, Error *err)
 }
 
 // The grid's arrays are VTK's only while encoding; it copies none of them.
-static bool write_grid(const char *path, const FieldGrid *grid, FieldFormat format, Error *err)
+bool field_file_write(const char *path, const FieldGrid *grid, Error *err)
 {
     PartFile file = {0};
+    FieldFormat format = text_ends_with(path, ".vtp") ? FIELD_VTP : FIELD_VTU;
     FieldOutput output = {.format = format, .sink = write_bytes, .context = &file};
     FieldEncodeFunction encode =
         (FieldEncodeFunction)module_function("vtk", "amontons_vtk_encode", err);
@@ -33,16 +35,6 @@ cleanup:
     part_file_discard(&file);
     if (!error_is_clean(err)) error_context(err, "while writing fields into %s", path);
     return error_is_clean(err);
-}
-
-bool field_file_write_vtu(const char *path, const FieldGrid *grid, Error *err)
-{
-    return write_grid(path, grid, FIELD_VTU, err);
-}
-
-bool field_file_write_vtp(const char *path, const FieldGrid *grid, Error *err)
-{
-    return write_grid(path, grid, FIELD_VTP, err);
 }
 
 // --- .pvd ---------------------------------------------------------------------------------------

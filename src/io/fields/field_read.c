@@ -61,7 +61,7 @@ static bool find_kind(double type, uint8_t *kind)
 {
     for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
         *kind = (uint8_t)k;
-        const ElementInfo *info = element_info((ElementKind)k);
+        const ElementInfo *info = &ELEMENTS[(ElementKind)k];
         if (info->dim > 1 && info->vtk_type == type) return true;
     }
     return false;

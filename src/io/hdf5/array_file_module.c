@@ -352,36 +352,13 @@ static bool hdf5_remove(ArrayFile *file, const char *name, Error *err)
 
 // --- reading ------------------------------------------------------------------------------------
 
-// Rows and width of a dataset; of vectors all components. The numbers come from a file, which may
-// be damaged: a product that would overflow is refused here, one too large by the allocator.
-static bool read_shape(const ArrayFile *file, const char *name, hid_t dataset, int64_t *rows,
-                       int32_t *width, Error *err)
-{
-    hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1};
-    hid_t space = H5Dget_space(dataset);
-    int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 1 || rank > ARRAY_RANK_MAX)
-        FAIL(err, ERROR_FILE, "%s: %s has %d dimensions, not 1 to %d", file->path, name, rank,
-             ARRAY_RANK_MAX);
-    H5Sget_simple_extent_dims(space, shape, NULL);
-    bool fits = shape[1] <= INT32_MAX && shape[2] <= INT32_MAX;
-    hsize_t across = fits ? shape[1] * shape[2] : 0;
-    if (!fits || across > INT32_MAX || shape[0] > INT64_MAX ||
-        (across > 0 && shape[0] > INT64_MAX / across))
-        FAIL(err, ERROR_FILE, "%s: %s is too large to be true", file->path, name);
-    *rows = (int64_t)shape[0];
-    *width = (int32_t)across;
-cleanup:
-    H5Sclose(space);
-    return error_is_clean(err);
-}
-
 // *values: [*rows * *width], the caller's; memory_free.
 static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     hid_t dataset = -1;
+    int32_t components = 1;
     *values = NULL;
     *rows = 0;
     *width = 0;
@@ -390,9 +367,8 @@ static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_
     dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
-    TRY(read_shape(file, name, dataset, rows, width, err));
-    if (*rows * *width > INT64_MAX / (int64_t)sizeof(double))
-        FAIL(err, ERROR_MEMORY, "%s: no memory for all of %s", file->path, name);
+    if (!series_shape(dataset, rows, width, &components))
+        FAIL(err, ERROR_FILE, "%s: %s has a shape that cannot be true", file->path, name);
     TRY((*values = memory_bytes(*rows * *width * (int64_t)sizeof(double), err)));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
         FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));

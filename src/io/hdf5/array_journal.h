@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a flush would overwrite in a file is gathered in memory, and goes to `path`.journal first.
-// When all of it is there, on the disk and sealed by a checksum, it is copied into the file. Whoever is killed before leaves
-// the file as the last flush left it, whoever is killed after leaves a journal from which the rest
-// is copied: never half a flush. One journal holds one flush. Called by io/hdf5/array_disk.
+// When all of it is there, on the disk and sealed by a checksum, it is copied into the file. Who
+// is killed before leaves the file as the last flush left it, who is killed after leaves a journal
+// from which the rest is copied: never half a flush. One journal holds one flush. Called by
+// io/hdf5/array_disk.
 #ifndef AMONTONS_IO_HDF5_ARRAY_JOURNAL_H
 #define AMONTONS_IO_HDF5_ARRAY_JOURNAL_H
 

@@ -33,9 +33,9 @@ static bool check_file(const char *path, Error *err)
     return true;
 }
 
-// A .msh begins as one, else gmsh would run it as a script, whatever its name ends with (so it would
-// behind a byte order mark, which text_file_read leaves out); it says its version, and has the mark
-// that ends the elements, without which it was cut off.
+// A .msh begins as one, else gmsh would run it as a script, whatever its name ends with (so it
+// would behind a byte order mark, which text_file_read leaves out); it says its version, and has
+// the mark that ends the elements, without which it was cut off.
 static bool check_msh(const char *path, double *version, Error *err)
 {
     static const char begin[] = "$MeshFormat", comments[] = "$Comments", end[] = "$EndElements";

@@ -114,25 +114,18 @@ cleanup:
     return false;
 }
 
-// velocity is 0: solution->work, which was emptied for it.
-static bool write_vtu(const char *folder, const StaticSolution *solution, FieldFiles *files,
-                      Error *err)
-{
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/static.vtu", folder);
-    FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
-    return field_files_write_bulk(files, &state, path, err);
-}
-
 // solution->work is overwritten.
 bool static_report_write(const char *folder, const Model *model, StaticSolution *solution,
                          const StaticSummary *summary, Error *err)
 {
     FieldFiles files = {0};
+    char path[PATH_SIZE];
+    FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
+    snprintf(path, sizeof path, "%s/static.vtu", folder);
     for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
     TRY(field_files_create(&model->mesh, &model->interface, &files, err));
     files.materials = model->materials.list;
-    TRY(write_vtu(folder, solution, &files, err));
+    TRY(field_files_write_bulk(&files, &state, path, err));
     TRY(write_arrays(folder, model, solution, &files.stress, err));
     TRY(write_json(folder, model, solution, summary, err));
 cleanup:

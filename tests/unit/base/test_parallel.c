@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Every piece is done once, in several threads where they are to be had, else one after the other;
-// pieces of pieces have the threads that are left; signals stay with the caller's thread, and what pieces allocate is counted there.
+// pieces of pieces have the threads that are left; signals stay with the caller's thread, and what
+// pieces allocate is counted there.
 #include "base/parallel.h"
 
 #include "base/memory.h"

@@ -58,7 +58,7 @@ TEST(test_patch)
                 u[2 * k + 1] = 2 + (strain[2] - 0.9) * x + strain[1] * z;
             }
             sparse_apply(&bulk.pattern, which ? bulk.damping : bulk.stiffness, u, force);
-            assert_all_near(element_name(def.kind), force, bulk.load, bulk.dof_count, 1e-13);
+            assert_all_near(ELEMENTS[def.kind].name, force, bulk.load, bulk.dof_count, 1e-13);
             free(u);
             free(force);
             bulk_destroy(&bulk);

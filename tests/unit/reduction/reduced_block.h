@@ -135,4 +135,19 @@ static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms te
     return schur;
 }
 
+// [count^2] M of a part as one matrix.
+static inline double *whole_mass(const ReducedPart *part)
+{
+    int32_t m = part->border_count, r = part->interior_count, count = part->count;
+    double *mass = hand_matrix(count, count);
+    memset(mass, 0, (size_t)count * (size_t)count * sizeof *mass);
+    for (int32_t j = 0; j < m; j++) {
+        for (int32_t i = 0; i < m; i++) mass[j * count + i] = part->mass[j * m + i];
+        for (int32_t i = 0; i < r; i++)
+            mass[j * count + m + i] = mass[(m + i) * count + j] = part->coupling[j * r + i];
+    }
+    for (int32_t k = 0; k < r; k++) mass[(m + k) * (count + 1)] = part->masses[k];
+    return mass;
+}
+
 #endif

@@ -306,8 +306,7 @@ TEST(test_two_mirrors)
         assert_int_equal(mirror.part_count, whole ? 2 : 4);
         assert_int_equal(mirror.mirrored, whole ? 1 : 3);
         mirror_destroy(&mirror);
-        assert_true(
-            mirror_count_parts(&lattice.bulk, found, block.dofs, FLOOR + 1, &parts, &err));
+        assert_true(mirror_count_parts(&lattice.bulk, found, block.dofs, FLOOR + 1, &parts, &err));
         assert_int_equal(parts, whole ? 2 : 4);
         lattice.def.node_image = found;
         if (!symmetry_reduction_build(&lattice.bulk, block.dofs, FLOOR + 1, &lattice.def,

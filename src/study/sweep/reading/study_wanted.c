@@ -238,12 +238,12 @@ static bool check_quantity(Study *study, const StudyPlot *plot, PlotKey key, Err
     QuantityRead read = {
         study, {NULL, plot_key_name(key), plot->node[key]}, key != PLOT_CONTOURS, err};
     FormulaNames names = {.look_up = find_quantity, .context = &read, .unknown = "is no column"};
-    const char *text = plot->text[key];
+    const char *text = plot->text[key], *equals = strchr(text, '=');
     Formula formula;
     Error found = {0};
     double ignored = 0;
-    if (text[0] != '=') return !text[0] || find_quantity(&read, text, &ignored);
-    if (formula_read(text + 1, &names, &formula, &found)) return true;
+    if (!equals) return !text[0] || find_quantity(&read, text, &ignored);
+    if (formula_read(equals + 1, &names, &formula, &found)) return true;
     return error_is_clean(err) &&   // else it was a name
            yaml_error(study->file, plot->node[key], err, "%s: %.200s", plot_key_name(key),
                       found.message);

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "io/files/folder.h"
+#include "io/text/picture_options.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -291,12 +292,16 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
 static bool write_map_entries(PlotFigure *self, Error *err)
 {
     const Quantity *const *quantity = self->sources[0].quantity;
-    char label[QUANTITY_LABEL_SIZE + 8];
+    char label[QUANTITY_LABEL_SIZE + 40];
     if (quantity[PLOT_CONTOURS]) {
-        Curve line = {.label = quantity[PLOT_CONTOURS]->label.words, .line = "solid"};
+        bool many = self->sources[0].table.count / self->panels.count > MAP_MANY;
+        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+                 quantity[PLOT_CONTOURS]->label.words, MAP_MEDIANS, MAP_MEDIANS);
+        Curve line = {.label = label, .line = "solid"};
         if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
-    snprintf(label, sizeof label, "no %s", quantity[PLOT_COLOR]->label.words);
+    bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
+    snprintf(label, sizeof label, "no %s", formula ? "value" : quantity[PLOT_COLOR]->label.words);
     Curve missing = {.label = label, .line = "none", .marker = "cross"};
     return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
 }
@@ -314,7 +319,8 @@ static bool write_axes(PlotFigure *self, Error *err)
             !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
             return false;
         QuantityLabel label = quantity->label;
-        label.column = plot->text[key] + strspn(plot->text[key], "= ");
+        const char *equals = strchr(plot->text[key], '=');
+        label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
         figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }

@@ -215,6 +215,11 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
 
 const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *made, Error *err)
 {
-    if (text[0] != '=') return find_column(table, text, err);
-    return work_out(table, text + 1, made, err) ? made : NULL;
+    const char *equals = strchr(text, '=');
+    if (!equals) return find_column(table, text, err);
+    if (!work_out(table, equals + 1, made, err)) return NULL;
+    int length = (int)(equals - text);
+    while (length > 0 && text[length - 1] == ' ') --length;
+    if (length > 0) snprintf(made->label.words, sizeof made->label.words, "%.*s", length, text);
+    return made;
 }

@@ -117,7 +117,7 @@ TEST(grids_are_appended_compressed_and_wide)
     Error err = {0};
     FieldGrid bulk = bulk_grid(), lines = line_grid();
     name_file("bulk.vtu");
-    if (!field_file_write_vtu(path, &bulk, &err)) fail_msg("%s", err.message);
+    if (!field_file_write(path, &bulk, &err)) fail_msg("%s", err.message);
     assert_false(exists(part));
     assert_file_has("type=\"UnstructuredGrid\"");
     assert_file_has("header_type=\"UInt64\"");
@@ -125,7 +125,7 @@ TEST(grids_are_appended_compressed_and_wide)
     assert_file_has("<AppendedData encoding=\"raw\">");
     assert_file_has("Name=\"TimeValue\"");
     name_file("interface.vtp");
-    if (!field_file_write_vtp(path, &lines, &err)) fail_msg("%s", err.message);
+    if (!field_file_write(path, &lines, &err)) fail_msg("%s", err.message);
     assert_file_has("type=\"PolyData\"");
     assert_file_has("NumberOfLines=\"4\"");
     assert_false(exists(part));
@@ -157,9 +157,9 @@ TEST(a_missing_folder_is_named)
 {
     Error err = {0};
     FieldGrid bulk = bulk_grid(), lines = line_grid();
-    assert_false(field_file_write_vtu("/nonexistent/a.vtu", &bulk, &err));
+    assert_false(field_file_write("/nonexistent/a.vtu", &bulk, &err));
     assert_error(&err, ERROR_FILE, "/nonexistent/a.vtu", "No such file or directory");
-    assert_false(field_file_write_vtp("/nonexistent/a.vtp", &lines, &err));
+    assert_false(field_file_write("/nonexistent/a.vtp", &lines, &err));
     assert_error(&err, ERROR_FILE, "/nonexistent/a.vtp", "No such file or directory");
     assert_false(field_file_write_pvd("/nonexistent/a.pvd", NULL, 0, &err));
     assert_error(&err, ERROR_FILE, "/nonexistent/a.pvd", "No such file or directory");
@@ -173,7 +173,7 @@ TEST(a_full_disk_leaves_the_earlier_file)
     Error err = {0};
     FieldGrid bulk = bulk_grid();
     name_file("full.vtu");
-    assert_true(field_file_write_vtu(path, &bulk, &err));
+    assert_true(field_file_write(path, &bulk, &err));
     struct stat before, after;
     assert_int_equal(stat(path, &before), 0);
     for (rlim_t limit = 0; limit < 3000; limit += 1000) {
@@ -181,7 +181,7 @@ TEST(a_full_disk_leaves_the_earlier_file)
         if (child == 0) {
             signal(SIGXFSZ, SIG_IGN);
             setrlimit(RLIMIT_FSIZE, &(struct rlimit){limit, RLIM_INFINITY});
-            bool refused = !field_file_write_vtu(path, &bulk, &err) && err.code == ERROR_FILE &&
+            bool refused = !field_file_write(path, &bulk, &err) && err.code == ERROR_FILE &&
                            strstr(err.message, path) && strstr(err.message, "File too large");
             // Coverage counts are files, too, and are written on exit.
             setrlimit(RLIMIT_FSIZE, &(struct rlimit){RLIM_INFINITY, RLIM_INFINITY});
@@ -204,7 +204,7 @@ TEST(a_missing_module_is_named)
     const char *modules = getenv("AMONTONS_MODULES");
     char *kept = strdup(modules ? modules : "");
     setenv("AMONTONS_MODULES", "/nonexistent", 1);
-    assert_false(field_file_write_vtu(path, &bulk, &err));
+    assert_false(field_file_write(path, &bulk, &err));
     assert_error(&err, ERROR_LIBRARY, "module.vtu", "amontons_vtk");
     setenv("AMONTONS_MODULES", kept, 1);
     free(kept);

@@ -3,6 +3,7 @@
 #include "render/canvas/canvas.h"
 
 #include "base/memory.h"
+#include "canvas_read.h"
 #include "cases.h"
 #include "render/canvas/drawing.h"
 #include "render/canvas/text.h"

@@ -6,6 +6,7 @@
 #include "plane.h"
 
 #include "base/memory.h"
+#include "canvas_read.h"
 #include "io/mesh/shape_functions.h"
 #include "near.h"
 
