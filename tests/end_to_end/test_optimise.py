@@ -2,6 +2,7 @@
 """`amontons optimise`: a search against all designs computed by a sweep, limits that are kept, a search that is gone on with,
 errors that name the place."""
 import csv
+import json
 import os
 import re
 import shutil
@@ -148,47 +149,50 @@ best: {over: front, designs: 8}
             "search: {load.pressure: {log: [0.003, 0.004]}}\nbest: {designs: 3}\n"
         said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
         self.assertLess(min(float(row["accuracy.mu"]) for row in self.table("out")), 0.05)
-        self.best_stood_it(said)
         self.best_for_sure(said, 0.02)
         self.assertRegex(said, r"may be as good, within the bars of both|better than every other design, with the bars of both")
         if "may be as good" in said:
-            self.assertRegex(said, r"half the error of all takes some \d+ to \d+ s of one processor")
+            self.assertRegex(said, r"half the error of all takes some \d+ to \d+ s of one processor|have to come out above their own values, too")
         self.best_for_sure(self.call("optimise", text.replace("refine: 2%", "refine: 4.9%"), "-j", "2", "-o", "out").stdout, 0.049)
 
     def best_for_sure(self, said, limit):
-        """By the rows of the table, the last of a design; of the others only those whose first bar was above the limit were computed again."""
+        """By the rows of the table, the last of a design; a design was computed again only where its bar was above the limit, but for what
+        is asked of the best."""
         def part(row):
             return float(row["mu_M_error"]) / float(row["mu_M"])
 
         rows = self.table("out")
         first, last = ({row["load.pressure"]: row for row in some} for some in (reversed(rows), rows))
-        again = [pressure for pressure in first if first[pressure] is not last[pressure]]
+        for pressure in first:
+            mine = [row for row in rows if row["load.pressure"] == pressure]
+            for before, row in zip(mine, mine[1:]):
+                self.assertTrue(part(before) > limit or float(row["accuracy.mu"]) < limit, row)
         best = max(last.values(), key=lambda row: float(row["mu_M"]) * (1 - part(row)))
-        self.assertTrue(all(part(first[pressure]) > limit for pressure in again if pressure not in self.bests(rows, part)), again)
         self.assertIn(f"the highest for sure (by its bar) of {len(first)} designs:\n  load.pressure={float(best['load.pressure']):g}: ", said)
 
-    def bests(self, rows, part):
-        """Pressures of designs that were the best, by the rows so far, before one of the rows."""
-        found, last = set(), {}
-        for row in rows:
-            if row["mu_M_error"]:
-                last[row["load.pressure"]] = float(row["mu_M"]) * (1 - part(row))
-                found.add(max(last, key=last.get))
-        return found
-
-    def best_stood_it(self, said):
-        """The best has two rows: the last was asked for half of the smaller of what was asked before and what came out, and has a
-        smaller bar, beyond what `refine` asks for."""
-        rows = self.table("out")
+    def test_best_by_luck(self):
+        """The best has two rows: the last was asked for half of the smaller of what was asked before and what came out. A run of another
+        design is made to say a fifth more: with half its bar that design is what it is, and no longer the best."""
+        text = HEAD.replace("by: mu_max", "by: mu_M").replace("time.until.U: 0.02", "accuracy.mu: 10%") + \
+            "search: {load.pressure: {log: [0.003, 0.004]}}\nbest: {designs: 1}\n"
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        self.assertIn("computed once more for half its bar, as the best of many is so by luck, too", said)
         best = re.search(r"designs:\n  load.pressure=(\S+): ", said)[1]
-        mine = [row for row in rows if float(row["load.pressure"]) == float(best)]
-        self.assertGreater(len(mine), 1)
-        before, last = mine[-2:]
+        before, last = [row for row in self.table("out") if float(row["load.pressure"]) == float(best)][-2:]
         half = min(float(before["accuracy.mu"]), float(before["mu_M_error"]) / float(before["mu_M"])) / 2
         self.assertAlmostEqual(float(last["accuracy.mu"]) / half, 1, delta=0.06)     # two digits
-        self.assertLess(float(last["accuracy.mu"]), 0.02)     # where `refine` ends
         self.assertLess(float(last["mu_M_error"]), float(before["mu_M_error"]))
-        self.assertIn("computed once more for half its bar, as the best of many is so by luck, too", said)
+        lucky = next(row for row in self.table("out") if float(row["load.pressure"]) != float(best) and row["mu_M_error"])
+        run = self.folder / "out" / lucky["run"] / "run.json"
+        report = json.loads(run.read_text())
+        report["results"]["mu_M"] *= 1.2
+        run.write_text(json.dumps(report))
+        said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
+        self.assertIn("by luck, too; what was better before came out worse\n", said)
+        self.assertNotEqual(float(re.search(r"designs:\n  load.pressure=(\S+): ", said)[1]), float(lucky["load.pressure"]))
+        last = [row for row in self.table("out") if row["load.pressure"] == lucky["load.pressure"]][-1]
+        self.assertLess(float(last["accuracy.mu"]), float(lucky["accuracy.mu"]))
+        self.assertLess(float(last["mu_M"]), 1.1 * float(lucky["mu_M"]))
 
     def test_bars_missed_by_far(self):
         """Runs that end by their time, far from the 0.05 % asked for, are not asked for half of it: the search ends, and says why."""
@@ -196,9 +200,9 @@ best: {over: front, designs: 8}
             "search: {load.pressure: {log: [0.003, 0.0035]}}\nbest: {designs: 1}\n"
         said = self.call("optimise", text, "-j", "2", "-o", "out").stdout
         rows = [row for row in self.table("out") if row["mu_M"]]
-        missed = {row["load.pressure"] for row in rows if not float(row["mu_M_error"] or "inf") <= 0.001 * float(row["mu_M"])}
+        missed = {row["load.pressure"] for row in rows
+                  if float(row["accuracy.mu"]) >= 0.0005 and not float(row["mu_M_error"] or "inf") <= 0.001 * float(row["mu_M"])}
         self.assertGreater(len(missed), 1)
-        missed -= self.bests(rows, lambda row: float(row["mu_M_error"]) / float(row["mu_M"]))     # whose run for half its bar may miss it
         self.assertFalse(missed & {row["load.pressure"] for row in rows if float(row["accuracy.mu"]) < 0.0005})
         self.assertRegex(said, r"\d of them missed the error bar asked for by far, or have none: only more time for a run")
 

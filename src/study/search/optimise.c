@@ -144,16 +144,30 @@ static bool decide(Search *search, Error *err)
     return true;
 }
 
-// The best of many is so by its luck, too: it is computed once more with half its bar, and where
-// that leaves another design the best, that one in turn.
+// The best design, or if that was computed once more the next one, where its value is now the
+// better one; -1: neither is left to be computed once more.
+static int32_t next_to_confirm(const Designs *designs)
+{
+    int32_t best = designs_best(designs), next = -1;
+    const Design *list = designs->list;
+    for (int32_t d = 0; d < designs->count; d++)
+        if (!list[d].confirmed && !isnan(list[d].value) &&
+            (next < 0 || design_is_better(designs, &list[d], &list[next])))
+            next = d;
+    if (next < 0 || next == best) return next;
+    double ahead = list[next].value - list[best].value;
+    return (designs->lowest ? -ahead : ahead) > 0 ? next : -1;
+}
+
+// The best of many is so by its luck, too: it is computed once more with half its bar. One whose
+// bar comes out no shorter, as the time for a run makes it, keeps what it had.
 static bool confirm(Search *search, Error *err)
 {
-    int32_t best;
-    while (best = designs_best(&search->designs), !search->designs.list[best].confirmed) {
-        Design *design = &search->designs.list[best], before = *design;
+    for (int32_t d; (d = next_to_confirm(&search->designs)) >= 0;) {
+        Design *design = &search->designs.list[d], before = *design;
         design->confirmed = before.confirmed = before.settled = true;
         if (!next_accuracy(search, design, 0, err)) continue;
-        if (!search_compute(search, &best, 1, err)) return false;
+        if (!search_compute(search, &d, 1, err)) return false;
         design->is_finer = design->has_bar && design->bar < before.bar;
         if (!design->is_finer) *design = before;
     }

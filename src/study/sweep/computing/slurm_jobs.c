@@ -5,8 +5,9 @@
 #include "base/memory.h"
 #include "base/place.h"
 #include "base/program.h"
-#include "io/files/part_file.h"
+#include "io/text/text_writer.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -128,23 +129,23 @@ cleanup:
 bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *study,
                         const SweepOptions *options, Error *err)
 {
-    char program[PATH_MAX] = "", *text = NULL, *here = getcwd(NULL, 0);
-    size_t size = 0;
+    char program[PATH_MAX] = "", *here = getcwd(NULL, 0);
+    TextWriter script = {0};
     TRY(find_program(program, err));
-    FILE *file = here ? open_memstream(&text, &size) : NULL;
-    if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    print_quoted(file, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\ncd ", here);
-    print_quoted(file, " && exec ", program);
-    print_quoted(file, " sweep --element -o ", jobs->folder);
+    if (!here) FAIL(err, ERROR_FILE, "cannot find the path of this folder: %s", strerror(errno));
+    TRY(text_writer_open(&script, path, false, err));
+    FILE *out = script.out;
+    print_quoted(out, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\ncd ", here);
+    print_quoted(out, " && exec ", program);
+    print_quoted(out, " sweep --element -o ", jobs->folder);
     for (int32_t k = 0; k < options->override_count; k++)
-        print_quoted(file, " --set ", options->overrides[k]);
-    print_quoted(file, " -- ", study);
-    fprintf(file, "\n");
-    if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    TRY(part_file_put(path, text, (int64_t)size, err));
+        print_quoted(out, " --set ", options->overrides[k]);
+    print_quoted(out, " -- ", study);
+    fprintf(out, "\n");
+    TRY(text_writer_finish(&script, err));
 cleanup:
     free(here);
-    free(text);
+    text_writer_close(&script);
     return error_is_clean(err);
 }
 
