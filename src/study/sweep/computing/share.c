@@ -16,8 +16,7 @@
 
 enum {
     SHARE_PATH_SIZE = POINT_PATH_SIZE + 64,
-    SHARE_BYTES_MAX = 1 << 28,
-    LINE_SIZE = HASH_TEXT_SIZE + 60
+    SHARE_BYTES_MAX = 1 << 28
 };
 
 static void share_path(const Sweep *sweep, int32_t share, const char *what,
@@ -29,19 +28,18 @@ static void share_path(const Sweep *sweep, int32_t share, const char *what,
 bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
                  int32_t step, Error *err)
 {
-    char path[SHARE_PATH_SIZE], line[LINE_SIZE];
-    TextWriter out = {0};
+    char path[SHARE_PATH_SIZE];
+    TextWriter writer = {0};
     share_path(sweep, share, "points", path);
-    if (text_writer_open(&out, path, false, err)) {
+    if (text_writer_open(&writer, path, false, err)) {
         for (int32_t k = share; k < count; k += step) {
             const SweepPoint *point = &sweep->points[points[k]];
-            int length = snprintf(line, sizeof line, "%d %s %d %.17g\n", points[k], point->hash,
-                                  point->runs, point->accuracy);
-            text_writer_put(&out, line, (size_t)length);
+            fprintf(writer.out, "%d %s %d %.17g\n", points[k], point->hash, point->runs,
+                    point->accuracy);
         }
-        text_writer_finish(&out, err);
+        text_writer_finish(&writer, err);
     }
-    text_writer_close(&out);
+    text_writer_close(&writer);
     return error_is_clean(err);
 }
 
@@ -49,14 +47,14 @@ bool share_write_designs(const Sweep *sweep, Error *err)
 {
     const Study *study = &sweep->study;
     char path[SHARE_PATH_SIZE];
-    TextWriter out = {0};
+    TextWriter writer = {0};
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
-    if (text_writer_open(&out, path, false, err)) {
+    if (text_writer_open(&writer, path, false, err)) {
         for (int32_t k = 0; k < study->design_count; k++)
-            text_writer_put(&out, study->designs[k].text, strlen(study->designs[k].text) + 1);
-        text_writer_finish(&out, err);
+            fwrite(study->designs[k].text, 1, strlen(study->designs[k].text) + 1, writer.out);
+        text_writer_finish(&writer, err);
     }
-    text_writer_close(&out);
+    text_writer_close(&writer);
     return error_is_clean(err);
 }
 
