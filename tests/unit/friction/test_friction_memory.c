@@ -181,11 +181,11 @@ TEST(test_rested)
     for (int k = 0; k < LAWS; k++) {
         FrictionLaw law = law_of(k);
         for (double t = 0.5; t < 20; t *= 2) {
-            double h = 1e-5 * t, state = memory_rested(&MEMORIES[k], t);
+            double h = 1e-5 * t, rested = memory_rested(&MEMORIES[k], t);
             double change = memory_rested(&MEMORIES[k], t + h) - memory_rested(&MEMORIES[k], t - h);
-            double rate = rates_at(&law, 0, state).rate[0];
+            double rate = rates_at(&law, 0, rested).rate[0];
             if (!MEMORIES[k].slip_law) assert_near("change", change / (2 * h), rate, 1e-8);
-            if (k > 1) assert_near("theta", memory_shown(&MEMORIES[k], state), t, 1e-12 * t);
+            if (k > 1) assert_near("theta", memory_shown(&MEMORIES[k], rested), t, 1e-12 * t);
         }
     }
     assert_near("at first", memory_rested(&MEMORIES[0], 0), 0, 0);

@@ -14,10 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum {
-    SHARE_PATH_SIZE = POINT_PATH_SIZE + 64,
-    SHARE_BYTES_MAX = 1 << 28
-};
+enum { SHARE_PATH_SIZE = POINT_PATH_SIZE + 64, SHARE_BYTES_MAX = 1 << 28 };
 
 static void share_path(const Sweep *sweep, int32_t share, const char *what,
                        char path[SHARE_PATH_SIZE])
@@ -29,17 +26,17 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
                  int32_t step, Error *err)
 {
     char path[SHARE_PATH_SIZE];
-    TextWriter writer = {0};
+    TextWriter out = {0};
     share_path(sweep, share, "points", path);
-    if (text_writer_open(&writer, path, false, err)) {
+    if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = share; k < count; k += step) {
             const SweepPoint *point = &sweep->points[points[k]];
-            fprintf(writer.out, "%d %s %d %.17g\n", points[k], point->hash, point->runs,
+            fprintf(out.out, "%d %s %d %.17g\n", points[k], point->hash, point->runs,
                     point->accuracy);
         }
-        text_writer_finish(&writer, err);
+        text_writer_finish(&out, err);
     }
-    text_writer_close(&writer);
+    text_writer_close(&out);
     return error_is_clean(err);
 }
 
@@ -47,14 +44,14 @@ bool share_write_designs(const Sweep *sweep, Error *err)
 {
     const Study *study = &sweep->study;
     char path[SHARE_PATH_SIZE];
-    TextWriter writer = {0};
+    TextWriter out = {0};
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
-    if (text_writer_open(&writer, path, false, err)) {
+    if (text_writer_open(&out, path, false, err)) {
         for (int32_t k = 0; k < study->design_count; k++)
-            fwrite(study->designs[k].text, 1, strlen(study->designs[k].text) + 1, writer.out);
-        text_writer_finish(&writer, err);
+            fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, out.out);
+        text_writer_finish(&out, err);
     }
-    text_writer_close(&writer);
+    text_writer_close(&out);
     return error_is_clean(err);
 }
 
