@@ -69,14 +69,13 @@ static bool check_coefficient(const ContactArrays *arrays, const Observation *se
     for (int32_t k = 0, used = 0; k < rates.states; k++)
         used += snprintf(states + used, sizeof states - (size_t)used, "%s%g", k ? ", " : ", state ",
                          theta[k]);
-    FAIL(err, ERROR_COMPUTE,
-         "at U = %.6g, t = %.9g friction has come to a coefficient of %g, at contact node %d, x = "
-         "%g: velocity %g, pressure %g%s. It must not be negative wherever a run leads: max(0, "
-         "...) in the formula keeps it from that",
-         seen->U, seen->t, rates.mu, i, interface->x[i], speed,
-         seen->state->reaction[interface_normal(interface, i)] / interface->weight[i], states);
-cleanup:
-    return false;
+    return FAULT(
+        err, ERROR_COMPUTE,
+        "at U = %.6g, t = %.9g friction has come to a coefficient of %g, at contact node %d, x = "
+        "%g: velocity %g, pressure %g%s. It must not be negative wherever a run leads: max(0, "
+        "...) in the formula keeps it from that",
+        seen->U, seen->t, rates.mu, i, interface->x[i], speed,
+        seen->state->reaction[interface_normal(interface, i)] / interface->weight[i], states);
 }
 
 bool contact_arrays_record(void *self, const Observation *seen, Error *err)

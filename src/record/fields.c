@@ -176,22 +176,24 @@ static bool comes_back(const Fields *fields, double U)
     return U < reached - 1e-6 * fields->def.every_U;
 }
 
+// A multiple of `every` was reached or passed: *next is the one beyond. 0: not by this.
+static bool passes(double every, double at, double *next)
+{
+    if (!(every > 0 && at >= *next)) return false;
+    *next = (floor(at / every) + 1) * every;
+    return true;
+}
+
 // Multiples of every_U and every_t, at the first step at or beyond each; a step that passes several
 // is written once. With every_slip also each time the fastest point has slipped so far: where slip
-// is rapid, steps of a time or of U would leave all of it out. With at_events
-// also steps in which a rapid event begins, crosses the interface
-// or ends.
+// is rapid, steps of a time or of U would leave all of it out. With at_events also steps in which a
+// rapid event begins, crosses the interface or ends.
 static bool is_due(Fields *fields, const Observation *seen)
 {
-    bool due = fields->written == 0 || fields->def.every_step;
-    if (fields->def.every_U > 0 && (seen->U >= fields->next_U || comes_back(fields, seen->U))) {
-        fields->next_U = (floor(seen->U / fields->def.every_U) + 1) * fields->def.every_U;
-        due = true;
-    }
-    if (fields->def.every_t > 0 && seen->t >= fields->next_t) {
-        fields->next_t = (floor(seen->t / fields->def.every_t) + 1) * fields->def.every_t;
-        due = true;
-    }
+    if (comes_back(fields, seen->U)) fields->next_U = -INFINITY;
+    bool by_U = passes(fields->def.every_U, seen->U, &fields->next_U);
+    bool by_t = passes(fields->def.every_t, seen->t, &fields->next_t);
+    bool due = fields->written == 0 || fields->def.every_step || by_U || by_t;
     fields->slipped += seen->max_slip_rate * seen->step_size;
     if (fields->def.every_slip > 0 && fields->slipped >= fields->def.every_slip) due = true;
     const Events *events = fields->events;

@@ -107,11 +107,10 @@ void accuracy_stopped(Levels *levels, const char *title, const char *folder, Err
     bool kept = folder && accuracy_figure(levels, title, folder, &failed);
     name_estimates(levels, estimates);
     *err = (Error){0};
-    FAIL(err, ERROR_INTERRUPT,
-         "%s; so far %s = %s%s%s%s; it does not go on from here: the same command begins anew; "
-         "with --within TIME it keeps what it has when time is up",
-         stopped.message, ANSWER_NAMES[levels->asked], estimates, kept ? " (" : "",
-         kept ? folder : "", kept ? "/figures/accuracy.json)" : "");
-cleanup:
-    return;
+    (void)FAULT(
+        err, ERROR_INTERRUPT,
+        "%s; so far %s = %s%s%s%s; it does not go on from here: the same command begins anew; "
+        "with --within TIME it keeps what it has when time is up",
+        stopped.message, ANSWER_NAMES[levels->asked], estimates, kept ? " (" : "",
+        kept ? folder : "", kept ? "/figures/accuracy.json)" : "");
 }

@@ -206,9 +206,7 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
     *err = (Error){0};
     accuracy->out_of_time = !(stop && *stop);
     if (!accuracy->out_of_time)
-        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
-cleanup:
-    return;
+        (void)FAULT(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
 }
 
 // Nothing new is learnt on it.

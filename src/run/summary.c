@@ -205,11 +205,8 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
         summary->run_in = run_in_name(answers->regime.run_in);
     note_slip(simulation, answers->first, summary);
     note_program(&simulation->readings, summary);
-    const ErrorParts *mu_M = &answers->mu_M_parts, *mu_hold = &answers->mu_hold_parts;
-    memcpy(summary->mu_M_parts, (double[]){mu_M->mesh, mu_M->branches, mu_M->drops},
-           sizeof summary->mu_M_parts);
-    memcpy(summary->mu_hold_parts, (double[]){mu_hold->mesh, mu_hold->branches, mu_hold->drops},
-           sizeof summary->mu_hold_parts);
+    memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);
+    memcpy(summary->mu_hold_parts, &answers->mu_hold_parts, sizeof summary->mu_hold_parts);
     if (simulation->levels) note_levels(simulation, summary);
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
     list_phases(simulation, summary);
