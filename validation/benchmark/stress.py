@@ -21,7 +21,7 @@ import stress_cases
 from measured_run import ROOT, commit, markdown_table, run
 
 SCENE = Path(__file__).resolve().parent / "stress.yaml"
-MOVED = SCENE.with_name("stress_moved.md")      # by hand: which versions moved rows, and why
+MOVED = SCENE.with_name("stress_moved.in")      # by hand: which versions moved rows, and why
 FINER = ["time.tolerance=1e-4", "time.wave_step=0.05"]
 # Largest violations allowed; of energy the scene says. Contact is measured against the mean nodal
 # force and against V.
