@@ -23,7 +23,7 @@ static const double CLEARLY = 100;
 enum {
     ITERATIONS_ALL = 30,   // Newton steps in which every violated status is changed: some ten times
     // what a solvable problem was seen to need
-    ITERATIONS_ONE = 40   // and then those that change only the worst
+    ITERATIONS_ONE = 40,   // and then those that change only the worst
 };
 // Of residual forces, relative to the largest force: some 1e2 above what rounding leaves in S v - g.
 static const double TOLERANCE = 1e-12;
