@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "io/text/csv_writer.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 
 #include <limits.h>
 #include <math.h>
@@ -42,44 +42,29 @@ static bool write_columns(const char *path, const DataColumn *columns, int32_t c
     return csv_finish(csv, err);
 }
 
-static bool write_force(const char *path, ResultView *view, Error *err)
+static bool write_curve(const char *path, ResultView *view, MeasuredKind kind, Error *err)
 {
-    const DataColumn columns[] = {
-        {"U", "m", view->U, 1}, {"t", "s", view->t, 1}, {"F_T/F_N", NULL, view->mu, 1}};
-    return write_columns(path, columns, 3, view->rows, view->si, err);
-}
-
-static bool write_front(const char *path, ResultView *view, Error *err)
-{
-    if (!result_view_read_front(view, err)) return false;
-    const DataColumn columns[] = {
-        {"U", "m", view->U, 1}, {"t", "s", view->t, 1}, {"x", "m", view->front, 1}};
-    return write_columns(path, columns, 3, view->rows, view->si, err);
-}
-
-static bool write_lengths(const char *path, ResultView *view, Error *err)
-{
-    if (!precursors_compute(view, err)) return false;
-    const DataColumn columns[] = {
-        {"F_T/F_N", NULL, view->precursors.at, 1},
-        {"l/L", NULL, view->precursors.value, 1 / view->number[NUMBER_LENGTH]}};
-    return write_columns(path, columns, 2, view->precursors.count, view->si, err);
-}
-
-static bool write_speeds(const char *path, ResultView *view, Error *err)
-{
-    if (!front_speed_compute(view, err)) return false;
-    const DataColumn columns[] = {
-        {"x/L", NULL, view->front_speed.at, 1 / view->number[NUMBER_LENGTH]},
-        {"v/c_R", NULL, view->front_speed.value, 1 / view->number[NUMBER_C_RAYLEIGH]}};
-    return write_columns(path, columns, 2, view->front_speed.count, view->si, err);
+    ViewCurve curve;
+    if (!computed_curve(view, kind, &curve, err)) return false;
+    double over_L = 1 / view->number[NUMBER_LENGTH], over_c = 1 / view->number[NUMBER_C_RAYLEIGH];
+    const DataColumn columns[MEASURED_KINDS][3] = {
+        [MEASURED_MU] = {{"U", "m", curve.at, 1},
+                         {"t", "s", view->t, 1},
+                         {"F_T/F_N", NULL, curve.value, 1}},
+        [MEASURED_FRONT] = {{"U", "m", curve.at, 1},
+                            {"t", "s", view->t, 1},
+                            {"x", "m", curve.value, 1}},
+        [MEASURED_LENGTH] = {{"F_T/F_N", NULL, curve.at, 1}, {"l/L", NULL, curve.value, over_L}},
+        [MEASURED_SPEED] = {{"x/L", NULL, curve.at, over_L}, {"v/c_R", NULL, curve.value, over_c}}};
+    int32_t count = columns[kind][2].name ? 3 : 2;
+    return write_columns(path, columns[kind], count, curve.count, view->si, err);
 }
 
 // Least, median and largest over the nodes, of the state that the view stands for.
 static bool state_columns(ResultView *view, double *columns[OF_STATE], Error *err)
 {
     double *states = NULL;
-    TRY(state_read(view, false, &states, err));
+    TRY(result_view_read(view, SERIES_STATE, false, &states, err));
     for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
     for (int64_t row = 0; row < view->rows; ++row) {
         double *own = states + row * view->nodes;
@@ -120,34 +105,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-static const struct FigureData {
-    const char *name;
-    bool (*write)(const char *path, ResultView *view, Error *err);   // NULL: no curve
-    MeasuredFunction measured;
-    MeasuredKind kind;
-} DATA[] = {
-    {"force", write_force, figure_force_measured, MEASURED_MU},
-    {"slip-map", write_front, figure_slip_map_measured, MEASURED_FRONT},
-    {"contact-density", NULL, figure_contact_density_measured, MEASURED_AREA},
-    {"state-map", write_states, NULL, MEASURED_KINDS},
-    {"precursors", write_lengths, figure_precursors_measured, MEASURED_LENGTH},
-    {"front-speed", write_speeds, figure_front_speed_measured, MEASURED_SPEED},
-};
-
-static const struct FigureData *find_data(const char *name)
+// MEASURED_KINDS: nothing of the figure is measured.
+static MeasuredKind kind_of(const char *figure)
 {
-    for (size_t k = 0; k < sizeof DATA / sizeof *DATA; ++k)
-        if (strcmp(DATA[k].name, name) == 0) return &DATA[k];
-    return NULL;
+    static const char *const figures[MEASURED_KINDS] = {"force", "slip-map", "contact-density",
+                                                        "precursors", "front-speed"};
+    int32_t kind = 0;
+    while (kind < MEASURED_KINDS && strcmp(figures[kind], figure) != 0) ++kind;
+    return (MeasuredKind)kind;
 }
 
 static bool data_path(const char *folder, const char *name, const char *end, char path[PATH_MAX],
                       Error *err)
 {
     if (snprintf(path, PATH_MAX, "%s/figures/%s%s.csv", folder, name, end) >= PATH_MAX)
-        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "the result folder's path is too long");
+    return true;
 }
 
 // Each point with what was computed there, in the result's own units.
@@ -155,18 +128,17 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
 {
     static const struct {
         const char *at, *at_unit, *value, *unit;
-    } names[MEASURED_KINDS] = {{"U", "m", "F_T/F_N", NULL},
+    } kinds[MEASURED_KINDS] = {{"U", "m", "F_T/F_N", NULL},
                                {"U", "m", "x", "m"},
                                {"U", "m", "A/A_0", NULL},
                                {"F_T/F_N", NULL, "l", "m"},
                                {"x", "m", "v", "m/s"}};
     DataColumn columns[COLUMNS_MAX];
-    int32_t count = 0;
-    const char *unit = names[measured->kind].unit;
-    columns[count++] =
-        (DataColumn){names[measured->kind].at, names[measured->kind].at_unit, measured->at, 1};
-    if (measured->kind == MEASURED_AREA) columns[count++] = (DataColumn){"x", "m", measured->x, 1};
-    columns[count++] = (DataColumn){names[measured->kind].value, unit, measured->value, 1};
+    int32_t count = 0, kind = measured->kind;
+    const char *unit = kinds[kind].unit;
+    columns[count++] = (DataColumn){kinds[kind].at, kinds[kind].at_unit, measured->at, 1};
+    if (kind == MEASURED_AREA) columns[count++] = (DataColumn){"x", "m", measured->x, 1};
+    columns[count++] = (DataColumn){kinds[kind].value, unit, measured->value, 1};
     columns[count++] = (DataColumn){"error", unit, measured->error, 1};
     columns[count++] = (DataColumn){"computed", unit, measured->computed, 1};
     return write_columns(path, columns, count, measured->count, si, err);
@@ -175,26 +147,26 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
 bool figure_data_write(const char *folder, const char *name, ResultView *view, const char *compare,
                        Error *err)
 {
-    const struct FigureData *data = find_data(name);
+    MeasuredKind kind = kind_of(name);
+    bool done = true;
     Measured measured = {0};
     char path[PATH_MAX];
-    if (!data) return true;
-    TRY(data_path(folder, name, "", path, err));
-    if (data->write) TRY(data->write(path, view, err));
-    if (!compare || !data->measured) return true;
-    TRY(data->measured(view, compare, &measured, err));
-    TRY(data_path(folder, name, "-compared", path, err));
-    if (measured.count > 0) TRY(write_compared(path, &measured, view->si, err));
-cleanup:
+    if (!data_path(folder, name, "", path, err)) return false;
+    if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
+    if (kind == MEASURED_KINDS) return true;
+    if (kind != MEASURED_AREA && !write_curve(path, view, kind, err)) return false;
+    if (!measured_read(compare, kind, view, &measured, err)) return false;
+    if (measured.count > 0)
+        done = data_path(folder, name, "-compared", path, err) &&
+               write_compared(path, &measured, view->si, err);
     measured_destroy(&measured);
-    return error_is_clean(err);
+    return done;
 }
 
 bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,
                           Error *err)
 {
-    const struct FigureData *data = find_data(name);
+    MeasuredKind kind = kind_of(name);
     *shows = false;
-    return !data || !data->measured || !compare ||
-           measured_has(compare, data->kind, view, shows, err);
+    return kind == MEASURED_KINDS || !compare || measured_has(compare, kind, view, shows, err);
 }

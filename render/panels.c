@@ -9,6 +9,7 @@
 
 static const double LETTER_LEFT = 1.5,
                     LETTER_DROP = 7.5;   // points: of (a), from its panel's corner
+static const double LETTER_ROOM = 3;   // points: from the letter to numbers beside it
 static const double SCRATCH_DPI = 100;   // of the page that is measured
 static const double SLACK = 0.4;   // points: what the measured page is coarser
 static const char *const ENLARGES = "contact-density";   // the panel that shows another U
@@ -52,14 +53,13 @@ static bool draw_all(const Page *page, const Panels *panels, ResultView *view, B
         part.zoom_name = panels->zoom_name[0] ? panels->zoom_name : NULL;
         part.bare_x = k + 1 < panels->count && !enlarges(panels, k) && !enlarges(panels, k + 1);
         view->state = panels->figures[k].state;
-        TRY(panels->figures[k].draw(&part, view, err));
+        if (!panels->figures[k].draw(&part, view, err)) return false;
         snprintf(letter, sizeof letter, "(%c)", 'a' + k);
         text_draw(page->text, &style, (Point){LETTER_LEFT * point, top + LETTER_DROP * point},
                   letter);
         top = part.room.bottom;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // What the widest names and numbers take beside the frames, points.
@@ -80,6 +80,7 @@ static bool measure(const PageDef *def, const Panels *panels, ResultView *view, 
         beside[0] = fmax(beside[0], frame[k].left / page.point);
         beside[1] = fmax(beside[1], (page.room.right - frame[k].right) / page.point);
     }
+    beside[0] += LETTER_ROOM;
 cleanup:
     page_destroy(&page);
     return error_is_clean(err);
@@ -92,11 +93,8 @@ bool panels_draw(Page *page, PageDef *def, const PanelFigure *figures, int32_t c
     Box frame[PANELS_MAX];
     double beside[2];
     def->height = page_shape(def->style, panels.shapes);
-    TRY(measure(def, &panels, view, beside, err));
-    TRY(page_begin(page, def, err));
+    if (!measure(def, &panels, view, beside, err) || !page_begin(page, def, err)) return false;
     for (int32_t side = 0; side < 2; ++side)
         page->beside[side] = ceil((beside[side] + SLACK) * page->point);
-    TRY(draw_all(page, &panels, view, frame, err));
-cleanup:
-    return error_is_clean(err);
+    return draw_all(page, &panels, view, frame, err);
 }

@@ -9,6 +9,7 @@ enum { PANELS_MAX = 12 };
 
 typedef struct PanelFigure {
     const char *name;
+    int32_t figure;   // its number in render.c
     double shape;   // height over the page's width
     FigureFunction draw;
     int32_t state;   // which the view stands for while it is drawn

@@ -232,8 +232,7 @@ typedef struct SweepOptions {
     const char *const *overrides;   // "key=value", for every point
     int32_t override_count;
     int32_t jobs;   // processes at a time; 0: as many as there are cores
-    const char *slurm;   // points run as Slurm job arrays, each `amontons sweep --element
-        // FILE`; more words for sbatch, or ""; NULL: here
+    const char *slurm;   // by jobs of Slurm: more words for sbatch, or ""; NULL: here
     bool retry;   // compute failed points again
     bool fresh;   // compute all points again
     SweepCallback on_point;   // NULL: none
@@ -253,8 +252,9 @@ typedef struct SweepSummary {
 // counted, and stand in the table with their reason. ERROR_INTERRUPT: stopped, table written.
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err);
-// Computes one point of a sweep by Slurm: `element` of the list that amontons_sweep left in `path`.
-bool amontons_sweep_element(const char *path, int32_t element, Error *err);
+// In a job of Slurm: the points that amontons_sweep has left to this element of its array.
+bool amontons_sweep_element(const char *path, const SweepOptions *options, int32_t element,
+                            Error *err);
 
 typedef struct InfoOptions {
     const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo

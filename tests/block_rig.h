@@ -54,7 +54,8 @@ static inline void rig_build(const RigDef *def, BlockRig *rig)
                               .rod_name = "rod",
                               .rod_height = def->rod_height,
                               .rod_width = def->rod_width};
-    bool done = bulk_assemble(&rig->mesh, &def->material, &rig->bulk, &err) &&
+    bool done = bulk_create(&rig->mesh, &rig->bulk, &err) &&
+                bulk_assemble(&rig->mesh, &def->material, &rig->bulk, &err) &&
                 mesh_boundary(&rig->mesh, "top", &top, &err);
     if (done) bulk_add_traction(&rig->mesh, &top, def->traction, &rig->bulk);
     done = done && interface_build(&rig->mesh, &interface, &rig->interface, &err) &&

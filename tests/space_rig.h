@@ -22,7 +22,8 @@ static inline void space_rig_build(const SpaceDef *shape, const RigDef *def,
                               .rod_name = "rod",
                               .rod_height = 0.5 * shape->size[2],
                               .rod_width = def->rod_width};
-    bool done = bulk_assemble(&rig->mesh, &material, &rig->bulk, &err) &&
+    bool done = bulk_create(&rig->mesh, &rig->bulk, &err) &&
+                bulk_assemble(&rig->mesh, &material, &rig->bulk, &err) &&
                 mesh_boundary(&rig->mesh, "top", &top, &err);
     if (done) bulk_add_traction(&rig->mesh, &top, traction, &rig->bulk);
     done = done && interface_build(&rig->mesh, &interface, &rig->interface, &err) &&

@@ -168,7 +168,7 @@ static bool place_names(const Page *page, const Chart *chart, Axes *axes, Box *n
 static bool draw_chart(const Page *page, Point corner, const Chart *chart, Error *err)
 {
     double point = page->point;
-    Axes axes = {.number_size = NUMBER_SIZE, .color = INK};
+    Axes axes = {.bare_x = false};
     fit_axis(chart, true, &axes.x);
     fit_axis(chart, false, &axes.y);
     double foot = axes_bottom_margin(&axes) + 4;

@@ -44,6 +44,16 @@ void axis_set_unit(Axis *axis, const char *name, const char *unit)
     snprintf(axis->label, sizeof axis->label, "%.70s (%s%.16s)", name, prefix[power + 3], unit);
 }
 
+double axes_number_size(const Axes *axes)
+{
+    return axes->small ? SMALL_SIZE : NUMBER_SIZE;
+}
+
+static Color frame_color(const Axes *axes)
+{
+    return axes->color.alpha > 0 ? axes->color : INK;
+}
+
 // y grows upwards in the data and downwards on the canvas.
 Point axes_place(const Axes *axes, double x, double y)
 {
@@ -60,7 +70,7 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
     char label[TICK_LABEL_SIZE];
     for (int32_t k = 0; k < ticks->count; ++k) {
         tick_label(ticks, k, label);
-        widest = fmax(widest, text_width(page->text, axes->number_size * page->point, label));
+        widest = fmax(widest, text_width(page->text, axes_number_size(axes) * page->point, label));
     }
     return widest;
 }
@@ -97,7 +107,7 @@ static Ticks ticks_along_x(const Page *page, const Axes *axes)
 static Ticks ticks_along_y(const Page *page, const Axes *axes)
 {
     double room = (axes->box.bottom - axes->box.top) / page->point;
-    int32_t wanted = (int32_t)(room / (2.4 * axes->number_size));
+    int32_t wanted = (int32_t)(room / (2.4 * axes_number_size(axes)));
     if (wanted > TICKS_Y_MAX) wanted = TICKS_Y_MAX;
     if (wanted < TICKS_MIN) wanted = TICKS_MIN;
     Ticks ticks = axis_ticks(&axes->y, wanted);
@@ -111,7 +121,7 @@ static Ticks ticks_along_y(const Page *page, const Axes *axes)
 static double left_width(const Page *page, const Axes *axes)
 {
     Ticks ticks = ticks_along_y(page, axes);
-    double widest = 0, size = axes->number_size * page->point;
+    double widest = 0, size = axes_number_size(axes) * page->point;
     if (!axes->y.names) return number_width(page, axes, &ticks);
     for (int32_t k = 0; k < axes->y.name_count; ++k)
         widest = fmax(widest, text_width(page->text, size, axes->y.names[k]));
@@ -130,30 +140,76 @@ double axes_bottom_margin(const Axes *axes)
 {
     double name = axes->x.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP : 0;
     if (axes->bare_x) return TICK_LENGTH;
-    return TICK_LENGTH + NUMBER_GAP + axes->number_size * text_digit_height() + name;
+    return TICK_LENGTH + NUMBER_GAP + axes_number_size(axes) * text_digit_height() + name;
 }
 
 // A power of ten stands above the axis and needs a line of its own.
 double axes_top_margin(const Axes *axes)
 {
     Ticks ticks = axis_ticks(&axes->y, TICKS_Y_MAX);
-    return ticks.exponent == 0 || axes->y.names ? axes->number_size * 0.6 : axes->number_size * 1.8;
+    double lines = ticks.exponent == 0 || axes->y.names ? 0.6 : 1.8;
+    return fmax(axes_number_size(axes) * lines, axes->above);
 }
+
+void axes_settle(const Page *page, Axes *axes)
+{
+    axes->box.left = fmax(axes->box.left, page->room.left + page->beside[0]);
+    axes->box.right = fmin(axes->box.right, page->room.right - page->beside[1]);
+    if (page->frame) *page->frame = axes->box;
+}
+
+void axes_fit(const Page *page, const Box *room, double right, Axes *axes)
+{
+    double point = page->point;
+    axes->box.top = round(room->top + axes_top_margin(axes) * point);
+    axes->box.bottom = round(room->bottom - axes_bottom_margin(axes) * point);
+    axes->box.left = round(room->left + axes_left_margin(page, axes) * point);
+    axes->box.right = round(room->right - right * point);
+    axes_settle(page, axes);
+}
+
+// --- inside --------------------------------------------------------------------------------------
+
+void axes_curve(const Page *page, const Axes *axes, const Stroke *stroke, const double *x,
+                const double *y, int64_t count)
+{
+    canvas_clip(page->canvas, &axes->box);
+    LinePen pen = line_begin(page->canvas, stroke);
+    for (int64_t k = 0; k < count; ++k) line_add(&pen, axes_place(axes, x[k], y[k]));
+    line_end(&pen);
+    canvas_clip(page->canvas, NULL);
+}
+
+Stroke dashed_stroke(const Page *page, Color color, double width)
+{
+    double point = page->point;
+    return (Stroke){color, width * point, 3 * point, 2 * point};
+}
+
+void axes_level(const Page *page, const Axes *axes, const Stroke *stroke, double y, double gap,
+                const char *name)
+{
+    Point from = axes_place(axes, axes->x.low, y), to = axes_place(axes, axes->x.high, y);
+    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
+    draw_segment(page->canvas, stroke, from, to);
+    if (name) text_draw(page->text, &style, (Point){to.x + gap * page->point, to.y}, name);
+}
+
+// --- around --------------------------------------------------------------------------------------
 
 // The power of ten that all numbers of an axis are to be multiplied by, where there is one.
 static void exponent_write(const Page *page, const TextStyle *style, Point place,
                            const Ticks *ticks)
 {
     char words[TICK_LABEL_SIZE];
-    if (ticks->exponent == 0) return;
-    snprintf(words, sizeof words, "\u00d710^{%d}", ticks->exponent);
+    ticks_power(ticks, words);
     text_draw(page->text, style, place, words);
 }
 
 // A tick from `foot` on the frame outwards: downwards, or else to the left.
 static void tick_mark(const Page *page, const Axes *axes, Point foot, bool below, double length)
 {
-    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
+    Stroke stroke = {.color = frame_color(axes), .width = FRAME_WIDTH * page->point};
     double out = length * page->point;
     Point end = {foot.x - (below ? 0 : out), foot.y + (below ? out : 0)};
     draw_segment(page->canvas, &stroke, foot, end);
@@ -186,7 +242,7 @@ static void draw_below(const Page *page, const Axes *axes)
 {
     Ticks ticks = ticks_along_x(page, axes);
     TextStyle style = {
-        .size = axes->number_size * page->point, .color = INK, .across = 0.5, .up = 1};
+        .size = axes_number_size(axes) * page->point, .color = INK, .across = 0.5, .up = 1};
     double line = axes->box.bottom + (TICK_LENGTH + NUMBER_GAP) * page->point;
     char label[TICK_LABEL_SIZE];
     minor_marks(page, axes, &ticks, true);
@@ -197,7 +253,7 @@ static void draw_below(const Page *page, const Axes *axes)
         if (!axes->bare_x) text_draw(page->text, &style, (Point){foot.x, line}, label);
     }
     if (axes->bare_x) return;
-    line += (axes->number_size * text_digit_height() + LABEL_GAP) * page->point;
+    line += (axes_number_size(axes) * text_digit_height() + LABEL_GAP) * page->point;
     style.across = 1;
     exponent_write(page, &style, (Point){axes->box.right, line}, &ticks);
     style.across = 0.5;
@@ -235,35 +291,28 @@ static void left_names(const Page *page, const Axes *axes, const TextStyle *styl
     }
 }
 
-static void draw_left(const Page *page, const Axes *axes)
+// With the frame, last: its line covers where ticks and data meet it.
+void axes_draw_left(const Page *page, const Axes *axes)
 {
+    Stroke stroke = {.color = frame_color(axes), .width = FRAME_WIDTH * page->point};
     TextStyle style = {
-        .size = axes->number_size * page->point, .color = INK, .across = 1, .up = 0.5};
+        .size = axes_number_size(axes) * page->point, .color = INK, .across = 1, .up = 0.5};
     double edge = axes->box.left - (TICK_LENGTH + NUMBER_GAP) * page->point;
     if (axes->y.names)
         left_names(page, axes, &style, edge);
     else
         left_numbers(page, axes, &style, edge);
-    if (!axes->y.label[0] || axes->bare_y) return;
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     edge -= left_width(page, axes) + LABEL_GAP * page->point;
-    text_draw(page->text, &style, (Point){edge, (axes->box.top + axes->box.bottom) / 2},
-              axes->y.label);
+    if (!axes->bare_y)
+        text_draw(page->text, &style, (Point){edge, (axes->box.top + axes->box.bottom) / 2},
+                  axes->y.label);
+    draw_outline(page->canvas, &stroke, &axes->box);
 }
 
-// The frame last: its line covers where ticks and data meet it.
 void axes_draw(const Page *page, const Axes *axes)
 {
-    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
     draw_below(page, axes);
-    draw_left(page, axes);
-    draw_outline(page->canvas, &stroke, &axes->box);
-}
-
-void axes_draw_left(const Page *page, const Axes *axes)
-{
-    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
-    draw_left(page, axes);
-    draw_outline(page->canvas, &stroke, &axes->box);
+    axes_draw_left(page, axes);
 }

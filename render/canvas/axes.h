@@ -21,9 +21,10 @@ typedef struct Axis {
 typedef struct Axes {
     Box box;   // the frame, whole pixels
     Axis x, y;
-    double number_size;   // points: numbers at ticks
-    Color color;   // of the frame
+    bool small;   // numbers are those of an inset
+    Color color;   // of the frame; zeroed: ink
     bool bare_x, bare_y;   // ticks without numbers and name: another frame has them
+    double above;   // points above the frame that something else needs
 } Axes;
 
 // Writes "name (unit)" into the label, with the prefix that makes the numbers from low to high
@@ -36,10 +37,26 @@ Ticks axis_ticks(const Axis *axis, int32_t wanted);
 // Where (x, y) of the data lies on the picture.
 Point axes_place(const Axes *axes, double x, double y);
 
-// Points to the left of the frame that numbers and name of `y` take.
+double axes_number_size(const Axes *axes);   // points: of numbers at ticks
+// Points to the left of the frame that numbers and name of `y` take; how many these are its height
+// says.
 double axes_left_margin(const Page *page, const Axes *axes);
 double axes_bottom_margin(const Axes *axes);   // likewise below, for `x`
 double axes_top_margin(const Axes *axes);   // likewise above: half a number, a power of ten
+
+// The frame in `room`, less what stands around it, `right` points at its right; tells whoever asks
+// where it lies, with the margins that it must have at least.
+void axes_fit(const Page *page, const Box *room, double right, Axes *axes);
+// The same frame, where it has been moved.
+void axes_settle(const Page *page, Axes *axes);
+
+// What both of these draw is cut off at the frame but for the name.
+void axes_curve(const Page *page, const Axes *axes, const Stroke *stroke, const double *x,
+                const double *y, int64_t count);
+// A line across the frame at y, its name `gap` points behind it; NULL: no name.
+void axes_level(const Page *page, const Axes *axes, const Stroke *stroke, double y, double gap,
+                const char *name);
+Stroke dashed_stroke(const Page *page, Color color, double width);   // width: points
 
 // Frame, ticks (outwards, left and below), numbers and names. Draw it after the data.
 void axes_draw(const Page *page, const Axes *axes);

@@ -40,9 +40,8 @@ static bool bytes_add(void *self, const uint8_t *bytes, size_t length)
     Canvas *canvas = self;
     int64_t size = canvas->size + (int64_t)length;
     if (size > canvas->room) {
-        char *longer = memory_resize(canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure);
-        if (!longer) return false;
-        canvas->bytes = longer;
+        if (!memory_resize(&canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure))
+            return false;
         canvas->room = 2 * size;
     }
     memcpy(canvas->bytes + canvas->size, bytes, length);
@@ -113,9 +112,7 @@ void canvas_destroy(Canvas *canvas)
     if (!canvas) return;
     cairo_destroy(canvas->cairo);   // NULL is fine, here and below
     cairo_surface_destroy(canvas->surface);
-    memory_free(canvas->pixels);
-    memory_free(canvas->bytes);
-    memory_free(canvas);
+    memory_free_all(canvas->pixels, canvas->bytes, canvas);
 }
 
 int32_t canvas_width(const Canvas *canvas)
@@ -126,11 +123,6 @@ int32_t canvas_width(const Canvas *canvas)
 int32_t canvas_height(const Canvas *canvas)
 {
     return canvas->def.height;
-}
-
-Error *canvas_failure(Canvas *canvas)
-{
-    return &canvas->failure;
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -160,16 +152,40 @@ static uint32_t opaque_pixel(uint8_t red, uint8_t green, uint8_t blue)
     return 0xff000000u | (uint32_t)red << 16 | (uint32_t)green << 8 | blue;
 }
 
-void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
+static void map_fill(Canvas *canvas)
 {
+    uint8_t colors[3 * MAP_SIZE];
+    color_map_fill(colors);
     for (int32_t k = 0; k < MAP_SIZE; ++k) {
         const uint8_t *color = colors + 3 * (canvas->def.dark ? MAP_SIZE - 1 - k : k);
         canvas->map[k] = opaque_pixel(color[0], color[1], color[2]);
     }
+}
+
+void canvas_set_below(Canvas *canvas, Color below)
+{
     if (canvas->def.dark) below = color_on_dark(below);
     canvas->below = opaque_pixel((uint8_t)lroundf(255 * below.red),
                                  (uint8_t)lroundf(255 * below.green),
                                  (uint8_t)lroundf(255 * below.blue));
+}
+
+// Exact pixels: no filter, and no edge that mixes with the paper.
+static void place_image(Canvas *canvas, const Box *box, cairo_surface_t *image)
+{
+    cairo_t *cairo = canvas->cairo;
+    double width = box->right - box->left, height = box->bottom - box->top;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, box->left, box->top, width, height);
+    cairo_translate(cairo, box->left, box->top);
+    cairo_scale(cairo, width / cairo_image_surface_get_width(image),
+                height / cairo_image_surface_get_height(image));
+    cairo_set_source_surface(cairo, image, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+    if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
+        cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+    cairo_fill(cairo);
+    cairo_restore(cairo);
 }
 
 // Where in a PNG the pixels of `box` begin, if they are whole ones and all are drawn.
@@ -227,6 +243,7 @@ static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted
     GlImageDef def = *wanted;
     Error *err = &canvas->failure;
     cairo_surface_t *image = NULL;
+    if (!canvas->map[0]) map_fill(canvas);   // opaque pixels are not 0
     def.colors = canvas->map;
     def.color_count = MAP_SIZE;
     def.below = canvas->below;
@@ -243,7 +260,7 @@ static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted
     }
     TRY(map ? rows_draw(&def, map, pixels, err) : gl_image_draw(GL_OSMESA, &def, pixels, err));
     cairo_surface_mark_dirty(on_page ? canvas->surface : image);
-    if (!on_page) canvas_image(canvas, box, image);
+    if (!on_page) place_image(canvas, box, image);
 cleanup:
     cairo_surface_destroy(image);
 }
@@ -281,6 +298,7 @@ void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 {
     static const double over = 0.04;   // points
     int32_t entry = (int32_t)lroundf(fminf(fmaxf(value, 0), 1) * (MAP_SIZE - 1));
+    if (!canvas->map[0]) map_fill(canvas);
     uint32_t pixel = value < 0 ? canvas->below : canvas->map[entry];
     double more = canvas_is_vector(canvas) ? over * canvas->def.dpi / POINTS_AN_INCH : 0;
     cairo_set_source_rgb(canvas->cairo, (pixel >> 16 & 255) / 255.0, (pixel >> 8 & 255) / 255.0,
@@ -288,24 +306,6 @@ void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
     cairo_rectangle(canvas->cairo, box->left, box->top, box->right - box->left + more,
                     box->bottom - box->top + more);
     cairo_fill(canvas->cairo);
-}
-
-// Exact pixels: no filter, and no edge that mixes with the paper.
-void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image)
-{
-    cairo_t *cairo = canvas->cairo;
-    double width = box->right - box->left, height = box->bottom - box->top;
-    cairo_save(cairo);
-    cairo_rectangle(cairo, box->left, box->top, width, height);
-    cairo_translate(cairo, box->left, box->top);
-    cairo_scale(cairo, width / cairo_image_surface_get_width(image),
-                height / cairo_image_surface_get_height(image));
-    cairo_set_source_surface(cairo, image, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
-    if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
-        cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
-    cairo_fill(cairo);
-    cairo_restore(cairo);
 }
 
 // --- end -----------------------------------------------------------------------------------------
@@ -319,32 +319,9 @@ static bool canvas_check(Canvas *canvas, Error *err)
         return false;
     }
     if (status)
-        FAIL(err, status == CAIRO_STATUS_NO_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
-             "Cairo cannot draw: %s", cairo_status_to_string(status));
-cleanup:
-    return error_is_clean(err);
-}
-
-bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err)
-{
-    int64_t width = canvas->def.width, height = canvas->def.height;
-    *pixels = NULL;
-    TRY(canvas_check(canvas, err));
-    TRY(*pixels = memory_bytes(3 * width * height, err));
-    cairo_surface_flush(canvas->surface);
-    const uint8_t *line = cairo_image_surface_get_data(canvas->surface);
-    uint8_t *to = *pixels;
-    for (int64_t row = 0; row < height; ++row) {
-        const uint32_t *pixel = (const uint32_t *)(const void *)line;
-        for (int64_t k = 0; k < width; ++k, to += 3) {
-            to[0] = (uint8_t)(pixel[k] >> 16);
-            to[1] = (uint8_t)(pixel[k] >> 8);
-            to[2] = (uint8_t)pixel[k];
-        }
-        line += cairo_image_surface_get_stride(canvas->surface);
-    }
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, status == CAIRO_STATUS_NO_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+                     "Cairo cannot draw: %s", cairo_status_to_string(status));
+    return true;
 }
 
 const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err)

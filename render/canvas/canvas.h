@@ -27,7 +27,7 @@ typedef struct Box {
 // Values that the colour map has no colour for.
 typedef enum HeatLevel {
     HEAT_MISSING = -2,   // no data: the background shows
-    HEAT_BELOW = -1   // below the range: the neutral colour of canvas_set_map
+    HEAT_BELOW = -1   // below the range: the neutral colour of canvas_set_below
 } HeatLevel;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_PDF, CANVAS_SVG, CANVAS_FORMATS } CanvasFormat;
@@ -54,9 +54,9 @@ cairo_t *canvas_ink(Canvas *canvas, Color color);
 // From here on only what lies in `box` is drawn; NULL: everywhere.
 void canvas_clip(Canvas *canvas, const Box *box);
 
-// Colours of maps: [MAP_SIZE * 3] bytes from value 0 to value 1, and the one for HEAT_BELOW. On
-// dark paper the order is turned round: much is bright there.
-void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below);
+// The colour for HEAT_BELOW; all other values have those of the colour map (color.h). On dark paper
+// its order is turned round: much is bright there.
+void canvas_set_below(Canvas *canvas, Color below);
 
 // Values in rows and columns, 0 to 1 through the colour map (larger: as 1), or a HeatLevel.
 typedef struct HeatMap {
@@ -78,18 +78,9 @@ void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corne
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 
-// Fills `box` with an image, pixel by pixel.
-void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image);
-
-// Where drawing code leaves what went wrong; the first one stays.
-Error *canvas_failure(Canvas *canvas);
-
-// What is drawn so far: *pixels [height * width * 3] bytes, first row at the top, owned by the
-// caller (memory_free). Only of CANVAS_PNG.
-bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err);
-
-// The pixels themselves, until the next call that draws: four bytes each, blue, green, red, unused,
-// *stride bytes from row to row. NULL: something went wrong. Only of CANVAS_PNG.
+// What is drawn so far, until the next call that draws: pixels of four bytes (blue, green, red,
+// unused), first row at the top, *stride bytes from row to row. NULL: something went wrong. Only of
+// CANVAS_PNG.
 const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err);
 
 // All that is drawn on `from` so far, in place of what is on `canvas`: both CANVAS_PNG, equally

@@ -113,12 +113,10 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
         bar_label(bar, &ticks, k, label);
         text_draw(page->text, &style, (Point){out + NUMBER_GAP * page->point, y}, label);
     }
-    if (ticks.exponent != 0 && !bar->powers) {
-        snprintf(label, sizeof label, "\u00d710^{%d}", ticks.exponent);
-        style.up = 0;
-        text_draw(page->text, &style, (Point){colors->left, colors->top - POWER_GAP * page->point},
-                  label);
-    }
+    ticks_power(&ticks, label);   // of powers none
+    style.up = 0;
+    text_draw(page->text, &style, (Point){colors->left, colors->top - POWER_GAP * page->point},
+              label);
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     style.up = 1;
@@ -132,11 +130,12 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
 }
 
 // The same colour map as the picture's, sampled along the bar, so the two cannot differ.
-void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box)
+void colorbar_draw(const Page *page, const Colorbar *bar, const Box *frame, double gap)
 {
     Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
-    Box colors = *box, patch;
+    Box colors = *frame, patch;
     float values[MAP_SIZE];
+    colors.left = round(frame->right + gap * page->point);
     colors.right = round(colors.left + BAR_WIDTH * page->point);
     if (bar->neutral) {
         patch = colors;

@@ -29,7 +29,7 @@ float colorbar_level(const Colorbar *bar, double value);
 // Points to the right of the bar's left edge that it takes.
 double colorbar_width(const Page *page, const Colorbar *bar);
 
-// Draws the bar into `box` (its colours; ticks go to the right); uses the canvas's colour map.
-void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box);
+// Draws the bar `gap` points right of a frame, as high as that; uses the canvas's colour map.
+void colorbar_draw(const Page *page, const Colorbar *bar, const Box *frame, double gap);
 
 #endif

@@ -46,27 +46,39 @@ static cairo_t *stroke_begin(Canvas *canvas, const Stroke *stroke, cairo_line_ca
     return cairo;
 }
 
-static bool point_is_finite(Point point)
+LinePen line_begin(Canvas *canvas, const Stroke *stroke)
 {
-    return isfinite(point.x) && isfinite(point.y);
+    return (LinePen){.cairo = stroke_begin(canvas, stroke, CAIRO_LINE_CAP_ROUND),
+                     .dashed = stroke->dash > 0};
 }
 
 // A point alone becomes a dot. Dashes are not cut into pieces: each would begin anew.
+void line_add(LinePen *pen, Point point)
+{
+    bool shown = isfinite(point.x) && isfinite(point.y);
+    if (shown && pen->down && hypot(point.x - pen->last.x, point.y - pen->last.y) < pen->thin)
+        return;
+    if (shown && !pen->down) cairo_move_to(pen->cairo, point.x, point.y);
+    pen->down = shown;
+    if (!shown) return;
+    pen->last = point;
+    cairo_line_to(pen->cairo, point.x, point.y);
+    if (++pen->in_piece < PIECE || pen->dashed) return;
+    cairo_stroke(pen->cairo);
+    cairo_move_to(pen->cairo, point.x, point.y);
+    pen->in_piece = 0;
+}
+
+void line_end(LinePen *pen)
+{
+    cairo_stroke(pen->cairo);
+}
+
 void draw_line(Canvas *canvas, const Stroke *stroke, const Point *points, int64_t count)
 {
-    cairo_t *cairo = stroke_begin(canvas, stroke, CAIRO_LINE_CAP_ROUND);
-    int64_t in_piece = 0;
-    for (int64_t k = 0; k < count; ++k) {
-        if (!point_is_finite(points[k])) continue;
-        if (k == 0 || !point_is_finite(points[k - 1]))
-            cairo_move_to(cairo, points[k].x, points[k].y);
-        cairo_line_to(cairo, points[k].x, points[k].y);
-        if (++in_piece < PIECE || stroke->dash > 0) continue;
-        cairo_stroke(cairo);
-        cairo_move_to(cairo, points[k].x, points[k].y);
-        in_piece = 0;
-    }
-    cairo_stroke(cairo);
+    LinePen pen = line_begin(canvas, stroke);
+    for (int64_t k = 0; k < count; ++k) line_add(&pen, points[k]);
+    line_end(&pen);
 }
 
 void draw_segment(Canvas *canvas, const Stroke *stroke, Point from, Point to)

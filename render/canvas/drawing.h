@@ -11,7 +11,21 @@ typedef struct Stroke {
     double dash, space;   // lengths along the line, pixels; dash 0: solid
 } Stroke;
 
-// Through [count] points, joined and ended round; a point that is not finite breaks the line.
+// A line that is drawn as its points come, joined and ended round; a point that is not finite
+// breaks it.
+typedef struct LinePen {
+    cairo_t *cairo;
+    bool dashed, down;   // down: the line goes on from `last`
+    int32_t in_piece;   // points of it so far
+    double
+        thin;   // a point nearer than this to the one before adds nothing, pixels; 0: all are drawn
+    Point last;
+} LinePen;
+LinePen line_begin(Canvas *canvas, const Stroke *stroke);
+void line_add(LinePen *pen, Point point);
+void line_end(LinePen *pen);
+
+// The same through [count] points.
 void draw_line(Canvas *canvas, const Stroke *stroke, const Point *points, int64_t count);
 void draw_segment(Canvas *canvas, const Stroke *stroke, Point from, Point to);
 void draw_outline(Canvas *canvas, const Stroke *stroke, const Box *box);   // corners square

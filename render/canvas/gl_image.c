@@ -93,79 +93,68 @@ static pthread_mutex_t drawing = PTHREAD_MUTEX_INITIALIZER;
 
 // --- a context -----------------------------------------------------------------------------------
 
-// POSIX: a function from an object's address.
-static bool find_in(void *library, const char *name, void *function, size_t size, Error *err)
-{
-    void *address = dlsym(library, name);
-    if (!address) FAIL(err, ERROR_LIBRARY, "%s", dlerror());
-    memcpy(function, &address, size);
-cleanup:
-    return error_is_clean(err);
-}
-#define FIND(name, function)                                                                       \
-    TRY(find_in(context->library, name, &(function), sizeof(function), err))
+typedef struct Symbol {
+    const char *name;
+    void *function;   // where a pointer to it is to stand
+} Symbol;
 
-static bool library_open(GlContext *context, const char *name, Error *err)
+// symbols: without a name at the end. POSIX: a function from an object's address.
+static bool library_open(GlContext *context, const char *name, const Symbol *symbols, Error *err)
 {
     context->library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-    if (!context->library) FAIL(err, ERROR_LIBRARY, "%s", dlerror());
-cleanup:
-    return error_is_clean(err);
+    if (!context->library) return FAULT(err, ERROR_LIBRARY, "%s", dlerror());
+    for (; symbols->name; ++symbols) {
+        void *address = dlsym(context->library, symbols->name);
+        if (!address) return FAULT(err, ERROR_LIBRARY, "%s", dlerror());
+        memcpy(symbols->function, &address, sizeof address);
+    }
+    return true;
 }
 
 // 3.3 core is what the shaders need; a driver may give a later version.
 static bool mesa_open(GlContext *context, Error *err)
 {
-    static const int wanted[] = {OSMESA_FORMAT,
-                                 OSMESA_RGBA,
-                                 OSMESA_DEPTH_BITS,
-                                 0,
-                                 OSMESA_PROFILE,
-                                 OSMESA_CORE_PROFILE,
-                                 OSMESA_CONTEXT_MAJOR_VERSION,
-                                 3,
-                                 OSMESA_CONTEXT_MINOR_VERSION,
-                                 3,
-                                 0};
+    static const int wanted[][2] = {
+        {OSMESA_FORMAT, OSMESA_RGBA},          {OSMESA_DEPTH_BITS, 0},
+        {OSMESA_PROFILE, OSMESA_CORE_PROFILE}, {OSMESA_CONTEXT_MAJOR_VERSION, 3},
+        {OSMESA_CONTEXT_MINOR_VERSION, 3},     {0}};
     OSMesaContext (*create)(const int *, OSMesaContext) = NULL;
-    TRY(library_open(context, "libOSMesa.so.8", err));
-    FIND("OSMesaGetProcAddress", context->find);
-    FIND("OSMesaMakeCurrent", context->mesa_use);
-    FIND("OSMesaCreateContextAttribs", create);
-    context->mesa = create(wanted, NULL);
-    if (!context->mesa) FAIL(err, ERROR_LIBRARY, "OSMesa gives no OpenGL 3.3 core context");
-cleanup:
-    return error_is_clean(err);
+    const Symbol symbols[] = {{"OSMesaGetProcAddress", &context->find},
+                              {"OSMesaMakeCurrent", &context->mesa_use},
+                              {"OSMesaCreateContextAttribs", &create},
+                              {0}};
+    if (!library_open(context, "libOSMesa.so.8", symbols, err)) return false;
+    context->mesa = create(wanted[0], NULL);
+    if (!context->mesa) return FAULT(err, ERROR_LIBRARY, "OSMesa gives no OpenGL 3.3 core context");
+    return true;
 }
 
 static bool egl_open(GlContext *context, Error *err)
 {
-    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    3,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    3,
-                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                    EGL_NONE};
+    static const EGLint wanted[][2] = {
+        {EGL_CONTEXT_MAJOR_VERSION, 3},
+        {EGL_CONTEXT_MINOR_VERSION, 3},
+        {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT},
+        {EGL_NONE}};
     EGLDisplay (*display)(EGLenum, void *, const EGLAttrib *) = NULL;
     EGLBoolean (*begin)(EGLDisplay, EGLint *, EGLint *) = NULL, (*bind)(EGLenum) = NULL;
     EGLContext (*create)(EGLDisplay, EGLConfig, EGLContext, const EGLint *) = NULL;
-    TRY(library_open(context, "libEGL.so.1", err));
-    FIND("eglGetProcAddress", context->find);
-    FIND("eglMakeCurrent", context->egl_use);
-    FIND("eglGetPlatformDisplay", display);
-    FIND("eglInitialize", begin);
-    FIND("eglBindAPI", bind);
-    FIND("eglCreateContext", create);
+    const Symbol symbols[] = {{"eglGetProcAddress", &context->find},
+                              {"eglMakeCurrent", &context->egl_use},
+                              {"eglGetPlatformDisplay", &display},
+                              {"eglInitialize", &begin},
+                              {"eglBindAPI", &bind},
+                              {"eglCreateContext", &create},
+                              {0}};
+    if (!library_open(context, "libEGL.so.1", symbols, err)) return false;
     context->display = display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     if (context->display == EGL_NO_DISPLAY || !begin(context->display, NULL, NULL) ||
         !bind(EGL_OPENGL_API))
-        FAIL(err, ERROR_LIBRARY, "EGL draws nothing without a surface here");
-    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+        return FAULT(err, ERROR_LIBRARY, "EGL draws nothing without a surface here");
+    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted[0]);
     if (context->egl == EGL_NO_CONTEXT)
-        FAIL(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
+    return true;
 }
 
 // Makes the context this thread's, or nobody's.
@@ -237,12 +226,11 @@ static bool program_use(Gl *gl, GlKind kind, Error *err)
         gl->LinkProgram(program);
         gl->GetProgramiv(program, GL_LINK_STATUS, &done);
         gl->GetProgramInfoLog(program, sizeof said, NULL, said);
-        if (!done) FAIL(err, ERROR_LIBRARY, "OpenGL does not take the shaders: %s", said);
+        if (!done) return FAULT(err, ERROR_LIBRARY, "OpenGL does not take the shaders: %s", said);
         gl->program[kind] = program;
     }
     gl->UseProgram(program);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // One vertex buffer, a texture a unit, a frame buffer; all stay bound.
@@ -271,25 +259,24 @@ static bool calls_find(Gl *gl, Error *err)
 {
 #define X(type, name, arguments)                                                                   \
     gl->name = (type(*) arguments)gl->context.find("gl" #name);                                    \
-    if (!gl->name) FAIL(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
+    if (!gl->name) return FAULT(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
     GL_CALLS(X)
 #undef X
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool gl_open(Gl *gl, GlSource source, Error *err)
 {
-    TRY(source == GL_OSMESA ? mesa_open(&gl->context, err) : egl_open(&gl->context, err));
+    if (!(source == GL_OSMESA ? mesa_open(&gl->context, err) : egl_open(&gl->context, err)))
+        return false;
     if (!context_use(&gl->context, true))
-        FAIL(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
-    TRY(calls_find(gl, err));
+        return FAULT(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
+    if (!calls_find(gl, err)) return false;
     buffers_create(gl);
     gl->ready = true;
     gl->process = getpid();
     context_use(&gl->context, false);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- an image ------------------------------------------------------------------------------------
@@ -300,9 +287,9 @@ static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pix
     GLint most = 0, columns = def->values ? def->columns : 1, rows = def->values ? def->rows : 1;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (def->width > most || def->height > most || columns > most || rows > most)
-        FAIL(err, ERROR_LIBRARY,
-             "OpenGL draws at most %d by %d pixels or values, not %d by %d of %d by %d", most, most,
-             def->width, def->height, columns, rows);
+        return FAULT(err, ERROR_LIBRARY,
+                     "OpenGL draws at most %d by %d pixels or values, not %d by %d of %d by %d",
+                     most, most, def->width, def->height, columns, rows);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_TARGET);
     gl->PixelStorei(GL_UNPACK_ROW_LENGTH, def->stride);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->width, def->height, 0, GL_RED_INTEGER,
@@ -312,11 +299,10 @@ static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pix
                              gl->texture[UNIT_TARGET], 0);
     // What cannot be had leaves the texture before.
     if (gl->GetError() || gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        FAIL(err, ERROR_LIBRARY, "OpenGL gives no image of %d by %d pixels", def->width,
-             def->height);
+        return FAULT(err, ERROR_LIBRARY, "OpenGL gives no image of %d by %d pixels", def->width,
+                     def->height);
     gl->Viewport(0, 0, def->width, def->height);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void corners_draw(const Gl *gl, const GlCorner *corners, int64_t count)
@@ -348,8 +334,7 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
     GLenum status = GL_NO_ERROR;
     GlKind kind = def->values ? BY_VALUES : BY_CORNERS;
     const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
-    TRY(target_make(gl, def, pixels, err));
-    TRY(program_use(gl, kind, err));
+    if (!target_make(gl, def, pixels, err) || !program_use(gl, kind, err)) return false;
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
                    GL_UNSIGNED_INT, def->colors);
@@ -366,10 +351,9 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
     gl->ReadPixels(0, 0, def->width, def->height, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels);
     status = gl->GetError();
     if (status)
-        FAIL(err, status == GL_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
-             "OpenGL fails to draw (0x%x)", status);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, status == GL_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+                     "OpenGL fails to draw (0x%x)", status);
+    return true;
 }
 
 // The first source that works, from `first` on; why none does, by each of them. In a process that
@@ -385,9 +369,9 @@ static Gl *gl_choose(GlSource first, Error *err)
         if (gl->ready && gl->process == getpid()) return gl;
         said[source] = gl->ready ? "in use before this process was forked" : gl->failure.message;
     }
-    FAIL(err, ERROR_LIBRARY, "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s",
-         said[GL_OSMESA], said[GL_EGL]);
-cleanup:
+    error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
+              "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s", said[GL_OSMESA],
+              said[GL_EGL]);
     return NULL;
 }
 

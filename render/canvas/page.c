@@ -29,10 +29,9 @@ bool page_style_of_name(const char *path, PictureStyle *style, Error *err)
     const char *dot = strrchr(path, '.');
     CanvasFormat format = CANVAS_PNG;
     if (!dot || !find_format(dot + 1, &format))
-        FAIL(err, ERROR_INPUT, "%s: the name of a picture ends in .png, .pdf or .svg", path);
+        return REFUSE(err, "%s: the name of a picture ends in .png, .pdf or .svg", path);
     style->format = canvas_ending(format);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // What a picture is for: its width, how much larger letters and lines are, dots.
@@ -61,11 +60,6 @@ double page_width(const PictureStyle *style)
     return purpose.width / purpose.scale / INCH * POINTS_AN_INCH;
 }
 
-double page_height(const PictureStyle *style)
-{
-    return style->height / find_purpose(style).scale / INCH * POINTS_AN_INCH;
-}
-
 double page_shape(const PictureStyle *style, double shape)
 {
     Purpose purpose = find_purpose(style);
@@ -77,13 +71,6 @@ const char *page_title(const PictureStyle *style, const char *own, bool by_defau
     if (!style->title) return by_default && own ? own : "";
     if (strcmp(style->title, "none") == 0) return "";
     return strcmp(style->title, "scene") == 0 && own ? own : style->title;
-}
-
-void page_place_frame(const Page *page, Box *frame)
-{
-    frame->left = fmax(frame->left, page->room.left + page->beside[0]);
-    frame->right = fmin(frame->right, page->room.right - page->beside[1]);
-    if (page->frame) *page->frame = *frame;
 }
 
 // A long one gets smaller, and ends in dots where that is not enough.
@@ -116,15 +103,14 @@ bool page_begin(Page *page, const PageDef *page_def, Error *err)
     double height = round(fmin(width * page_def->height, INT32_MAX / 2)) + head + foot;
     if (style->height > 0) height = round(style->height / INCH * def.dpi);
     if (style->format && !find_format(style->format, &def.format))
-        FAIL(err, ERROR_INPUT, "there is no format \"%s\"; known are png, pdf, svg", style->format);
+        return REFUSE(err, "there is no format \"%s\"; known are png, pdf, svg", style->format);
     def.width = (int32_t)lround(fmin(width, INT32_MAX));
     def.height = (int32_t)fmin(height, INT32_MAX);
     page->room = (Box){0, head, def.width, def.height - foot};
-    TRY(page->canvas = canvas_create(&def, err));
-    TRY(page->text = text_create(page->canvas, err));
+    if (!(page->canvas = canvas_create(&def, err))) return false;
+    if (!(page->text = text_create(page->canvas, err))) return false;
     if (head > 0) title_draw(page, title);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool page_finish(Page *page, const char *path, const char *title, Error *err)

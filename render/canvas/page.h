@@ -29,9 +29,8 @@ typedef struct PageDef {
     double foot;   // points below the figure
 } PageDef;
 
-// Points in the width of a page of this style; also its height, where that is asked, else 0.
+// Points in the width of a page of this style.
 double page_width(const PictureStyle *style);
-double page_height(const PictureStyle *style);
 
 // Of a figure that may have any shape: `shape`, its height over its width, on a column; of a wider
 // page less, as nobody has a curve twice as high because it is twice as wide.
@@ -39,9 +38,6 @@ double page_shape(const PictureStyle *style, double shape);
 
 // The words above a figure whose own title this is: what the style asks for; "": none.
 const char *page_title(const PictureStyle *style, const char *own, bool by_default);
-
-// Tells whoever asks where the frame lies, with the margins that it must have at least.
-void page_place_frame(const Page *page, Box *frame);
 
 // A page that is empty but for its title. ERROR_INPUT: a format there is none of, or a size beyond
 // what canvas allows.

@@ -93,8 +93,7 @@ bool palette_make(const PalettePixels *picture, Palette *palette, Error *err)
         for (int32_t k = 0; k < picture->width; ++k) index[k] = of_bin[bin_of(line + 4 * k)];
     }
 cleanup:
-    memory_free(bins);
-    memory_free(of_bin);
+    memory_free_all(bins, of_bin);
     if (!error_is_clean(err)) palette_destroy(palette);
     return error_is_clean(err);
 }

@@ -81,9 +81,8 @@ static void write_text(HtmlWriter *html, const char *attributes, double x, doubl
 static void write_exponent(HtmlWriter *html, const Ticks *ticks, double x, double y)
 {
     char words[TICK_LABEL_SIZE];
-    if (ticks->exponent == 0) return;
-    snprintf(words, sizeof words, "\u00d710^{%d}", ticks->exponent);
-    write_text(html, "class='number'", x, y, words);
+    ticks_power(ticks, words);
+    if (words[0]) write_text(html, "class='number'", x, y, words);
 }
 
 static void write_x(HtmlWriter *html, const Axes *axes, bool with_words)

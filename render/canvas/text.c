@@ -4,6 +4,7 @@
 #include "render/canvas/text.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <cairo-ft.h>
 
@@ -127,21 +128,6 @@ double text_digit_height(void)
     return DIGIT_HEIGHT;
 }
 
-// Bytes of the UTF-8 letter at `words`; 0: they are none.
-static size_t letter_length(const char *words)
-{
-    const unsigned char *byte = (const unsigned char *)words;
-    size_t length = byte[0] >= 0xf0 ? 4 : byte[0] >= 0xe0 ? 3 : byte[0] >= 0xc0 ? 2 : 1;
-    bool lead = byte[0] < 0x80 || (byte[0] >= 0xc2 && byte[0] <= 0xf4);
-    for (size_t k = 1; k < length; ++k)
-        if ((byte[k] & 0xc0) != 0x80) return 0;
-    bool wide = length < 3 || byte[0] != 0xe0 || byte[1] >= 0xa0;   // else written too long
-    bool paired = byte[0] == 0xed && byte[1] >= 0xa0;   // half a UTF-16 pair
-    bool beyond = length == 4 &&
-                  ((byte[0] == 0xf0 && byte[1] < 0x90) || (byte[0] == 0xf4 && byte[1] >= 0x90));
-    return lead && wide && !paired && !beyond ? length : 0;
-}
-
 // Draws, or only measures, the letters that wait.
 static void run_end(Line *line, const Pen *pen)
 {
@@ -198,7 +184,7 @@ static void line_walk(Line *line, double size, const char *words)
             run_end(line, &pen[depth--]);
             ++words;
         } else {
-            size_t length = letter_length(words);
+            size_t length = (size_t)text_utf8_length(words);
             bool minus = *words == '-' && pen[depth].raised;
             const char *letter = minus ? MINUS : length ? words : REPLACEMENT;
             letter_add(line, &pen[depth], letter, letter == words ? length : strlen(letter));
@@ -237,4 +223,12 @@ void text_draw(Text *text, const TextStyle *style, Point place, const char *word
     if (style->rising) cairo_rotate(line.cairo, -PI / 2);
     line_walk(&line, style->size, words);
     cairo_restore(line.cairo);
+}
+
+void text_draw_within(Text *text, const TextStyle *style, Point place, double room,
+                      const char *words)
+{
+    TextStyle fitting = *style;
+    fitting.size *= fmin(1, room / text_width(text, style->size, words));
+    text_draw(text, &fitting, place, words);
 }

@@ -24,9 +24,12 @@ typedef struct TextStyle {
 Text *text_create(Canvas *canvas, Error *err);
 void text_destroy(Text *text);   // NULL is fine
 
-// Pixels along the line. A bad font is reported by canvas_read.
+// Pixels along the line. A bad font is reported by canvas_write.
 double text_width(Text *text, double size, const char *words);
 void text_draw(Text *text, const TextStyle *style, Point place, const char *words);
+// As much smaller as it must be to be no wider than `room`, pixels.
+void text_draw_within(Text *text, const TextStyle *style, Point place, double room,
+                      const char *words);
 
 // Height of the digits over the font's size.
 double text_digit_height(void);

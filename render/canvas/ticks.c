@@ -122,3 +122,8 @@ void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
     const char *sign = ticks->first + k < 0 ? "\u2212" : "";
     snprintf(label, TICK_LABEL_SIZE, "%s%.*f", sign, ticks->decimals, fabs(value));
 }
+
+void ticks_power(const Ticks *ticks, char words[TICK_LABEL_SIZE])
+{
+    snprintf(words, TICK_LABEL_SIZE, ticks->exponent ? "\u00d710^{%d}" : "", ticks->exponent);
+}

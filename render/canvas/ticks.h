@@ -36,5 +36,7 @@ double ticks_minor_log(const Ticks *ticks, int32_t k);
 double tick_value(const Ticks *ticks, int32_t k);
 // "0.25", "−3", "10^{-3}", "2×10^{-5}": without the power of ten, minus sign U+2212.
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE]);
+// "×10^{-4}", by which all labels are to be multiplied; "": by nothing.
+void ticks_power(const Ticks *ticks, char words[TICK_LABEL_SIZE]);
 
 #endif

@@ -181,11 +181,9 @@ static bool fill_add(void *context, const Corner corner[3])
     Fill *fill = context;
     for (int32_t k = 0; k < 3; ++k)
         if (!isfinite(corner[k].at.x + corner[k].at.y + corner[k].value)) return true;
-    GlCorner *longer =
-        memory_grow(fill->corners, fill->count, &fill->room, 3 * sizeof(GlCorner), fill->err);
-    if (!longer) return false;
-    fill->corners = longer;
-    GlCorner *to = longer + 3 * (int64_t)fill->count++;
+    if (!memory_grow(&fill->corners, fill->count, &fill->room, 3 * sizeof(GlCorner), fill->err))
+        return false;
+    GlCorner *to = fill->corners + 3 * (int64_t)fill->count++;
     for (int32_t k = 0; k < 3; ++k)
         to[k] = (GlCorner){(float)(corner[k].at.x - fill->box->left),
                            (float)(corner[k].at.y - fill->box->top),
@@ -205,51 +203,32 @@ bool block_colors_draw(Canvas *canvas, const Block *block, const Axes *axes, dou
 
 // --- lines ---------------------------------------------------------------------------------------
 
-// Pieces of lines, three points each, the third one not finite: it ends the piece.
-typedef struct Pieces {
+typedef struct Contour {
     double level;
-    Point *points;   // [3 * count] owned
-    int32_t count, room;
-    Error *err;
-} Pieces;
-
-static bool pieces_add(Pieces *pieces, Point from, Point to)
-{
-    Point *longer =
-        memory_grow(pieces->points, pieces->count, &pieces->room, 3 * sizeof(Point), pieces->err);
-    if (!longer) return false;
-    pieces->points = longer;
-    Point *piece = longer + 3 * (int64_t)pieces->count++;
-    piece[0] = from;
-    piece[1] = to;
-    piece[2] = (Point){NAN, NAN};
-    return true;
-}
+    LinePen pen;
+} Contour;
 
 // The straight piece of a contour in a triangle whose corners lie on both sides of the level.
 static bool cut_triangle(void *context, const Corner corner[3])
 {
-    Pieces *pieces = context;
-    Point crossing[3];
-    int32_t found = 0;
+    Contour *contour = context;
     for (int32_t k = 0; k < 3; ++k) {
         const Corner *a = &corner[k], *b = &corner[(k + 1) % 3];
-        if ((a->value < pieces->level) == (b->value < pieces->level)) continue;
-        double part = (pieces->level - a->value) / (b->value - a->value);
-        crossing[found++] =
-            (Point){a->at.x + part * (b->at.x - a->at.x), a->at.y + part * (b->at.y - a->at.y)};
+        if ((a->value < contour->level) == (b->value < contour->level)) continue;
+        double part = (contour->level - a->value) / (b->value - a->value);
+        line_add(&contour->pen, (Point){a->at.x + part * (b->at.x - a->at.x),
+                                        a->at.y + part * (b->at.y - a->at.y)});
     }
-    return found != 2 || pieces_add(pieces, crossing[0], crossing[1]);
+    contour->pen.down = false;
+    return true;
 }
 
-bool block_contour_draw(const Page *page, const Block *block, const Axes *axes, double level,
-                        const Stroke *stroke, Error *err)
+void block_contour_draw(const Page *page, const Block *block, const Axes *axes, double level,
+                        const Stroke *stroke)
 {
-    Pieces pieces = {.level = level, .err = err};
-    if (each_triangle(block, axes, &level, cut_triangle, &pieces))
-        draw_line(page->canvas, stroke, pieces.points, 3 * (int64_t)pieces.count);
-    memory_free(pieces.points);
-    return error_is_clean(err);
+    Contour contour = {level, line_begin(page->canvas, stroke)};
+    each_triangle(block, axes, &level, cut_triangle, &contour);
+    line_end(&contour.pen);
 }
 
 // A side of an element, its lower corner first; through: the node in its middle, or -1.

@@ -14,8 +14,8 @@ bool block_colors_draw(Canvas *canvas, const Block *block, const Axes *axes, dou
                        double high, Error *err);
 
 // Lines where the quantity is `level`, and a line round the block.
-bool block_contour_draw(const Page *page, const Block *block, const Axes *axes, double level,
-                        const Stroke *stroke, Error *err);
+void block_contour_draw(const Page *page, const Block *block, const Axes *axes, double level,
+                        const Stroke *stroke);
 bool block_outline_draw(const Page *page, const Block *block, const Axes *axes,
                         const Stroke *stroke, Error *err);
 void block_edges_draw(const Page *page, const Block *block, const Axes *axes, const Stroke *stroke);

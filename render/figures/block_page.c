@@ -5,7 +5,7 @@
 #include "io/mesh/shape_functions.h"
 #include "render/figures/rod_mark.h"
 #include "render/figures/space_page.h"
-#include "render/figures/value_range.h"
+#include "render/figures/color_scale.h"
 #include "render/view/space_time.h"
 
 #include <math.h>
@@ -36,19 +36,29 @@ static const struct {
                       {{0.93f, 0.58f, 0.08f, 1}, "slips, weakening"},
                       {{0.55f, 0.08f, 0.30f, 1}, "slips"}};
 
-void block_extent(const Block *block, double extent[4])
+static void take_place(const double place[2], double extent[4])
 {
-    if (block->moved) {
-        space_page_extent(block, extent);
-        return;
+    for (int32_t d = 0; d < 2; ++d) {
+        extent[2 * d] = fmin(extent[2 * d], place[d]);
+        extent[2 * d + 1] = fmax(extent[2 * d + 1], place[d]);
     }
+}
+
+void block_page_deform(Block *blocks, int32_t count, double *magnification, double extent[4])
+{
+    double least = INFINITY, corner[4][2];
+    for (int32_t k = 0; k < count && *magnification == 0; ++k)
+        least = fmin(least, block_magnification(&blocks[k]));
+    if (*magnification == 0) *magnification = least;
     extent[0] = extent[2] = INFINITY;
     extent[1] = extent[3] = -INFINITY;
-    for (int32_t i = 0; i < block->frame.node_count; ++i)
-        for (int32_t d = 0; d < 2; ++d) {
-            extent[2 * d] = fmin(extent[2 * d], block->place[i][d]);
-            extent[2 * d + 1] = fmax(extent[2 * d + 1], block->place[i][d]);
-        }
+    for (int32_t k = 0; k < count; ++k) {
+        block_deform(&blocks[k], *magnification);
+        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
+            take_place(blocks[k].place[i], extent);
+        if (blocks[k].moved) space_page_floor_corners(&blocks[k], corner);
+        for (int32_t c = 0; c < 4 && blocks[k].moved; ++c) take_place(corner[c], extent);
+    }
 }
 
 double block_page_scale(const double extent[4], double width, double share)
@@ -115,27 +125,23 @@ cleanup:
 bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err)
 {
     if (words && !view->line)
-        FAIL(err, ERROR_INPUT, "the block is in the plane: there is nothing to cut open");
-    TRY(space_cut_read(words, cut, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "the block is in the plane: there is nothing to cut open");
+    return space_cut_read(words, cut, err);
 }
 
 // --- the block -----------------------------------------------------------------------------------
 
 // At the numbers of the bar.
-static bool draw_contours(const Page *page, const BlockPage *map, const Block *block,
-                          const Axes *axes, Error *err)
+static void draw_contours(const Page *page, const BlockPage *map, const Block *block,
+                          const Axes *axes)
 {
     Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * map->share * page->point};
     Ticks ticks = colorbar_ticks(&map->bar);
     for (int32_t k = 0; k < ticks.count; ++k) {
         double level = tick_value(&ticks, k);
         if (level > map->bar.low && level < map->bar.high)
-            TRY(block_contour_draw(page, block, axes, level / map->bar.factor, &stroke, err));
+            block_contour_draw(page, block, axes, level / map->bar.factor, &stroke);
     }
-cleanup:
-    return error_is_clean(err);
 }
 
 static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *axes)
@@ -254,20 +260,19 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     double low = map->view->number[NUMBER_ROD_LOW], high = map->view->number[NUMBER_ROD_HIGH];
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
     Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
-    Stroke ground = {.color = INK, .width = OUTLINE_WIDTH * unit};
-    TRY(block_colors_draw(page->canvas, block, axes, map->bar.low / map->bar.factor,
-                          map->bar.high / map->bar.factor, err));
+    if (!block_colors_draw(page->canvas, block, axes, map->bar.low / map->bar.factor,
+                           map->bar.high / map->bar.factor, err))
+        return false;
     if (map->edges) block_edges_draw(page, block, axes, &edge);
-    TRY(draw_contours(page, map, block, axes, err));
-    TRY(block_outline_draw(page, block, axes, &outline, err));
+    draw_contours(page, map, block, axes);
+    if (!block_outline_draw(page, block, axes, &outline, err)) return false;
     draw_contact(page, map, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
-    draw_segment(page->canvas, &ground, left, right);
+    draw_segment(page->canvas, &outline, left, right);
     draw_load(page, map, block, axes);
     RodMark rod = rod_find(block, low, high, map->share);
     rod_mark_draw(page, axes, &rod);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void block_page_legend(const Page *page, Point place, double below)

@@ -20,8 +20,9 @@ typedef struct BlockPage {
 // As space_cut_read. ERROR_INPUT also where the block is in the plane.
 bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err);
 
-// Least and largest x and z of the block as drawn: low and high of x, then of z.
-void block_extent(const Block *block, double extent[4]);
+// Deforms all of [count] blocks by *magnification, by the least that suits any of them where it is
+// 0, and finds what they take as drawn: low and high of x, then of z.
+void block_page_deform(Block *blocks, int32_t count, double *magnification, double extent[4]);
 
 // Width in points, of the block and what stands beside it, becomes the scale: points a length.
 double block_page_scale(const double extent[4], double width, double share);

@@ -13,9 +13,7 @@ Axes contact_map_axes(const ResultView *view)
 {
     const ContactPlane *plane = &view->plane;
     return (Axes){.x = figure_length_axis(view, "x", plane->low[0], plane->high[0]),
-                  .y = figure_length_axis(view, "y", plane->low[1], plane->high[1]),
-                  .number_size = NUMBER_SIZE,
-                  .color = INK};
+                  .y = figure_length_axis(view, "y", plane->low[1], plane->high[1])};
 }
 
 // Its edge, too: between shapes side by side the paper would shine through.

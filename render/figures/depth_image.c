@@ -9,20 +9,18 @@ bool depth_image_create(int32_t columns, int32_t rows, double slack, DepthImage 
 {
     int64_t count = (int64_t)columns * rows;
     *image = (DepthImage){.columns = columns, .rows = rows, .slack = slack};
-    TRY(image->values = NEW_ARRAY(float, count, err));
-    TRY(image->depth = NEW_ARRAY(double, count, err));
+    if (!(image->values = NEW_ARRAY(float, count, err))) return false;
+    if (!(image->depth = NEW_ARRAY(double, count, err))) return false;
     for (int64_t k = 0; k < count; ++k) {
         image->values[k] = NAN;
         image->depth[k] = INFINITY;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void depth_image_destroy(DepthImage *image)
 {
-    memory_free(image->values);
-    memory_free(image->depth);
+    memory_free_all(image->values, image->depth);
     *image = (DepthImage){0};
 }
 

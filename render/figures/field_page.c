@@ -15,7 +15,7 @@ enum { WORDS_SIZE = 160 };
 double field_page_lay_out(FieldPage *field, double page_width)
 {
     double room = page_width - LEFT - RIGHT;
-    Axes axes = {.x.label = "x", .number_size = NUMBER_SIZE};
+    Axes axes = {.x.label = "x"};
     field->width = room;
     field->scale = block_page_scale(field->extent, room, 1);
     field->height = block_page_height(field->extent, field->scale, 1);
@@ -37,20 +37,15 @@ static void draw_words(const Page *page, const FieldPage *field, const BlockPage
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
     snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
              block->U * U.factor, field->magnification);
-    style.size *=
-        fmin(1, (axes->box.right - axes->box.left) / text_width(page->text, style.size, words));
-    text_draw(page->text, &style, (Point){axes->box.left, axes->box.top - 3.5 * page->point},
-              words);
+    text_draw_within(page->text, &style, (Point){axes->box.left, axes->box.top - 3.5 * page->point},
+                     axes->box.right - axes->box.left, words);
 }
 
 bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
                      const Block *block, Error *err)
 {
     double point = page->point, low = field->extent[0], high = field->extent[1];
-    uint8_t colors[3 * MAP_SIZE];
-    Axes axes = {.x = figure_length_axis(map->view, "x", low, high),
-                 .number_size = NUMBER_SIZE,
-                 .color = INK};
+    Axes axes = {.x = figure_length_axis(map->view, "x", low, high)};
     axes.y = axes.x;
     snprintf(axes.y.label, sizeof axes.y.label, "~{z}%.80s", axes.x.label + 4);   // behind "~{x}"
     block_page_ranges(field->extent, field->scale, 1, &axes);
@@ -58,16 +53,11 @@ bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *
     axes.box.top = page->room.top + round(WORDS_HEIGHT * point);
     axes.box.right = axes.box.left + round(field->width * point);
     axes.box.bottom = axes.box.top + round(field->height * point);
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, PAPER);
-    TRY(block_page_draw(page, map, block, &axes, err));
+    if (!block_page_draw(page, map, block, &axes, err)) return false;
     block_page_axes(page, map, block, &axes);
     draw_words(page, field, map, block, &axes);
-    Box beside = axes.box;
-    beside.left = round(axes.box.right + BAR_GAP * point);
-    colorbar_draw(page, &map->bar, &beside);
+    colorbar_draw(page, &map->bar, &axes.box, BAR_GAP);
     double below = axes.box.bottom + (axes_bottom_margin(&axes) + 0.5 * LEGEND_HEIGHT) * point;
     block_page_legend(page, (Point){axes.box.left, below}, 0);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

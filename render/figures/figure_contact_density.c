@@ -44,66 +44,11 @@ static double range_low(double density_min)
     return RANGE_LOW[k];
 }
 
-// From slip rates to what is lost of phi, over what the scale spans. Open is infinitely fast here.
-static void grid_to_levels(PixelGrid *grid, double critical, double low)
-{
-    int64_t count = (int64_t)grid->bands * grid->columns;
-    for (int64_t k = 0; k < count; ++k) {
-        double rate = (double)grid->values[k];
-        if (isnan(rate))
-            grid->values[k] = HEAT_MISSING;
-        else if (isinf(rate))
-            grid->values[k] = HEAT_BELOW;
-        else
-            grid->values[k] = (float)fmin(rate / critical / (1 - low), 1);
-    }
-}
-
 static void key_of_map(Page *page, const ResultView *view, const Measured *measured)
 {
     KeyEntry entries[3] = {{KEY_LINE, INK, "front of slip"}};
     int32_t count = 1 + map_page_key(view, NULL, entries + 1);
-    if (measured->count > 0) entries[count++] = (KeyEntry){KEY_RING, INK, measured->words};
-    key_draw(page, entries, count);
-}
-
-// Of the nearest node at that row; open contact has no area.
-static double density_at(const ResultView *view, int64_t row, double x)
-{
-    int32_t nearest = 0;
-    for (int32_t i = 1; i < view->nodes; ++i)
-        if (fabs(view->x[i] - x) < fabs(view->x[nearest] - x)) nearest = i;
-    int64_t k = row * view->nodes + nearest;
-    double density = 1 - fabs(view->slip_rate[k]) / view->number[NUMBER_CRITICAL_VELOCITY];
-    return view->status[k] == 0 ? 0 : fmax(density, 0);
-}
-
-// Linear between steps.
-static double density_computed(const void *context, const Measured *measured, int32_t k)
-{
-    const ResultView *view = context;
-    double U = measured->at[k], x = measured->x[k], low = 0, high = 0;
-    figure_x_extent(view, &low, &high);
-    if (x < low || x > high) return NAN;
-    for (int64_t row = 0; row + 1 < view->rows; ++row) {
-        double from = view->U[row], to = view->U[row + 1];
-        if (!(U >= from && U <= to)) continue;
-        double part = to > from ? (U - from) / (to - from) : 1, before = density_at(view, row, x);
-        return before + part * (density_at(view, row + 1, x) - before);
-    }
-    return NAN;
-}
-
-bool figure_contact_density_measured(ResultView *view, const char *path, Measured *measured,
-                                     Error *err)
-{
-    TRY(measured_read(path, MEASURED_AREA, view, measured, err));
-    if (measured->count == 0) return true;
-    TRY(result_view_read_slip_rate(view, err));
-    TRY(result_view_read_status(view, err));
-    measured_compare(measured, view, density_computed, view);
-cleanup:
-    return error_is_clean(err);
+    key_draw(page, entries, measured_key(measured, KEY_RING, entries, count));
 }
 
 // Discs in the colours of the map, so that one that agrees does not stand out but for its rim.
@@ -131,29 +76,25 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     double critical = view->number[NUMBER_CRITICAL_VELOCITY];
     Zoom zoom = zoom_choose(view);
     Measured measured = {0};
-    MapPage map = {.bar = {.high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
-    if (!(critical > 0))
-        FAIL(err, ERROR_INPUT,
-             "the result has no critical velocity, which the contact density "
-             "is defined by");
+    MapPage map = {.critical = critical,
+                   .bar = {.high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
+    if (!(critical > 0)) FAIL(err, ERROR_INPUT, FIGURE_NO_DENSITY);
     if (!zoom.found) {
         result_view_range(view, &zoom.U_low, &zoom.U_high);
         zoom.U_slide = INFINITY;
     }
     TRY(result_view_read_slip_rate(view, err));
     TRY(result_view_read_status(view, err));
+    map.status = view->status;
     Precursors seen = precursors_look(view, &zoom, critical);
     map.bar.low = range_low(seen.density_min);
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = OPEN;
-    TRY(figure_contact_density_measured(view, page.style.compare, &measured, err));
+    TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
     key_of_map(&page, view, &measured);
-    map_page_layout(&page, view, zoom.U_low, zoom.U_high, &map);
-    TRY(map_page_fill(view, view->status, &map, err));
-    grid_to_levels(&map.grid, critical, map.bar.low);
-    map_page_draw_field(&page, view, &map);
-    TRY(map_page_draw_front(&page, view, &map, err));
+    TRY(map_page_draw(&page, view, (double[]){zoom.U_low, zoom.U_high}, &map, err));
+    map_page_draw_front(&page, view, &map);
     areas_draw(&page, &measured, &map);
     if (zoom.found && page.zoom_name) map.axes.color = ZOOM_DENSITY;
     map_page_draw_frame(&page, view, &map);

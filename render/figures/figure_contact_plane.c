@@ -7,8 +7,7 @@
 #include "render/canvas/key.h"
 #include "render/figures/contact_map.h"
 #include "render/view/contact_moments.h"
-#include "render/figures/slip_scale.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 #include "render/render.h"
 
 #include <math.h>
@@ -75,10 +74,7 @@ static bool find_quantity(ResultView *view, const char *name, ContactQuantity *q
         size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", quantities[k].name);
     }
-    FAIL(err, ERROR_INPUT, "contact-plane shows nothing called \"%.40s\"; known are: %s", name,
-         names);
-cleanup:
-    return false;
+    return REFUSE(err, "contact-plane shows nothing called \"%.40s\"; known are: %s", name, names);
 }
 
 // --- values --------------------------------------------------------------------------------------
@@ -88,10 +84,7 @@ static bool take_series(Maps *maps, ResultSeries series, double *values, Error *
 {
     double *all = NULL;
     int32_t nodes = maps->view->plane.nodes;
-    if (series == SERIES_STATE)
-        TRY(state_read(maps->view, true, &all, err));
-    else
-        TRY(result_view_read_contact(maps->view, series, &all, err));
+    TRY(result_view_read(maps->view, series, true, &all, err));
     for (int32_t k = 0; k < maps->count; ++k)
         memcpy(values + (int64_t)k * nodes, all + maps->moments.row[k] * nodes,
                (size_t)nodes * sizeof *values);
@@ -108,67 +101,42 @@ static void take_from_first(Maps *maps)
         for (int32_t i = 0; i < nodes; ++i) maps->values[(int64_t)k * nodes + i] -= maps->values[i];
 }
 
-static bool take_ratio(Maps *maps, Error *err)
+// Shear over pressure, or density, which is of slip rates and, where open, none: NaN.
+static bool take_quotient(Maps *maps, bool density, Error *err)
 {
     int64_t count = (int64_t)maps->count * maps->view->plane.nodes;
-    double *pressure = NEW_ARRAY(double, count, err);
-    TRY(pressure);
-    TRY(take_series(maps, SERIES_PRESSURE, pressure, err));
-    TRY(take_series(maps, SERIES_SHEAR, maps->values, err));
+    double critical = maps->view->number[NUMBER_CRITICAL_VELOCITY], *values = maps->values;
+    double *over = NEW_ARRAY(double, count, err);
+    TRY(over);
+    if (density && !(critical > 0)) FAIL(err, ERROR_INPUT, FIGURE_NO_DENSITY);
+    TRY(take_series(maps, density ? SERIES_STATUS : SERIES_PRESSURE, over, err));
     for (int64_t k = 0; k < count; ++k)
-        maps->values[k] = pressure[k] > 0 ? maps->values[k] / pressure[k] : NAN;
+        values[k] = !(over[k] > 0) ? NAN
+                    : density      ? fmax(0, 1 - values[k] / critical)
+                                   : values[k] / over[k];
 cleanup:
-    memory_free(pressure);
-    return error_is_clean(err);
-}
-
-// Open: NaN.
-static bool take_density(Maps *maps, Error *err)
-{
-    int64_t count = (int64_t)maps->count * maps->view->plane.nodes;
-    double critical = maps->view->number[NUMBER_CRITICAL_VELOCITY];
-    double *status = NEW_ARRAY(double, count, err);
-    TRY(status);
-    if (!(critical > 0))
-        FAIL(err, ERROR_INPUT,
-             "the result has no critical velocity, which the contact density is "
-             "defined by");
-    TRY(take_series(maps, SERIES_STATUS, status, err));
-    TRY(take_series(maps, SERIES_SLIP_RATE, maps->values, err));
-    for (int64_t k = 0; k < count; ++k)
-        maps->values[k] = status[k] == 0 ? NAN : fmax(0, 1 - maps->values[k] / critical);
-cleanup:
-    memory_free(status);
+    memory_free(over);
     return error_is_clean(err);
 }
 
 static bool take_values(Maps *maps, Error *err)
 {
+    static const ResultSeries series[CONTACT_QUANTITY_COUNT] = {
+        [CONTACT_SLIP_RATE] = SERIES_SLIP_RATE, [CONTACT_DENSITY] = SERIES_SLIP_RATE,
+        [CONTACT_PRESSURE] = SERIES_PRESSURE,   [CONTACT_SHEAR] = SERIES_SHEAR,
+        [CONTACT_RATIO] = SERIES_SHEAR,         [CONTACT_SLIP] = SERIES_SLIP,
+        [CONTACT_STATE] = SERIES_STATE};
+    ContactQuantity quantity = maps->quantity;
     int32_t nodes = maps->view->plane.nodes;
-    TRY(maps->values = NEW_ARRAY(double, (int64_t)maps->count *nodes, err));
-    switch (maps->quantity) {
-    case CONTACT_DENSITY:
-        return take_density(maps, err);
-    case CONTACT_RATIO:
-        return take_ratio(maps, err);
-    case CONTACT_ARRIVAL:
+    if (!(maps->values = NEW_ARRAY(double, (int64_t)maps->count *nodes, err))) return false;
+    if (quantity == CONTACT_ARRIVAL) {
         memcpy(maps->values, maps->moments.arrival, (size_t)nodes * sizeof *maps->values);
         return true;
-    case CONTACT_PRESSURE:
-        return take_series(maps, SERIES_PRESSURE, maps->values, err);
-    case CONTACT_SHEAR:
-        return take_series(maps, SERIES_SHEAR, maps->values, err);
-    case CONTACT_STATE:
-        return take_series(maps, SERIES_STATE, maps->values, err);
-    case CONTACT_SLIP:
-        TRY(take_series(maps, SERIES_SLIP, maps->values, err));
-        take_from_first(maps);
-        return true;
-    default:
-        return take_series(maps, SERIES_SLIP_RATE, maps->values, err);
     }
-cleanup:
-    return error_is_clean(err);
+    if (!take_series(maps, series[quantity], maps->values, err)) return false;
+    if (quantity == CONTACT_SLIP) take_from_first(maps);
+    return (quantity != CONTACT_DENSITY && quantity != CONTACT_RATIO) ||
+           take_quotient(maps, quantity == CONTACT_DENSITY, err);
 }
 
 // --- colours -------------------------------------------------------------------------------------
@@ -196,19 +164,18 @@ cleanup:
 static bool fit_rates(Maps *maps, Error *err)
 {
     double V = fabs(maps->view->number[NUMBER_ROD_VELOCITY]), most = 0;
-    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
+    if (!(V > 0)) return REFUSE(err, "the result does not say how fast the rod moves");
     for (int64_t k = 0; k < (int64_t)maps->count * maps->view->plane.nodes; ++k)
         most = fmax(most, maps->values[k]);
     maps->bar = slip_scale_up_to(most, V);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool fit_colors(Maps *maps, const PictureStyle *style, Error *err)
 {
     Colorbar *bar = &maps->bar;
     if (maps->quantity == CONTACT_SLIP_RATE) return fit_rates(maps, err);
-    TRY(fit_linear(maps, style, err));
+    if (!fit_linear(maps, style, err)) return false;
     bar->neutral_color = NOTHING;
     if (maps->quantity == CONTACT_DENSITY) {
         bar->falling = true;
@@ -221,8 +188,7 @@ static bool fit_colors(Maps *maps, const PictureStyle *style, Error *err)
         bar->clipped = false;
         bar->neutral = "never";
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- words ---------------------------------------------------------------------------------------
@@ -310,7 +276,7 @@ static bool draw_maps(const Page *page, const Maps *maps, double left, Error *er
     double point = page->point;
     Axes axes = contact_map_axes(maps->view);
     Box all = {INFINITY, INFINITY, 0, 0};
-    TextStyle style = {.color = INK};
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
     for (int32_t k = 0; k < maps->count; ++k) {
         char words[WORDS_SIZE];
         int32_t line = k / maps->columns, column = k % maps->columns;
@@ -321,35 +287,30 @@ static bool draw_maps(const Page *page, const Maps *maps, double left, Error *er
         axes.box.bottom = axes.box.top + round(maps->height * point);
         axes.bare_y = column > 0;
         axes.bare_x = k + maps->columns < maps->count;
-        TRY(draw_map(page, maps, k, &axes, err));
+        if (!draw_map(page, maps, k, &axes, err)) return false;
         axes_draw(page, &axes);
         write_words(maps, k, words);
-        style.size = SMALL_SIZE * point;
-        style.size *=
-            fmin(1, (maps->width + WORDS_OVER) * point / text_width(page->text, style.size, words));
-        text_draw(page->text, &style, (Point){axes.box.left, axes.box.top - 2.5 * point}, words);
+        text_draw_within(page->text, &style, (Point){axes.box.left, axes.box.top - 2.5 * point},
+                         (maps->width + WORDS_OVER) * point, words);
         all.right = fmax(all.right, axes.box.right);
         all.top = fmin(all.top, axes.box.top);
         all.bottom = fmax(all.bottom, axes.box.bottom);
     }
-    Box beside = {.left = round(all.right + BAR_GAP * point), .top = all.top, .bottom = all.bottom};
-    colorbar_draw(page, &maps->bar, &beside);
-cleanup:
-    return error_is_clean(err);
+    colorbar_draw(page, &maps->bar, &all, BAR_GAP);
+    return true;
 }
 
 // The page is begun twice: what numbers and bar take beside the maps is known on a page only.
 static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *err)
 {
     PageDef def = input->def;
-    uint8_t colors[3 * MAP_SIZE];
     char note[WORDS_SIZE];
     Axes axes = contact_map_axes(maps->view);
     double width = page_width(def.style), left = 0;
     def.height = 1;
     for (int32_t pass = 0; pass < 2; ++pass) {
         page_destroy(page);
-        TRY(page_begin(page, &def, err));
+        if (!page_begin(page, &def, err)) return false;
         left = axes_left_margin(page, &axes);
         double room = width - left - BAR_GAP - colorbar_width(page, &maps->bar);
         double height = lay_out(maps, room) + axes_bottom_margin(&axes) + key_line_height();
@@ -357,14 +318,11 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         left += (room - used) / 2;
         def.height = height / width;
     }
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, maps->bar.neutral_color);
     write_note(maps, note);
-    TRY(draw_maps(page, maps, round(left * page->point), err));
+    if (!draw_maps(page, maps, round(left * page->point), err)) return false;
     Page same = *page;   // what is warned of stands below all of its room
     key_draw(&same, &(KeyEntry){.words = note}, 1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool figure_contact_plane(Page *page, const FigureInput *input, Error *err)
@@ -374,7 +332,7 @@ bool figure_contact_plane(Page *page, const FigureInput *input, Error *err)
     TRY(find_quantity(input->view, field->of, &maps.quantity, err));
     bool arrival = maps.quantity == CONTACT_ARRIVAL;
     TRY(result_view_read_plane(input->view, err));
-    TRY(result_view_read_contact(input->view, SERIES_SLIP_RATE, &maps.rate, err));
+    TRY(result_view_read(input->view, SERIES_SLIP_RATE, true, &maps.rate, err));
     TRY(contact_moments_find(input->view, maps.rate, field->at, arrival, &maps.moments, err));
     maps.count = arrival ? 1 : maps.moments.count;
     TRY(take_values(&maps, err));
@@ -383,8 +341,6 @@ bool figure_contact_plane(Page *page, const FigureInput *input, Error *err)
     TRY(draw_page(page, input, &maps, err));
 cleanup:
     contact_moments_destroy(&maps.moments);
-    memory_free(maps.rate);
-    memory_free(maps.values);
-    memory_free(maps.level);
+    memory_free_all(maps.rate, maps.values, maps.level);
     return error_is_clean(err);
 }

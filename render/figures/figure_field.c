@@ -6,29 +6,25 @@
 #include "render/view/zoom.h"
 
 // The state that the request asks for; without a word the last one before the zoomed sliding.
-static bool read_block(const FigureInput *input, Block *block, Error *err)
+static bool read_block(const FigureInput *input, BlockQuantity quantity, Block *block, Error *err)
 {
-    BlockTimes times = {0};
-    BlockQuantity quantity = BLOCK_VON_MISES;
-    int32_t index = 0;
-    TRY(block_quantity_find(input->field->of, &quantity, err));
-    TRY(block_times_read(input->folder, input->view, &times, err));
+    BlockSource source = {.folder = input->folder, .view = input->view, .quantity = quantity};
+    TRY(block_source_open(&source, err));
     Zoom zoom = zoom_choose(input->view);
-    index = zoom.found ? block_time_before(&times, input->view, zoom.U_slide) : times.count - 1;
-    if (input->field->at) TRY(block_time_find(&times, input->view, input->field->at, &index, err));
-    TRY(block_read(input->folder, input->view, &times, index, block, err));
-    TRY(block_take(block, quantity, err));
+    int32_t index = zoom.found ? block_time_before(&source, zoom.U_slide) : source.count - 1;
+    if (input->field->at) TRY(block_time_find(&source, input->field->at, &index, err));
+    TRY(block_read(&source, index, block, err));
     TRY(result_view_read_status(input->view, err));
 cleanup:
-    block_times_destroy(&times);
+    block_source_close(&source);
     return error_is_clean(err);
 }
 
-bool figure_field_shows(const char *quantity)
+bool figure_field_shows(const char *folder, const char *quantity)
 {
     Error unknown = {0};
     BlockQuantity found = BLOCK_VON_MISES;
-    return block_quantity_find(quantity, &found, &unknown);
+    return block_is_stored(folder) && block_quantity_find(quantity, &found, &unknown);
 }
 
 bool figure_field(Page *page, const FigureInput *input, Error *err)
@@ -45,10 +41,8 @@ bool figure_field(Page *page, const FigureInput *input, Error *err)
                      .style = input->def.style};
     TRY(block_cut_read(input->view, input->field->cut, &cut, err));
     TRY(block_quantity_find(input->field->of, &quantity, err));
-    TRY(read_block(input, &block, err));
-    field.magnification = block_magnification(&block);
-    block_deform(&block, field.magnification);
-    block_extent(&block, field.extent);
+    TRY(read_block(input, quantity, &block, err));
+    block_page_deform(&block, 1, &field.magnification, field.extent);
     TRY(block_page_fit(&map, &block, 1, quantity, err));
     def.height = field_page_lay_out(&field, page_width(def.style));
     TRY(page_begin(page, &def, err));

@@ -3,17 +3,12 @@
 // own that enlarges the last precursors before a sliding.
 #include "render/figures/figures.h"
 
-#include "base/memory.h"
-#include "render/canvas/key.h"
-#include "render/figures/measured.h"
 #include "render/view/window.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define NAME "~{F}_{T} / ~{F}_{N}"
 
 enum { LEVELS_MAX = 3, LEVEL_NAME_SIZE = 40 };
 
@@ -27,9 +22,6 @@ static const double AWAY = 1.5;   // a level above so many times the curve would
 static const double PEAK_PITCH = 0.3;   // of the distance of peaks: radius of a crowd's marks
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
-static const Color CURVE_COLOR = {0.05f, 0.27f, 0.55f, 1};
-static const Color LEVEL_COLOR = {0.45f, 0.45f, 0.47f, 1};
-
 // A horizontal line and its name.
 typedef struct Level {
     double mu;
@@ -38,39 +30,35 @@ typedef struct Level {
     bool away;   // beyond the frame: named at its top with its value
 } Level;
 
-// mu against U, clipped to the frame: the inset draws the same curve in other axes.
-static bool curve_draw(const Page *page, const ResultView *view, const Axes *axes, Error *err)
+Axes figure_force_axes(const ResultView *views, int32_t count, Box box, double headroom)
 {
-    Stroke stroke = {.color = CURVE_COLOR, .width = CURVE_WIDTH * page->point};
-    Point *line = NULL;
-    int64_t count = 0;
-    TRY(line = NEW_ARRAY(Point, view->rows, err));
-    for (int64_t row = 0; row < view->rows; ++row) {
-        Point place = axes_place(axes, view->U[row], view->mu[row]);
-        bool near = count > 0 &&
-                    hypot(place.x - line[count - 1].x, place.y - line[count - 1].y) < THIN_DISTANCE;
-        if (!near) line[count++] = place;
+    double U[2] = {INFINITY, -INFINITY}, mu[2] = {0, 0};
+    for (int32_t k = 0; k < count; ++k) {
+        double low = 0, high = 0, own[2];
+        result_view_range(&views[k], &low, &high);
+        U[0] = fmin(U[0], low);
+        U[1] = fmax(U[1], high);
+        result_view_mu_range(&views[k], (double[]){-INFINITY, INFINITY}, own);
+        mu[0] = fmin(mu[0], own[0]);
+        mu[1] = fmax(mu[1], own[1]);
     }
-    canvas_clip(page->canvas, &axes->box);
-    draw_line(page->canvas, &stroke, line, count);
-    canvas_clip(page->canvas, NULL);
-cleanup:
-    memory_free(line);
-    return error_is_clean(err);
+    if (!(mu[1] > mu[0])) mu[1] = mu[0] + 1;
+    return (Axes){.box = box,
+                  .x = figure_length_axis(&views[0], "U", U[0], U[1]),
+                  .y = {mu[0] * headroom, mu[1] * headroom, 1, .label = FIGURE_MU}};
 }
 
-// Smallest and largest mu for U from low to high; false where there is none.
-static bool mu_range(const ResultView *view, const double U[2], double range[2])
+// mu against U, clipped to the frame: the inset draws the same curve in other axes.
+static void curve_draw(const Page *page, const ResultView *view, const Axes *axes)
 {
-    range[0] = INFINITY;
-    range[1] = -INFINITY;
-    for (int64_t row = 0; row < view->rows; ++row) {
-        double mu = view->mu[row];
-        if (!(view->U[row] >= U[0] && view->U[row] <= U[1]) || !isfinite(mu)) continue;
-        range[0] = fmin(range[0], mu);
-        range[1] = fmax(range[1], mu);
-    }
-    return range[1] >= range[0];
+    Stroke stroke = {.color = FIGURE_CURVE, .width = CURVE_WIDTH * page->point};
+    canvas_clip(page->canvas, &axes->box);
+    LinePen pen = line_begin(page->canvas, &stroke);
+    pen.thin = THIN_DISTANCE;
+    for (int64_t row = 0; row < view->rows; ++row)
+        line_add(&pen, axes_place(axes, view->U[row], view->mu[row]));
+    line_end(&pen);
+    canvas_clip(page->canvas, NULL);
 }
 
 // The levels that the result knows: mu_M is missing in a run that did not end. highest: the largest
@@ -113,27 +101,23 @@ static void names_spread(const Axes *axes, Level *level, int32_t count, double s
 static void levels_draw(const Page *page, const Axes *axes, Level *level, int32_t count)
 {
     double point = page->point;
-    Stroke stroke = {.color = LEVEL_COLOR, .width = 0.5 * point};
+    Stroke stroke = dashed_stroke(page, FIGURE_LEVEL, 0.5);
     TextStyle style = {.size = NUMBER_SIZE * point, .color = INK, .up = 0.5};
-    stroke.dash = 3 * point;
-    stroke.space = 2 * point;
     names_spread(axes, level, count, 1.1 * style.size);
     for (int32_t k = 0; k < count; ++k) {
         char words[LEVEL_NAME_SIZE];
-        Point from = axes_place(axes, axes->x.low, level[k].mu);
         Point to = axes_place(axes, axes->x.high, level[k].mu);
-        if (!level[k].away) draw_segment(page->canvas, &stroke, from, to);
-        if (level[k].away) style.size = SMALL_SIZE * point;
+        if (!level[k].away) axes_level(page, axes, &stroke, level[k].mu, 0, NULL);
+        style.size = (level[k].away ? SMALL_SIZE : NUMBER_SIZE) * point;
         snprintf(words, sizeof words, level[k].away ? "\u2191%s %.3g" : "%s", level[k].name,
                  level[k].mu);
         Point name = {to.x + 2 * point, level[k].y};
         if (!level[k].away && fabs(name.y - to.y) > point) {
-            Stroke leader = {.color = LEVEL_COLOR, .width = 0.4 * point};
+            Stroke leader = {.color = FIGURE_LEVEL, .width = 0.4 * point};
             name.x += LEADER * point;
             draw_segment(page->canvas, &leader, to, (Point){name.x - point, name.y});
         }
         text_draw(page->text, &style, name, words);
-        style.size = NUMBER_SIZE * point;
     }
 }
 
@@ -178,9 +162,9 @@ static bool has_inset(const ResultView *view, const PictureStyle *style, const W
     Zoom zoom = zoom_choose(view);
     bool none = style->inset && strcmp(style->inset, "none") == 0;
     double range[2];
+    result_view_mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range);
     return !none && zoom.found && !zoom.smooth && zoom.U_low >= window->low &&
-           zoom.U_high <= window->high &&
-           mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range) && range[1] > range[0];
+           zoom.U_high <= window->high && range[1] > range[0];
 }
 
 bool figure_force_enlarges(const ResultView *view, const PictureStyle *style)
@@ -195,43 +179,42 @@ static bool inset_axes(const Page *page, const ResultView *view, const Window *w
 {
     Zoom zoom = zoom_choose(view);
     double range[2];
-    const double U[2] = {zoom.U_low, zoom.U_slide};
     if (!has_inset(view, &page->style, window)) return false;
-    mu_range(view, U, range);
+    result_view_mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range);
     double pad = 0.12 * (range[1] - range[0]);
-    *inset = (Axes){.number_size = NUMBER_SIZE, .color = ZOOM_FORCE};
+    *inset = (Axes){.color = ZOOM_FORCE};
     inset->x = figure_length_axis(view, "U", zoom.U_low, zoom.U_high);
     inset->x.factor = figure_length_axis(view, "U", window->low, window->high).factor;
     inset->x.label[0] = '\0';
-    inset->y = (Axis){.low = range[0] - pad, .high = range[1] + pad, .factor = 1, .label = NAME};
+    inset->y =
+        (Axis){.low = range[0] - pad, .high = range[1] + pad, .factor = 1, .label = FIGURE_MU};
     inset->box.top = page->room.top + round(axes_top_margin(inset) * page->point);
     inset->box.bottom = inset->box.top + round(INSET_SHARE * (page->room.bottom - page->room.top));
     return true;
 }
 
-// The frame for the window's U, all of mu there and the levels; below `top`.
-static Axes axes_layout(const Page *page, const ResultView *view, const Window *window, double top)
+// The frame for the window's U, all of mu there and the levels; below `top`. level: [returned].
+static int32_t axes_layout(const Page *page, const ResultView *view, const Window *window,
+                           double top, Axes *axes, Level level[LEVELS_MAX])
 {
-    double range[2] = {0, 1}, point = page->point;
-    const double U[2] = {window->low, window->high};
-    Axes axes = {.number_size = NUMBER_SIZE, .color = INK, .bare_x = page->bare_x};
-    Level level[LEVELS_MAX];
-    if (!mu_range(view, U, range)) range[0] = range[1] = 0;
+    double range[2];
+    Box room = page->room;
+    room.top = top;
+    result_view_mu_range(view, (double[]){window->low, window->high}, range);
+    if (!(range[1] >= range[0])) range[0] = range[1] = 0;
     int32_t count = levels_list(view, range[1], level);
     bool away = false;
     for (int32_t k = 0; k < count; ++k) {
         if (!level[k].away) range[1] = fmax(range[1], level[k].mu);
         away = away || level[k].away;
     }
-    axes.x = figure_length_axis(view, "U", window->low, window->high);
-    axes.y = (Axis){.low = fmin(0, range[0] * HEADROOM), .factor = 1, .label = NAME};
-    axes.y.high = range[1] * HEADROOM;
-    if (!(axes.y.high > axes.y.low)) axes.y.high = axes.y.low + 1;
-    axes.box.top = top + round(axes_top_margin(&axes) * point);
-    axes.box.bottom = round(page->room.bottom - axes_bottom_margin(&axes) * point);
-    axes.box.left = round(page->room.left + axes_left_margin(page, &axes) * point);
-    axes.box.right = round(page->room.right - (away ? AWAY_MARGIN : LEVEL_MARGIN) * point);
-    return axes;
+    *axes = (Axes){.x = figure_length_axis(view, "U", window->low, window->high),
+                   .y = {.low = fmin(0, range[0] * HEADROOM), .factor = 1, .label = FIGURE_MU},
+                   .bare_x = page->bare_x};
+    axes->y.high = range[1] * HEADROOM;
+    if (!(axes->y.high > axes->y.low)) axes->y.high = axes->y.low + 1;
+    axes_fit(page, &room, away ? AWAY_MARGIN : LEVEL_MARGIN, axes);
+    return count;
 }
 
 static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
@@ -246,9 +229,7 @@ static void key_of_peaks(Page *page, const ResultView *view, const Window *windo
     if (seen[1]) entries[count++] = (KeyEntry){KEY_DISC, INK, "peak, counts for ~{\u03bc}_{M}"};
     if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "peak that does not count"};
     if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
-    if (measured->count > 0)
-        entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured->words};
-    key_draw(page, entries, count);
+    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
 // Both frames are equally wide: the wider numbers say where they begin.
@@ -257,17 +238,9 @@ static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarge
     double left = enlarged ? round(page->room.left + axes_left_margin(page, inset) * page->point)
                            : 0;
     axes->box.left = fmax(axes->box.left, left);
-    page_place_frame(page, &axes->box);
+    axes_settle(page, axes);
     inset->box.left = axes->box.left;
     inset->box.right = axes->box.right;
-}
-
-bool figure_force_measured(ResultView *view, const char *path, Measured *measured, Error *err)
-{
-    const ViewCurve curve = {view->rows, view->U, view->mu};
-    if (!measured_read(path, MEASURED_MU, view, measured, err)) return false;
-    measured_compare(measured, view, computed_on_curve, &curve);
-    return true;
 }
 
 bool figure_force(const Page *whole, ResultView *view, Error *err)
@@ -277,28 +250,26 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     Measured measured = {0};
     Axes axes, inset = {0};
     Level level[LEVELS_MAX];
-    double range[2] = {0, 0};
-    TRY(window_find(view, &page.style, &window, err));
-    TRY(figure_force_measured(view, page.style.compare, &measured, err));
+    if (!window_find(view, &page.style, &window, err) ||
+        !measured_read(page.style.compare, MEASURED_MU, view, &measured, err))
+        return false;
     key_of_peaks(&page, view, &window, &measured);
     bool enlarged = inset_axes(&page, view, &window, &inset);
     double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;
-    axes = axes_layout(&page, view, &window, enlarged ? round(below) : page.room.top);
+    double top = enlarged ? round(below) : page.room.top;
+    int32_t count = axes_layout(&page, view, &window, top, &axes, level);
     frames_align(&page, &axes, &inset, enlarged);
-    mu_range(view, (double[]){window.low, window.high}, range);
-    int32_t count = levels_list(view, range[1], level);
     levels_draw(&page, &axes, level, count);
-    TRY(curve_draw(&page, view, &axes, err));
+    curve_draw(&page, view, &axes);
     peaks_draw(&page, view, &axes);
     measured_draw(&page, &measured, &axes);
     if (enlarged) {
         outline_draw(&page, &axes, &inset);
-        TRY(curve_draw(&page, view, &inset, err));
+        curve_draw(&page, view, &inset);
         measured_draw(&page, &measured, &inset);
         axes_draw(&page, &inset);
     }
     axes_draw(&page, &axes);
-cleanup:
     measured_destroy(&measured);
-    return error_is_clean(err);
+    return true;
 }

@@ -4,8 +4,7 @@
 #include "render/figures/figures.h"
 
 #include "render/figures/map_page.h"
-#include "render/figures/measured.h"
-#include "render/figures/slip_scale.h"
+#include "render/figures/color_scale.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -24,13 +23,8 @@ static const double ZOOM_LEADER = 0.5;   // points: width of the line from its n
 // The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
 static void critical_length_draw(const Page *page, const MapPage *map, double x)
 {
-    const Axes *axes = &map->axes;
-    Stroke stroke = {.color = INK, .width = 0.6 * page->point, .dash = 3 * page->point};
-    stroke.space = 2 * page->point;
-    Point from = axes_place(axes, axes->x.low, x), to = axes_place(axes, axes->x.high, x);
-    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
-    draw_segment(page->canvas, &stroke, from, to);
-    text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
+    Stroke stroke = dashed_stroke(page, INK, 0.6);
+    axes_level(page, &map->axes, &stroke, x, 1.6, "~{l}_{c}");
 }
 
 // A bar above the frame, in the colour of the contact-density map's frame: what that one enlarges.
@@ -42,7 +36,7 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
     Point from = axes_place(axes, zoom->U_low, 0), to = axes_place(axes, zoom->U_high, 0);
     Box bar = {from.x, foot - ZOOM_BAR * page->point, fmax(to.x, from.x + page->point), foot};
     double width = text_width(page->text, style.size, page->zoom_name);
-    double first = axes->box.left + EXPONENT_WIDTH * axes->number_size * page->point;
+    double first = axes->box.left + EXPONENT_WIDTH * axes_number_size(axes) * page->point;
     double middle = (bar.left + bar.right) / 2, gap = ZOOM_LEADER_LENGTH * page->point;
     bool before = middle - gap - width > first;   // the name stands left of the bar
     double height = bar.top - ZOOM_DESCENT * page->point;
@@ -63,19 +57,7 @@ static void key_of_map(Page *page, const ResultView *view, const Window *window,
 {
     KeyEntry entries[3];
     int32_t count = map_page_key(view, window, entries);
-    if (measured->count > 0)
-        entries[count++] = (KeyEntry){KEY_DISC, MEASURED_COLOR, measured->words};
-    key_draw(page, entries, count);
-}
-
-bool figure_slip_map_measured(ResultView *view, const char *path, Measured *measured, Error *err)
-{
-    TRY(measured_read(path, MEASURED_FRONT, view, measured, err));
-    if (measured->count > 0) TRY(result_view_read_front(view, err));
-    const ViewCurve curve = {view->rows, view->U, view->front};
-    if (measured->count > 0) measured_compare(measured, view, computed_on_curve, &curve);
-cleanup:
-    return error_is_clean(err);
+    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
 bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
@@ -89,21 +71,19 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
     TRY(window_find(view, &page.style, &window, err));
     bool marked = page.zoom_name && zoom.found && zoom.U_low >= window.low;
-    if (marked) map.above = ZOOM_ABOVE;
+    if (marked) map.axes.above = ZOOM_ABOVE;
     TRY(result_view_read_slip_rate(view, err));
     if (map.mean) TRY(result_view_read_slip(view, err));
     map.bar = slip_scale(view, V);
     snprintf(map.bar.label, sizeof map.bar.label, "%s slip rate / ~{V}",
              map.mean ? "mean" : "largest");
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
-    TRY(figure_slip_map_measured(view, page.style.compare, &measured, err));
+    TRY(measured_read(page.style.compare, MEASURED_FRONT, view, &measured, err));
     key_of_map(&page, view, &window, &measured);
-    map_page_layout(&page, view, window.low, window.high, &map);
-    TRY(map_page_fill(view, NULL, &map, err));
-    map_page_levels(&map);
-    map_page_draw_field(&page, view, &map);
+    TRY(map_page_draw(&page, view, (double[]){window.low, window.high}, &map, err));
     if (marked) zoom_draw(&page, &zoom, &map.axes);
-    if (isfinite(length)) critical_length_draw(&page, &map, figure_trailing_end(view) + length);
+    if (isfinite(length))
+        critical_length_draw(&page, &map, result_view_trailing_end(view) + length);
     measured_draw(&page, &measured, &map.axes);
     map_page_draw_frame(&page, view, &map);
 cleanup:

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "render/figures/map_page.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,15 +19,12 @@ bool figure_state_map(const Page *whole, ResultView *view, Error *err)
     bool largest = page.style.pixels && strcmp(page.style.pixels, "largest") == 0;
     MapPage map = {.sign = largest ? 1 : -1};
     TRY(window_find(view, &page.style, &window, err));
-    TRY(state_read(view, false, &states, err));
+    TRY(result_view_read(view, SERIES_STATE, false, &states, err));
     TRY(state_scale(view, (const double[2]){window.low, window.high}, states, &page.style, &map.bar,
                     err));
     map.states = states;
     key_draw(&page, entries, map_page_key(view, &window, entries));
-    map_page_layout(&page, view, window.low, window.high, &map);
-    TRY(map_page_fill(view, NULL, &map, err));
-    map_page_levels(&map);
-    map_page_draw_field(&page, view, &map);
+    TRY(map_page_draw(&page, view, (double[]){window.low, window.high}, &map, err));
     map_page_draw_frame(&page, view, &map);
 cleanup:
     memory_free(states);

@@ -30,26 +30,25 @@ typedef struct Strip {
 } Strip;
 
 // The sliding that lies nearest to the asked time; without one the last that has ended.
-static bool find_event(const FigureInput *input, const BlockTimes *times, const ViewEvent **event,
+static bool find_event(const FigureInput *input, const BlockSource *source, const ViewEvent **event,
                        Error *err)
 {
     const ResultView *view = input->view;
     int32_t index = -1;
     double least = INFINITY;
     *event = NULL;
-    if (input->field->at) TRY(block_time_find(times, view, input->field->at, &index, err));
+    if (input->field->at && !block_time_find(source, input->field->at, &index, err)) return false;
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *seen = &view->events[k];
         if (seen->kind != VIEW_LEADING || !isfinite(seen->U_start + seen->U_stop)) continue;
-        double away = index >= 0 ? fabs(view->U[times->row[index]] - seen->U_start) : 0;
+        double away = index >= 0 ? fabs(view->U[source->row[index]] - seen->U_start) : 0;
         if (!(away <= least)) continue;
         least = away;
         *event = seen;
     }
     if (!*event)
-        FAIL(err, ERROR_INPUT, "no sliding of the whole block has been seen from start to end");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "no sliding of the whole block has been seen from start to end");
+    return true;
 }
 
 // How much of the slip of an event is done at a step: the mean over the contact nodes, 0 to 1.
@@ -66,18 +65,20 @@ static double slip_done(const ResultView *view, int64_t row, int64_t first, int6
 }
 
 // chosen: indices of the times nearest to equal parts of the slip, each once; returns how many.
-static int32_t choose_times(const ResultView *view, const BlockTimes *times, const ViewEvent *event,
+static int32_t choose_times(const BlockSource *source, const ViewEvent *event,
                             int32_t chosen[FRAMES_MAX])
 {
+    const ResultView *view = source->view;
+    const int64_t *row = source->row;
     double slack = SLACK * fabs(event->U_stop);
-    int32_t from = 0, to = times->count - 1, count = 0;
-    while (from < times->count && view->U[times->row[from]] < event->U_start - slack) ++from;
-    while (to >= from && view->U[times->row[to]] > event->U_stop + slack) --to;
+    int32_t from = 0, to = source->count - 1, count = 0;
+    while (from < source->count && view->U[row[from]] < event->U_start - slack) ++from;
+    while (to >= from && view->U[row[to]] > event->U_stop + slack) --to;
     for (int32_t k = 0; k < FRAMES_MAX && from <= to; ++k) {
         int32_t best = from;
         double least = INFINITY, wanted = (double)k / (FRAMES_MAX - 1);
         for (int32_t at = from; at <= to; ++at) {
-            double done = slip_done(view, times->row[at], times->row[from], times->row[to]);
+            double done = slip_done(view, row[at], row[from], row[to]);
             if (fabs(done - wanted) < least) best = at;
             least = fmin(least, fabs(done - wanted));
         }
@@ -88,26 +89,23 @@ static int32_t choose_times(const ResultView *view, const BlockTimes *times, con
 
 static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity quantity, Error *err)
 {
-    BlockTimes times = {0};
+    BlockSource source = {.folder = input->folder, .view = input->view, .quantity = quantity};
     const ViewEvent *event = NULL;
     int32_t chosen[FRAMES_MAX];
-    TRY(block_times_read(input->folder, input->view, &times, err));
-    TRY(find_event(input, &times, &event, err));
+    TRY(block_source_open(&source, err));
+    TRY(find_event(input, &source, &event, err));
     TRY(result_view_read_status(input->view, err));
     TRY(result_view_read_slip(input->view, err));
-    int32_t count = choose_times(input->view, &times, event, chosen);
+    int32_t count = choose_times(&source, event, chosen);
     if (count < FRAMES_MIN)
         FAIL(err, ERROR_INPUT,
              "of the sliding at U = %.5g only %d time%s stored: output.fields takes more with "
              "at_events: true, or a smaller every_t",
              event->U_start, count, count == 1 ? " is" : "s are");
-    for (; strip->count < count; ++strip->count) {
-        Block *block = &strip->blocks[strip->count];
-        TRY(block_read(input->folder, input->view, &times, chosen[strip->count], block, err));
-        TRY(block_take(block, quantity, err));
-    }
+    for (; strip->count < count; ++strip->count)
+        TRY(block_read(&source, chosen[strip->count], &strip->blocks[strip->count], err));
 cleanup:
-    block_times_destroy(&times);
+    block_source_close(&source);
     return error_is_clean(err);
 }
 
@@ -115,19 +113,7 @@ cleanup:
 static void lay_out(const FigureInput *input, Strip *strip)
 {
     double room = page_width(input->def.style) - LEFT - RIGHT;
-    strip->magnification = INFINITY;
-    for (int32_t k = 0; k < strip->count; ++k)
-        strip->magnification = fmin(strip->magnification, block_magnification(&strip->blocks[k]));
-    for (int32_t k = 0; k < strip->count; ++k) {
-        double extent[4];
-        block_deform(&strip->blocks[k], strip->magnification);
-        block_extent(&strip->blocks[k], extent);
-        for (int32_t d = 0; d < 4; ++d) {
-            double both = d % 2 ? fmax(extent[d], strip->extent[d])
-                                : fmin(extent[d], strip->extent[d]);
-            strip->extent[d] = k == 0 ? extent[d] : both;
-        }
-    }
+    block_page_deform(strip->blocks, strip->count, &strip->magnification, strip->extent);
     strip->width = (room - (COLUMNS - 1) * GAP) / COLUMNS;
     strip->scale = block_page_scale(strip->extent, strip->width, SHARE);
     strip->height = block_page_height(strip->extent, strip->scale, SHARE);
@@ -167,9 +153,8 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
 {
     char words[WORDS_SIZE];
     double point = page->point;
-    uint8_t colors[3 * MAP_SIZE];
     SpaceCut cut;
-    TRY(block_cut_read(input->view, input->field->cut, &cut, err));
+    if (!block_cut_read(input->view, input->field->cut, &cut, err)) return false;
     BlockPage map = {.view = input->view,
                      .cut = &cut,
                      .edges = input->field->edges,
@@ -177,18 +162,15 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
                      .style = input->def.style};
     Box all = {0};
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
-    TRY(block_page_fit(&map, strip->blocks, strip->count, quantity, err));
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, PAPER);
+    if (!block_page_fit(&map, strip->blocks, strip->count, quantity, err)) return false;
     for (int32_t k = 0; k < strip->count; ++k) {
         Axes axes = frame_axes(page, input, strip, k);
-        TRY(block_page_draw(page, &map, &strip->blocks[k], &axes, err));
+        if (!block_page_draw(page, &map, &strip->blocks[k], &axes, err)) return false;
         if (k == 0) all = axes.box;
         all.right = fmax(all.right, axes.box.right);
         all.bottom = axes.box.bottom;
     }
-    Box beside = {.left = all.right + GAP * point, .top = all.top, .bottom = all.bottom};
-    colorbar_draw(page, &map.bar, &beside);
+    colorbar_draw(page, &map.bar, &all, GAP);
     bool free = has_free_place(strip);
     double line = free ? FREE_LINE : 0;
     Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
@@ -199,8 +181,7 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
     snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
     place.y += (free ? (LEGEND_LINES - 1) * line : NOTE_HEIGHT) * point;
     text_draw(page->text, &style, place, words);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool figure_strip(Page *page, const FigureInput *input, Error *err)

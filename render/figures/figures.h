@@ -7,6 +7,12 @@
 #include "render/canvas/axes.h"
 #include "render/figures/measured.h"
 
+#define FIGURE_MU "~{F}_{T} / ~{F}_{N}"
+#define FIGURE_NO_DENSITY                                                                          \
+    "the result has no critical velocity, which the contact density is defined by"
+static const Color FIGURE_CURVE = {0.05f, 0.27f, 0.55f, 1};
+static const Color FIGURE_LEVEL = {0.45f, 0.45f, 0.47f, 1};   // of what a curve is measured by
+
 // The view may read more of the result, hence not const.
 typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
 
@@ -21,7 +27,8 @@ typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error 
 
 // One field of the block at one time.
 bool figure_field(Page *page, const FigureInput *input, Error *err);
-bool figure_field_shows(const char *quantity);
+// Whether fields are stored, and have that; NULL: anything.
+bool figure_field_shows(const char *folder, const char *quantity);
 // The same, the velocity where none is named, in up to six frames of one sliding.
 bool figure_strip(Page *page, const FigureInput *input, Error *err);
 
@@ -46,31 +53,17 @@ bool figure_precursors(const Page *page, ResultView *view, Error *err);
 // How fast the front of the sliding that is enlarged ran, over x.
 bool figure_front_speed(const Page *page, ResultView *view, Error *err);
 
-// What a file has to say beside a figure, compared with what was computed; count 0: nothing.
-typedef bool (*MeasuredFunction)(ResultView *view, const char *path, Measured *measured,
-                                 Error *err);
-bool figure_force_measured(ResultView *view, const char *path, Measured *measured, Error *err);
-bool figure_slip_map_measured(ResultView *view, const char *path, Measured *measured, Error *err);
-bool figure_contact_density_measured(ResultView *view, const char *path, Measured *measured,
-                                     Error *err);
-bool figure_precursors_measured(ResultView *view, const char *path, Measured *measured, Error *err);
-bool figure_front_speed_measured(ResultView *view, const char *path, Measured *measured,
-                                 Error *err);
-
-// The curves of the last two, view->precursors and view->front_speed: length over F_T/F_N, velocity
-// over x.
-bool precursors_compute(ResultView *view, Error *err);
-bool front_speed_compute(ResultView *view, Error *err);
-
-// The figure called `name`, one of the history alone, on a fresh page. In render.c.
+// Whether a result has what a figure of that name shows. In render.c, like the next.
+bool figure_is_there(const char *name, const ResultView *view);
+// The figure called `name`, one of the history alone, on a fresh page.
 bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
                  Error *err);
 
+// Axes of force curves of [count] results, in a frame that is known; y: headroom times their range,
+// 0 included.
+Axes figure_force_axes(const ResultView *views, int32_t count, Box box, double headroom);
+
 // An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
-
-double figure_trailing_end(const ResultView *view);   // x, length
-// The block where its length is known, all contact nodes in any case.
-void figure_x_extent(const ResultView *view, double *low, double *high);
 
 #endif

@@ -2,11 +2,9 @@
 // What the pictures over (U, x) share: frame, axes, pads, the grid of pixels, the front.
 #include "render/figures/map_page.h"
 
-#include "base/memory.h"
-#include "render/figures/pad_marks.h"
-
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double HATCH_SPACING = 4;   // points
@@ -16,6 +14,10 @@ static const double EVENTS_SHARE = 0.2;   // of the frame's width that so wide e
 
 static const double ROW_SLACK = 0.25;   // pixels by which a row may be off
 
+static const double PAD_GAP = 1.6;   // points: frame to bar
+static const double PAD_WIDTH = 1.2;   // points
+static const double PAD_NAME_GAP = 1.6;   // points: bar to name
+static const Color PAD_COLOR = {0.45f, 0.46f, 0.48f, 1};
 static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
@@ -30,21 +32,84 @@ Axis figure_length_axis(const ResultView *view, const char *symbol, double low, 
     return axis;
 }
 
-// 0 in results that do not say it, which are older.
-double figure_trailing_end(const ResultView *view)
+// --- names of pads -------------------------------------------------------------------------------
+
+// A bar and a name for each pad at the right of a map, so that gaps in it can be told from open
+// contact. A single contact needs none.
+enum { PAD_NAME_SIZE = 96 };
+
+// "contact_3" is shown as pad 3, a name of the user's own as it is; without names, numbers from 1.
+static void pad_name(const ResultView *view, int32_t pad, char name[PAD_NAME_SIZE])
 {
-    double x = view->number[NUMBER_TRAILING];
-    return isfinite(x) ? x : 0;
+    static const char common[] = "contact_";
+    const char *start = view->pad_names;
+    for (int32_t k = 0; start && k < pad; ++k) {
+        start = strchr(start, '\n');
+        if (start) ++start;
+    }
+    int length = start ? (int)strcspn(start, "\n") : 0, skip = sizeof common - 1;
+    if (length == 0)
+        snprintf(name, PAD_NAME_SIZE, "pad %d", pad + 1);
+    else if (length > skip && strncmp(start, common, sizeof common - 1) == 0)
+        snprintf(name, PAD_NAME_SIZE, "pad %.*s", length - skip, start + skip);
+    else
+        snprintf(name, PAD_NAME_SIZE, "%.*s", length, start);
 }
 
-void figure_x_extent(const ResultView *view, double *low, double *high)
+// Pads are numbered from 0 without gaps; one is the least.
+static int32_t pad_count(const ResultView *view)
 {
-    double begin = figure_trailing_end(view), length = view->number[NUMBER_LENGTH];
-    double end = isfinite(length) && length > 0 ? begin + length : begin;
-    *low = fmin(begin, view->x[0]);
-    *high = fmax(end, view->x[view->nodes - 1]);
-    if (!(*high > *low)) *high = *low + 1;   // one node at 0
+    double last = 0;
+    for (int32_t i = 0; i < view->nodes; ++i) last = fmax(last, view->pad[i]);
+    return (int32_t)last + 1;
 }
+
+// Extent of a pad along x; false: no node is on it.
+static bool pad_extent(const ResultView *view, int32_t pad, double *from, double *to)
+{
+    *from = INFINITY;
+    *to = -INFINITY;
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        if ((int32_t)view->pad[i] != pad) continue;
+        *from = fmin(*from, view->x[i]);
+        *to = fmax(*to, view->x[i]);
+    }
+    return *to >= *from;
+}
+
+static double pad_marks_width(const Page *page, const ResultView *view)
+{
+    char name[PAD_NAME_SIZE];
+    double widest = 0;
+    int32_t count = pad_count(view);
+    if (count < 2) return 0;
+    for (int32_t pad = 0; pad < count; ++pad) {
+        pad_name(view, pad, name);
+        widest = fmax(widest, text_width(page->text, SMALL_SIZE * page->point, name));
+    }
+    return PAD_GAP + PAD_WIDTH + PAD_NAME_GAP + widest / page->point;
+}
+
+static void pad_marks_draw(const Page *page, const ResultView *view, const Axes *axes,
+                           double beside)
+{
+    double point = page->point, from = 0, to = 0;
+    double left = axes->box.right + (beside + PAD_GAP) * point;
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
+    int32_t count = pad_count(view);
+    for (int32_t pad = 0; count > 1 && pad < count; ++pad) {
+        char name[PAD_NAME_SIZE];
+        if (!pad_extent(view, pad, &from, &to)) continue;
+        Point low = axes_place(axes, axes->x.high, from), high = axes_place(axes, axes->x.high, to);
+        Box bar = {left, high.y, left + PAD_WIDTH * point, fmax(low.y, high.y + 1)};
+        draw_fill(page->canvas, PAD_COLOR, &bar);
+        pad_name(view, pad, name);
+        Point place = {bar.right + PAD_NAME_GAP * point, (low.y + high.y) / 2};
+        text_draw(page->text, &style, place, name);
+    }
+}
+
+// --- the map -------------------------------------------------------------------------------------
 
 // A rapid event is thinner than a pixel: it is drawn as wide as print shows, or, where there are
 // so many that they would hide what lies between, one pixel wide.
@@ -78,72 +143,65 @@ static int32_t rows_needed(const Page *page, const ResultView *view, const Axes 
     return (int32_t)rows;
 }
 
-void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
-                     MapPage *map)
+static void lay_out(const Page *page, const ResultView *view, const double U[2], MapPage *map)
 {
-    double x_low = 0, x_high = 0, point = page->point;
-    uint8_t colors[3 * MAP_SIZE];
+    double x[2] = {0, 0};
     Axes *axes = &map->axes;
-    figure_x_extent(view, &x_low, &x_high);
-    axes->x = figure_length_axis(view, "U", U_low, U_high);
-    axes->y = figure_length_axis(view, "x", x_low, x_high);
-    axes->number_size = NUMBER_SIZE;
-    axes->color = INK;
+    result_view_x_extent(view, &x[0], &x[1]);
+    axes->x = figure_length_axis(view, "U", U[0], U[1]);
+    axes->y = figure_length_axis(view, "x", x[0], x[1]);
     axes->bare_x = page->bare_x;
-    axes->box.top = page->room.top + round(fmax(axes_top_margin(axes), map->above) * point);
-    axes->box.bottom = round(page->room.bottom - axes_bottom_margin(axes) * point);
-    axes->box.left = round(page->room.left + axes_left_margin(page, axes) * point);
     map->pads_width = pad_marks_width(page, view);
     double beside = BAR_GAP + map->pads_width + map->mark_width + colorbar_width(page, &map->bar);
-    axes->box.right = round(page->room.right - beside * point);
-    page_place_frame(page, &axes->box);
+    axes_fit(page, &page->room, beside, axes);
     int32_t columns = (int32_t)(axes->box.right - axes->box.left);
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, map->bar.neutral_color);
-    map->grid = (PixelGrid){.U_low = U_low,
-                            .U_high = U_high,
-                            .x_low = x_low,
-                            .x_high = x_high,
+    map->grid = (PixelGrid){.U_low = U[0],
+                            .U_high = U[1],
+                            .x_low = x[0],
+                            .x_high = x[1],
                             .columns = columns,
-                            .event_columns = event_columns(page, view, U_low, U_high, columns),
+                            .event_columns = event_columns(page, view, U[0], U[1], columns),
                             .rows = rows_needed(page, view, axes)};
 }
 
-// What space_time needs of a result; the statuses only where a figure asks for them.
-static SpaceTime view_space_time(const ResultView *view)
+// Of density what is lost of it, over what the bar spans; open contact is infinitely fast.
+static float level_of(const MapPage *map, double value)
 {
-    return (SpaceTime){.rows = view->rows,
-                       .U = view->U,
-                       .nodes = view->nodes,
-                       .x = view->x,
-                       .pad = view->pad,
-                       .value = view->slip_rate,
-                       .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
-                       .event_count = view->rapid_count,
-                       .events = (const double(*)[2])view->rapid};
+    if (!(map->critical > 0)) return colorbar_level(&map->bar, value);
+    if (isnan(value)) return HEAT_MISSING;
+    return isinf(value) ? (float)HEAT_BELOW
+                        : (float)fmin(value / map->critical / (1 - map->bar.low), 1);
 }
 
-bool map_page_fill(const ResultView *view, const double *status, MapPage *map, Error *err)
+bool map_page_fill(const SpaceTime *data, MapPage *map, Error *err)
 {
-    SpaceTime data = view_space_time(view);
-    data.status = status;
-    if (map->mean) data.slip = view->slip;
-    if (map->states) {
-        data.value = map->states;
-        data.sign = map->sign;
-    }
     if (map->grid.columns < 2 || map->grid.rows < 2)
-        FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
-    TRY(space_time_to_pixels(&data, &map->grid, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "the picture is too small for its axes");
+    if (!space_time_to_pixels(data, &map->grid, err)) return false;
+    for (int64_t k = 0; k < (int64_t)map->grid.bands * map->grid.columns; ++k)
+        map->grid.values[k] = level_of(map, (double)map->grid.values[k]);
+    return true;
 }
 
-void map_page_levels(MapPage *map)
+bool map_page_draw(const Page *page, const ResultView *view, const double U[2], MapPage *map,
+                   Error *err)
 {
-    int64_t count = (int64_t)map->grid.bands * map->grid.columns;
-    for (int64_t k = 0; k < count; ++k)
-        map->grid.values[k] = colorbar_level(&map->bar, (double)map->grid.values[k]);
+    lay_out(page, view, U, map);
+    SpaceTime data = {.rows = view->rows,
+                      .U = view->U,
+                      .nodes = view->nodes,
+                      .x = view->x,
+                      .pad = view->pad,
+                      .value = map->states ? map->states : view->slip_rate,
+                      .sign = map->sign,
+                      .status = map->status,
+                      .slip = map->mean ? view->slip : NULL,
+                      .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
+                      .event_count = view->rapid_count,
+                      .events = (const double(*)[2])view->rapid};
+    if (!map_page_fill(&data, map, err)) return false;
+    map_page_draw_field(page, view, map);
+    return true;
 }
 
 int32_t map_page_key(const ResultView *view, const Window *window, KeyEntry entries[2])
@@ -169,10 +227,11 @@ static void gap_draw(const Page *page, const Axes *axes, double low, double high
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map)
 {
     const Axes *axes = &map->axes;
-    SpaceTime data = view_space_time(view);
+    SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
     double covered = axes->y.low, from = 0, to = 0;
     const HeatMap heat = {map->grid.columns, map->grid.bands, map->grid.values, map->grid.band,
                           map->grid.rows};
+    canvas_set_below(page->canvas, map->bar.neutral_color);
     canvas_heat(page->canvas, &axes->box, &heat);
     for (int32_t i = 0; i < view->nodes; ++i) {
         node_extent(&data, i, &from, &to);
@@ -203,34 +262,30 @@ static bool row_is_shown(const ResultView *view, int64_t row, const Axis *shown)
 
 // A front a pad: one line over all of them would leap over gaps, and would not see what goes on
 // ahead of the first node that sticks.
-bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err)
+void map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map)
 {
     Stroke stroke = {.color = INK, .width = FRONT_WIDTH * page->point};
-    Point *line = NULL;
-    TRY(line = NEW_ARRAY(Point, view->rows, err));
     canvas_clip(page->canvas, &map->axes.box);
     for (int32_t first = 0, last = 0; first < view->nodes; first = ++last) {
         while (last + 1 < view->nodes && view->pad[last + 1] == view->pad[first]) ++last;
-        for (int64_t row = 0; row < view->rows; ++row)
-            line[row] =
-                row_is_shown(view, row, &map->axes.x)
-                    ? axes_place(&map->axes, view->U[row], pad_front(view, row, first, last))
-                    : (Point){NAN, NAN};
-        draw_line(page->canvas, &stroke, line, view->rows);
+        LinePen pen = line_begin(page->canvas, &stroke);
+        for (int64_t row = 0; row < view->rows; ++row) {
+            if (row_is_shown(view, row, &map->axes.x))
+                line_add(&pen,
+                         axes_place(&map->axes, view->U[row], pad_front(view, row, first, last)));
+            else
+                pen.down = false;
+        }
+        line_end(&pen);
     }
     canvas_clip(page->canvas, NULL);
-cleanup:
-    memory_free(line);
-    return error_is_clean(err);
 }
 
 void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage *map)
 {
-    Box bar = map->axes.box;
-    bar.left = round(bar.right + (BAR_GAP + map->pads_width + map->mark_width) * page->point);
     axes_draw(page, &map->axes);
     pad_marks_draw(page, view, &map->axes, map->mark_width);
-    colorbar_draw(page, &map->bar, &bar);
+    colorbar_draw(page, &map->bar, &map->axes.box, BAR_GAP + map->pads_width + map->mark_width);
 }
 
 void map_page_destroy(MapPage *map)

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "io/text/csv_reader.h"
-#include "render/canvas/key.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +10,7 @@
 
 enum { NAME_SIZE = 32 };
 
-const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
+static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 
 typedef enum Dimension { NO_DIMENSION, OF_LENGTH, OF_TIME, OF_VELOCITY } Dimension;
 
@@ -86,24 +85,23 @@ static bool unit_factor(const Heading *heading, const ResultView *view, double *
     *factor = 1;
     bool bare = length == 0 || memchr(unit, '_', length);   // L_0, t_0, L_0/t_0
     if (bare && !view->si) return true;
-    if (bare) FAIL(err, ERROR_INPUT, "%s needs a unit beside a result in SI, as in U (mm)", name);
+    if (bare) return REFUSE(err, "%s needs a unit beside a result in SI, as in U (mm)", name);
     for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k) {
         if (UNITS[k].dimension != heading->dimension || strlen(UNITS[k].name) != length ||
             strncmp(UNITS[k].name, unit, length) != 0)
             continue;
         *factor = UNITS[k].factor;
         if (view->si) return true;
-        FAIL(err, ERROR_INPUT,
-             "the result is normalised: give %s over a length or speed of it, as in U/L, x/L, "
-             "v/c_R",
-             name);
+        return REFUSE(
+            err,
+            "the result is normalised: give %s over a length or speed of it, as in U/L, x/L, "
+            "v/c_R",
+            name);
     }
-    FAIL(err, ERROR_INPUT,
-         "%s: there is no unit \"%.*s\" for it; m, cm, mm, um, nm, s, ms, us, "
-         "min, m/s, mm/s, um/s, km/s are known",
-         name, (int)length, unit);
-cleanup:
-    return error_is_clean(err);
+    return REFUSE(err,
+                  "%s: there is no unit \"%.*s\" for it; m, cm, mm, um, nm, s, ms, us, "
+                  "min, m/s, mm/s, um/s, km/s are known",
+                  name, (int)length, unit);
 }
 
 // `name` with a unit, or over what the result knows.
@@ -155,7 +153,6 @@ static bool find_columns(const CsvTable *table, const ResultView *view, Columns 
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
 static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *value)
 {
-    bool when = found->U.index >= 0 || found->t.index >= 0;
     const Column moment = found->U.index >= 0 ? found->U : found->t;
     const Column ats[MEASURED_KINDS] = {moment, moment, moment, found->ratio, found->x};
     const Column values[MEASURED_KINDS] = {found->ratio, found->x, found->area, found->length,
@@ -164,7 +161,6 @@ static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *
     *value = values[kind];
     if (kind == MEASURED_FRONT && (found->area.index >= 0 || found->speed.index >= 0)) return false;
     if (kind == MEASURED_AREA && found->x.index < 0) return false;
-    if (kind <= MEASURED_AREA && !when) return false;
     return at->index >= 0 && value->index >= 0;
 }
 
@@ -173,27 +169,6 @@ static double read_cell(const CsvTable *table, int32_t row, const Column *column
     if (column->index < 0) return NAN;
     double value = csv_value(table, row, column->index) * column->factor;
     return column->under < 0 ? value : value / csv_value(table, row, column->under);
-}
-
-double curve_value(const ViewCurve *curve, double at)
-{
-    int64_t low = 0, high = curve->count - 1;
-    if (curve->count < 2 || !(at >= curve->at[0] && at <= curve->at[high])) return NAN;
-    while (high - low > 1) {
-        int64_t middle = low + (high - low) / 2;
-        if (curve->at[middle] <= at)
-            low = middle;
-        else
-            high = middle;
-    }
-    double span = curve->at[high] - curve->at[low];
-    double part = span > 0 ? (at - curve->at[low]) / span : 1;
-    return curve->value[low] + part * (curve->value[high] - curve->value[low]);
-}
-
-double computed_on_curve(const void *curve, const Measured *measured, int32_t k)
-{
-    return curve_value(curve, measured->at[k]);
 }
 
 static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
@@ -205,7 +180,7 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
     double **lists[] = {&measured->at, &measured->x, &measured->value, &measured->error,
                         &measured->computed};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
-        TRY(*lists[k] = NEW_ARRAY(double, table->rows, err));
+        if (!(*lists[k] = NEW_ARRAY(double, table->rows, err))) return false;
     error.factor = value.factor;
     bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0;
     for (int32_t row = 0; row < table->rows; ++row) {
@@ -219,8 +194,7 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
         bool placed = measured->kind != MEASURED_AREA || isfinite(measured->x[k]);
         if (isfinite(measured->at[k] + measured->value[k]) && placed) ++measured->count;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool has_any(const Columns *found)
@@ -252,7 +226,51 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool measured_read(const char *path, MeasuredKind kind, const ResultView *view, Measured *measured,
+// The misfit in words.
+static void describe(Measured *measured, const ResultView *view)
+{
+    static const struct {
+        const char *words;
+        int32_t number;   // that the misfit is over; -1: none
+    } scales[MEASURED_KINDS] = {{"", -1},
+                                {" ~{L}", NUMBER_LENGTH},
+                                {"", -1},
+                                {" ~{L}", NUMBER_LENGTH},
+                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH}};
+    double sum = 0, parts = 0;
+    int32_t count = 0, number = scales[measured->kind].number;
+    for (int32_t k = 0; k < measured->count; ++k) {
+        double away = measured->value[k] - measured->computed[k];
+        if (!isfinite(away)) continue;
+        sum += away * away;
+        parts += away * away / (measured->error[k] * measured->error[k]);
+        ++count;
+    }
+    if (count == 0) return;
+    size_t length = strlen(measured->words);
+    double misfit = sqrt(sum / count) / (number < 0 ? 1 : view->number[number]);
+    length += (size_t)snprintf(measured->words + length, sizeof measured->words - length,
+                               ": misfit %.3g%s", misfit, scales[measured->kind].words);
+    if (isfinite(parts))
+        snprintf(measured->words + length, sizeof measured->words - length, ", %.3g of its errors",
+                 sqrt(parts / count));
+}
+
+static bool compare(Measured *measured, ResultView *view, Error *err)
+{
+    ViewCurve curve;
+    bool area = measured->kind == MEASURED_AREA;
+    if (area && !(result_view_read_slip_rate(view, err) && result_view_read_status(view, err)))
+        return false;
+    if (!computed_curve(view, measured->kind, &curve, err)) return false;
+    for (int32_t k = 0; k < measured->count; ++k)
+        measured->computed[k] = area ? computed_area(view, measured->at[k], measured->x[k])
+                                     : curve_value(&curve, measured->at[k]);
+    describe(measured, view);
+    return true;
+}
+
+bool measured_read(const char *path, MeasuredKind kind, ResultView *view, Measured *measured,
                    Error *err)
 {
     CsvTable table = {0};
@@ -263,6 +281,7 @@ bool measured_read(const char *path, MeasuredKind kind, const ResultView *view, 
     snprintf(measured->words, sizeof measured->words, "%.60s", name);
     TRY(read_table(path, view, &table, &found, err));
     TRY(take_rows(&table, &found, view, measured, err));
+    if (measured->count > 0) TRY(compare(measured, view, err));
 cleanup:
     csv_destroy(&table);
     if (!error_is_clean(err)) measured_destroy(measured);
@@ -282,35 +301,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-void measured_compare(Measured *measured, const ResultView *view, ComputedFunction computed,
-                      const void *context)
+int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, int32_t count)
 {
-    static const struct {
-        const char *words;
-        int32_t number;   // that the misfit is over; -1: none
-    } scales[MEASURED_KINDS] = {{"", -1},
-                                {" ~{L}", NUMBER_LENGTH},
-                                {"", -1},
-                                {" ~{L}", NUMBER_LENGTH},
-                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH}};
-    double sum = 0, parts = 0;
-    int32_t count = 0, number = scales[measured->kind].number;
-    for (int32_t k = 0; k < measured->count; ++k) {
-        measured->computed[k] = computed(context, measured, k);
-        double away = measured->value[k] - measured->computed[k];
-        if (!isfinite(away)) continue;
-        sum += away * away;
-        parts += away * away / (measured->error[k] * measured->error[k]);
-        ++count;
-    }
-    if (count == 0) return;
-    size_t length = strlen(measured->words);
-    double misfit = sqrt(sum / count) / (number < 0 ? 1 : view->number[number]);
-    length += (size_t)snprintf(measured->words + length, sizeof measured->words - length,
-                               ": misfit %.3g%s", misfit, scales[measured->kind].words);
-    if (isfinite(parts))
-        snprintf(measured->words + length, sizeof measured->words - length, ", %.3g of its errors",
-                 sqrt(parts / count));
+    Color color = mark == KEY_RING ? INK : MEASURED_COLOR;
+    if (measured->count > 0) entries[count++] = (KeyEntry){mark, color, measured->words};
+    return count;
 }
 
 void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
@@ -331,10 +326,7 @@ void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
 
 void measured_destroy(Measured *measured)
 {
-    memory_free(measured->at);
-    memory_free(measured->x);
-    memory_free(measured->value);
-    memory_free(measured->error);
-    memory_free(measured->computed);
+    memory_free_all(measured->at, measured->x, measured->value, measured->error,
+                    measured->computed);
     *measured = (Measured){0};
 }

@@ -17,18 +17,10 @@
 #define AMONTONS_RENDER_FIGURES_MEASURED_H
 
 #include "render/canvas/axes.h"
-#include "render/view/result_view.h"
+#include "render/canvas/key.h"
+#include "render/figures/computed.h"
 
 enum { MEASURED_WORDS_SIZE = 200 };
-
-typedef enum MeasuredKind {
-    MEASURED_MU,
-    MEASURED_FRONT,
-    MEASURED_AREA,
-    MEASURED_LENGTH,
-    MEASURED_SPEED,
-    MEASURED_KINDS
-} MeasuredKind;
 
 typedef struct Measured {
     MeasuredKind kind;
@@ -38,32 +30,23 @@ typedef struct Measured {
     double *x;   // [count] of MEASURED_AREA alone
     double *value;   // [count] 1, length or velocity
     double *error;   // [count] NaN: not given
-    double *computed;   // [count] NaN: not covered; by measured_compare
+    double *computed;   // [count] NaN: not covered
     char words[MEASURED_WORDS_SIZE];   // for a legend: the file's name and the misfit
 } Measured;
 
-// What was computed where point k was measured; NaN: nothing.
-typedef double (*ComputedFunction)(const void *context, const Measured *measured, int32_t k);
-
-// What the file says of `kind`; count 0: nothing, or no file is given (path NULL).
-bool measured_read(const char *path, MeasuredKind kind, const ResultView *view, Measured *measured,
+// What the file says of `kind`, and what was computed there; count 0: nothing, or no file is given
+// (path NULL). The misfit is the root of the mean square of what is measured less what was computed
+// there, over the points that the result covers; in parts of the errors too where all have one.
+bool measured_read(const char *path, MeasuredKind kind, ResultView *view, Measured *measured,
                    Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine
 // Whether the file has `kind`.
 bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, bool *has,
                   Error *err);
 
-// The misfit: the root of the mean square of what is measured less what was computed there, over
-// the points that the result covers; in parts of the errors too where all have one.
-void measured_compare(Measured *measured, const ResultView *view, ComputedFunction computed,
-                      const void *context);
-
-// A ComputedFunction of a ViewCurve: linear between its points.
-double computed_on_curve(const void *curve, const Measured *measured, int32_t k);
-double curve_value(const ViewCurve *curve, double at);   // NaN: beyond its ends
-
+// Adds it to the entries of a key, if there is any; returns how many these are then.
+int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, int32_t count);
 // Discs with bars as long as the errors on both sides, in a colour of their own.
 void measured_draw(const Page *page, const Measured *measured, const Axes *axes);
-extern const Color MEASURED_COLOR;
 
 #endif

@@ -76,8 +76,6 @@ static void choose_ranges(const RenderMesh *mesh, Axes *axes)
         snprintf(finer->label, sizeof finer->label, "%s%s", finer == &axes->y ? "~{z}" : "~{x}",
                  coarser->label + 4);
     }
-    axes->number_size = NUMBER_SIZE;
-    axes->color = INK;
 }
 
 // The frame's height over its width.
@@ -301,8 +299,7 @@ static void draw_head(const MeshPage *map)
     for (int32_t k = 1; k >= 0; --k) {
         if (!lines[k] || !lines[k][0]) continue;
         style.size = (k == 0 ? LABEL_SIZE : SMALL_SIZE) * point;
-        style.size *= fmin(1, room / text_width(map->page->text, style.size, lines[k]));
-        text_draw(map->page->text, &style, (Point){map->axes.box.left, y}, lines[k]);
+        text_draw_within(map->page->text, &style, (Point){map->axes.box.left, y}, room, lines[k]);
         y -= HEAD_HEIGHT * point;
     }
 }

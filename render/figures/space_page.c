@@ -55,24 +55,14 @@ static double floor_height(const Block *block)
     return block->low[2] - camera_drop(block->low, block->high);
 }
 
-void space_page_extent(const Block *block, double extent[4])
+void space_page_floor_corners(const Block *block, double corner[4][2])
 {
-    double floor = floor_height(block);
-    for (int32_t d = 0; d < 2; ++d) {
-        extent[2 * d] = INFINITY;
-        extent[2 * d + 1] = -INFINITY;
-        for (int64_t i = 0; i < block->frame.node_count; ++i) {
-            extent[2 * d] = fmin(extent[2 * d], block->place[i][d]);
-            extent[2 * d + 1] = fmax(extent[2 * d + 1], block->place[i][d]);
-        }
-        for (int32_t k = 0; k < 4; ++k) {
-            const double corner[3] = {k % 2 ? block->high[0] : block->low[0],
-                                      k / 2 ? block->high[1] : block->low[1], floor};
-            double seen[3];
-            camera_see(&block->camera, corner, seen);
-            extent[2 * d] = fmin(extent[2 * d], seen[d]);
-            extent[2 * d + 1] = fmax(extent[2 * d + 1], seen[d]);
-        }
+    for (int32_t k = 0; k < 4; ++k) {
+        const double place[3] = {k % 2 ? block->high[0] : block->low[0],
+                                 k / 2 ? block->high[1] : block->low[1], floor_height(block)};
+        double seen[3];
+        camera_see(&block->camera, place, seen);
+        memcpy(corner[k], seen, sizeof corner[k]);
     }
 }
 
@@ -82,8 +72,9 @@ static bool draw_colors(const Page *page, const SpacePage *space, const Block *b
                         const Surface *surface, DepthImage *image, Error *err)
 {
     const Box *box = &space->axes.box;
-    TRY(depth_image_create((int32_t)(box->right - box->left), (int32_t)(box->bottom - box->top),
-                           SLACK * diagonal(block), image, err));
+    if (!depth_image_create((int32_t)(box->right - box->left), (int32_t)(box->bottom - box->top),
+                            SLACK * diagonal(block), image, err))
+        return false;
     for (int64_t t = 0; t < surface->triangles.count; ++t) {
         DepthPoint corner[3];
         for (int32_t k = 0; k < 3; ++k) {
@@ -95,8 +86,7 @@ static bool draw_colors(const Page *page, const SpacePage *space, const Block *b
     for (int64_t k = 0; k < (int64_t)image->rows * image->columns; ++k)
         image->values[k] = colorbar_level(space->bar, (double)image->values[k]);
     canvas_heat(page->canvas, box, &(HeatMap){image->columns, image->rows, image->values, NULL, 0});
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void draw_parts(const Page *page, const SpacePage *space, const Block *block,

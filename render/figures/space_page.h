@@ -17,8 +17,8 @@ typedef struct SpacePage {
     Color status[4];   // of the contact, by its numbers in the history
 } SpacePage;
 
-// With its floor: across low and high, up low and high.
-void space_page_extent(const Block *block, double extent[4]);
+// Where the camera sees the corners of its floor.
+void space_page_floor_corners(const Block *block, double corner[4][2]);
 
 bool space_page_draw(const Page *page, const SpacePage *space, const Block *block, Error *err);
 // The floor alone, at a step of the history; the block is one of the same result.

@@ -12,71 +12,56 @@
 static const double SECONDS = 20, SECONDS_MAX = 3600;
 static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of it, at most
 
-enum {
-    RATE = 30,
-    RATE_MAX = 240,
-    WIDTH = 1920,
-    HEIGHT = 1080,
-    WIDTH_LEAST = 640,
-    HEIGHT_LEAST = 360,
-    GIF_RATE = 20,
-    GIF_WIDTH = 800,
-    GIF_HEIGHT = 450,
-    FRAMES_MAX = 100000
-};
+enum { RATE = 30, RATE_MAX = 240, FRAMES_MAX = 100000 };
+enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
+enum { GIF_RATE = 20, GIF_WIDTH = 800, GIF_HEIGHT = 450 };
 
 static bool check_size(const FilmRequest *film, Error *err)
 {
     bool fits = film->width >= WIDTH_LEAST && film->width <= CANVAS_SIZE_MAX &&
                 film->height >= HEIGHT_LEAST && film->height <= CANVAS_SIZE_MAX;
     if (!fits || film->width % 2 || film->height % 2)
-        FAIL(err, ERROR_INPUT,
-             "a film of %d by %d pixels: even numbers from %d by %d to %d by %d are allowed",
-             film->width, film->height, WIDTH_LEAST, HEIGHT_LEAST, CANVAS_SIZE_MAX,
-             CANVAS_SIZE_MAX);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err, "a film of %d by %d pixels: even numbers from %d by %d to %d by %d are allowed",
+            film->width, film->height, WIDTH_LEAST, HEIGHT_LEAST, CANVAS_SIZE_MAX, CANVAS_SIZE_MAX);
+    return true;
 }
 
 // What was left open is filled in.
 static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames, Error *err)
 {
     *film = *request;
-    if (!film->path || !film->path[0]) FAIL(err, ERROR_INPUT, "the film needs a name");
-    TRY(film_sink_check(film->path, err));
-    bool gif = film_sink_is_gif(film->path);
+    if (!film->path || !film->path[0]) return REFUSE(err, "the film needs a name");
+    if (!film_sink_check(film->path, err)) return false;
+    bool gif = video_file_is_gif(film->path);
     if (film->seconds == 0) film->seconds = SECONDS;
     if (film->rate == 0) film->rate = gif ? GIF_RATE : RATE;
     if (film->width == 0 && film->height == 0) {
         film->width = gif ? GIF_WIDTH : WIDTH;
         film->height = gif ? GIF_HEIGHT : HEIGHT;
     }
-    TRY(check_size(film, err));
+    if (!check_size(film, err)) return false;
     if (film->rate < 1 || film->rate > RATE_MAX)
-        FAIL(err, ERROR_INPUT, "%d frames a second: from 1 to %d are allowed", film->rate,
-             RATE_MAX);
+        return REFUSE(err, "%d frames a second: from 1 to %d are allowed", film->rate, RATE_MAX);
     double count = film->seconds * film->rate;
     if (!(film->seconds > 0 && film->seconds <= SECONDS_MAX && count >= 2 && count <= FRAMES_MAX))
-        FAIL(err, ERROR_INPUT,
-             "a film of %g s at %d frames a second: it must have from 2 to %d frames",
-             film->seconds, film->rate, FRAMES_MAX);
+        return REFUSE(err, "a film of %g s at %d frames a second: it must have from 2 to %d frames",
+                      film->seconds, film->rate, FRAMES_MAX);
     if (!(film->magnification >= 0) || !isfinite(film->magnification))
-        FAIL(err, ERROR_INPUT, "a magnification of %g: it must be above 0", film->magnification);
+        return REFUSE(err, "a magnification of %g: it must be above 0", film->magnification);
     *frames = (int32_t)lround(count);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The largest |slip rate| at each step, of nodes in contact: one that has lifted off does not slip.
 static bool find_fastest(const ResultView *view, double **fastest, Error *err)
 {
-    TRY(*fastest = NEW_ARRAY(double, view->rows, err));
+    if (!(*fastest = NEW_ARRAY(double, view->rows, err))) return false;
     for (int64_t row = 0; row < view->rows; ++row)
         for (int64_t i = row * view->nodes; i < (row + 1) * view->nodes; ++i)
             if (view->status[i] != 0)
                 (*fastest)[row] = fmax((*fastest)[row], fabs(view->slip_rate[i]));
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool set_clock(const FilmRequest *film, const ResultView *view, int32_t frames,
@@ -108,25 +93,23 @@ static bool shoot(const FilmRequest *film, FilmPage *page, FilmSink *sink, int32
         const uint8_t *pixels = NULL;
         int32_t stride = 0;
         if (film->stop && *film->stop)
-            FAIL(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
-                 frames);
-        TRY(film_page_show(page, k, &pixels, &stride, err));
-        TRY(film_sink_add(sink, pixels, stride, err));
+            return FAULT(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
+                         frames);
+        if (!film_page_show(page, k, &pixels, &stride, err)) return false;
+        if (!film_sink_add(sink, pixels, stride, err)) return false;
         if (film->on_frame) film->on_frame(k + 1, frames, film->context);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool read_view(const char *folder, ResultView *view, Error *err)
 {
-    TRY(result_view_open(folder, view, err));
-    TRY(result_view_read_slip_rate(view, err));
-    TRY(result_view_read_status(view, err));
+    if (!result_view_open(folder, view, err)) return false;
+    if (!result_view_read_slip_rate(view, err)) return false;
+    if (!result_view_read_status(view, err)) return false;
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
-    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
-cleanup:
-    return error_is_clean(err);
+    if (!(V > 0)) return REFUSE(err, "the result does not say how fast the rod moves");
+    return true;
 }
 
 __attribute__((visibility("default"))) bool
@@ -142,17 +125,10 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY(read_view(folder, &view, err));
     TRY(set_clock(&film, &view, frames, &clock, err));
     const PictureStyle titled = {.title = film.title};
-    FilmPageDef def = {folder,
-                       &view,
-                       &clock,
-                       film.width,
-                       film.height,
-                       film.of,
-                       film.magnification,
-                       film.dark,
-                       page_title(&titled, view.title, true)};
+    FilmPageDef def = {folder, &view, &clock, &film, page_title(&titled, view.title, true)};
     TRY(page = film_page_create(&def, err));
-    FilmSinkDef file = {film.path, film.width, film.height, film.rate, view.title, film.overwrite};
+    VideoDef file = {film.path,  film.width, film.height,   film.rate,
+                     view.title, NULL,       film.overwrite};
     TRY(sink = film_sink_create(&file, err));
     TRY(shoot(&film, page, sink, frames, err));
     TRY(film_sink_finish(sink, err));
@@ -161,6 +137,25 @@ cleanup:
     film_sink_destroy(sink);
     film_page_destroy(page);
     film_clock_destroy(&clock);
+    result_view_close(&view);
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool amontons_render_film_part(const char *folder,
+                                                                      const FilmRequest *request,
+                                                                      FilmPart *part, Error *err)
+{
+    FilmRequest film;
+    ResultView view = {0};
+    double t[2] = {0, 0};
+    FilmSpan span = {request->begin, request->end, request->last_cycle};
+    *part = (FilmPart){0};
+    TRY(complete(request, &film, &part->frames, err));
+    TRY(result_view_open(folder, &view, err));
+    TRY(film_span_find(&view, &span, t, err));
+    part->from_U = film_moment(&view, t[0]).U;
+    part->to_U = film_moment(&view, t[1]).U;
+cleanup:
     result_view_close(&view);
     return error_is_clean(err);
 }

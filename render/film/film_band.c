@@ -59,12 +59,9 @@ static void lay_out(const Page *page, const Box *cell, FilmBand *band)
     MapPage *map = &band->map;
     Axes *axes = &map->axes;
     double low = 0, high = 0;
-    figure_x_extent(view, &low, &high);
-    axes->x = (Axis){.low = 0, .factor = 1};
-    axes->x.high = (double)(band->clock->frames - 1) / band->clock->rate;
+    result_view_x_extent(view, &low, &high);
+    axes->x = (Axis){.high = (double)(band->clock->frames - 1) / band->clock->rate, .factor = 1};
     axes->y = figure_length_axis(view, "x", low, high);
-    axes->number_size = NUMBER_SIZE;
-    axes->color = INK;
     band->strip.top = round(cell->top + WORDS_HEIGHT * point);
     band->strip.bottom = round(band->strip.top + STRIP_HEIGHT * point);
     axes->box.top = round(band->strip.bottom + STRIP_GAP * point);
@@ -102,10 +99,7 @@ static bool fill_map(FilmBand *band, Error *err)
                             .x_high = map->axes.y.high,
                             .columns = (int32_t)(map->axes.box.right - map->axes.box.left),
                             .rows = (int32_t)(map->axes.box.bottom - map->axes.box.top)};
-    if (map->grid.columns < 2 || map->grid.rows < 2)
-        FAIL(err, ERROR_INPUT, "the film is too small for its axes");
-    TRY(space_time_to_pixels(&data, &map->grid, err));
-    map_page_levels(map);
+    TRY(map_page_fill(&data, map, err));
 cleanup:
     memory_free(seconds);
     return error_is_clean(err);
@@ -206,9 +200,6 @@ static void draw_U(const Page *page, const FilmBand *band)
 void film_band_draw(const Page *page, const FilmBand *band)
 {
     const Axes *axes = &band->map.axes;
-    uint8_t colors[3 * MAP_SIZE];
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, band->map.bar.neutral_color);
     map_page_draw_field(page, band->view, &band->map);
     draw_strip(page, band);
     axes_draw_left(page, axes);

@@ -4,10 +4,8 @@
 #include "base/memory.h"
 #include "render/figures/figures.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 enum { SAMPLES_MAX = 24, WORDS_SIZE = 200 };
 
@@ -19,46 +17,36 @@ static const double BAR_MARGIN = 4;   // points: above and below the bar, at lea
 
 // --- fields --------------------------------------------------------------------------------------
 
-static bool has_fields(const char *folder)
-{
-    char path[PATH_MAX];
-    snprintf(path, sizeof path, "%s/fields.pvd", folder);
-    return access(path, R_OK) == 0;
-}
-
 // For each frame the field stored nearest to it in time; none where all are outside of the film.
 bool film_block_open(FilmBlock *film, Error *err)
 {
     const FilmClock *clock = film->clock;
-    const BlockTimes *times = &film->times;
+    const BlockSource *source = &film->source;
     bool inside = false;
     film->shown = film->pair_index[0] = film->pair_index[1] = -1;
-    film->map = (BlockPage){.view = film->view, .share = 1};
-    if (!has_fields(film->folder)) return true;
-    TRY(block_times_read(film->folder, film->view, &film->times, err));
-    for (int32_t k = 0; k < times->count; ++k)
-        inside = inside || (times->times[k].t >= clock->t[0] &&
-                            times->times[k].t <= clock->t[clock->frames - 1]);
+    film->map = (BlockPage){.view = source->view, .share = 1};
+    if (!block_is_stored(source->folder)) return true;
+    if (!block_source_open(&film->source, err)) return false;
+    const FieldTime *times = source->times;
+    for (int32_t k = 0; k < source->count; ++k)
+        inside = inside || (times[k].t >= clock->t[0] && times[k].t <= clock->t[clock->frames - 1]);
     if (!inside) return true;
-    TRY(film->stored = NEW_ARRAY(int32_t, clock->frames, err));
+    if (!(film->stored = NEW_ARRAY(int32_t, clock->frames, err))) return false;
     int32_t at = 0;
     for (int32_t k = 0; k < clock->frames; ++k) {
-        while (at + 1 < times->count &&
-               fabs(times->times[at + 1].t - clock->t[k]) <= fabs(times->times[at].t - clock->t[k]))
+        while (at + 1 < source->count &&
+               fabs(times[at + 1].t - clock->t[k]) <= fabs(times[at].t - clock->t[k]))
             ++at;
         film->stored[k] = at;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool read_stored(const FilmBlock *film, int32_t index, Block *block, Error *err)
 {
-    TRY(block_read(film->folder, film->view, &film->times, index, block, err));
-    TRY(block_take(block, film->quantity, err));
+    if (!block_read(&film->source, index, block, err)) return false;
     block_deform(block, film->magnification);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Colours and size hold for the whole film: they are those of some of its fields, evenly spaced in
@@ -67,25 +55,14 @@ static bool fit_fields(FilmBlock *film, double extent[4], Error *err)
 {
     Block sample[SAMPLES_MAX] = {0};
     int32_t count = 0, frames = film->clock->frames;
-    bool asked = film->magnification > 0;
     for (int32_t k = 0; k < SAMPLES_MAX; ++k) {
         int32_t index = film->stored[(int64_t)k * (frames - 1) / (SAMPLES_MAX - 1)];
         if (k > 0 && index == film->stored[(int64_t)(k - 1) * (frames - 1) / (SAMPLES_MAX - 1)])
             continue;
-        TRY(read_stored(film, index, &sample[count++], err));
+        TRY(block_read(&film->source, index, &sample[count++], err));
     }
-    for (int32_t k = 0; k < count && !asked; ++k) {
-        double own = block_magnification(&sample[k]);
-        if (k == 0 || own < film->magnification) film->magnification = own;
-    }
-    for (int32_t k = 0; k < count; ++k) {
-        double own[4];
-        block_deform(&sample[k], film->magnification);
-        block_extent(&sample[k], own);
-        for (int32_t d = 0; d < 4; ++d)
-            extent[d] = k == 0 ? own[d] : d % 2 ? fmax(extent[d], own[d]) : fmin(extent[d], own[d]);
-    }
-    TRY(block_page_fit(&film->map, sample, count, film->quantity, err));
+    block_page_deform(sample, count, &film->magnification, extent);
+    TRY(block_page_fit(&film->map, sample, count, film->source.quantity, err));
 cleanup:
     for (int32_t k = 0; k < SAMPLES_MAX; ++k) block_destroy(&sample[k]);
     return error_is_clean(err);
@@ -110,9 +87,8 @@ bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error 
     }
     block_page_ranges(extent, scale, 1, &film->axes);
     width = scale * (film->axes.x.high - film->axes.x.low);
-    double left = cell->left,
-           top = cell->top + (cell->bottom - cell->top - (needed + words) * point) / 2;
-    film->axes.box.left = round(left);
+    double top = cell->top + (cell->bottom - cell->top - (needed + words) * point) / 2;
+    film->axes.box.left = round(cell->left);
     film->axes.box.right = film->axes.box.left + round(width * point);
     film->axes.box.top = round(top + WORDS_HEIGHT * point);
     film->axes.box.bottom = film->axes.box.top + round(needed * point);
@@ -121,23 +97,13 @@ bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error 
 
 // --- what is drawn -------------------------------------------------------------------------------
 
-static void set_map(const Page *page)
-{
-    uint8_t colors[3 * MAP_SIZE];
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, PAPER);
-}
-
 void film_block_draw(const Page *page, const FilmBlock *film)
 {
     const Box *box = &film->axes.box;
     double point = page->point, middle = (box->top + box->bottom) / 2;
     double half = fmin(BAR_LONGEST * point, box->bottom - box->top - 2 * BAR_MARGIN * point) / 2;
-    Box beside = {.left = round(box->right + BAR_GAP * point),
-                  .top = round(middle - half),
-                  .bottom = round(middle + half)};
-    set_map(page);
-    colorbar_draw(page, &film->map.bar, &beside);
+    Box beside = {.right = box->right, .top = round(middle - half), .bottom = round(middle + half)};
+    colorbar_draw(page, &film->map.bar, &beside, BAR_GAP);
     block_page_legend(
         page, (Point){box->left + LEGEND_LEFT * point, box->bottom + 0.5 * LEGEND_HEIGHT * point},
         0);
@@ -149,7 +115,7 @@ static void draw_words(const Page *page, const FilmBlock *film, const Block *blo
     char words[WORDS_SIZE];
     double point = page->point;
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
-    Axis U = figure_length_axis(film->view, "U", 0, block->U);
+    Axis U = figure_length_axis(film->source.view, "U", 0, block->U);
     Box line = {film->axes.box.left, film->axes.box.top - WORDS_HEIGHT * point,
                 film->axes.box.right, film->axes.box.top};
     draw_fill(page->canvas, PAPER, &line);
@@ -158,16 +124,14 @@ static void draw_words(const Page *page, const FilmBlock *film, const Block *blo
                                   film->U_decimals, block->U * U.factor);
     snprintf(words + length, sizeof words - (size_t)length, "deformation \u00d7 %g",
              film->magnification);
-    style.size *= fmin(1, (line.right - line.left - LEGEND_LEFT * point) /
-                              text_width(page->text, style.size, words));
-    text_draw(page->text, &style, (Point){line.left + LEGEND_LEFT * point, line.bottom - 3 * point},
-              words);
+    double left = line.left + LEGEND_LEFT * point;
+    text_draw_within(page->text, &style, (Point){left, line.bottom - 3 * point}, line.right - left,
+                     words);
 }
 
 static bool put_block(const Page *page, const FilmBlock *film, const Block *block, bool mixed,
                       Error *err)
 {
-    set_map(page);
     draw_fill(page->canvas, PAPER, &film->axes.box);
     if (!block_page_draw(page, &film->map, block, &film->axes, err)) return false;
     draw_words(page, film, block, mixed);
@@ -180,11 +144,8 @@ static bool draw_stored(const Page *page, FilmBlock *film, int32_t index, Error 
     Block *block = &film->block;
     if (index == film->shown) return true;
     block_destroy(block);
-    TRY(read_stored(film, index, block, err));
-    TRY(put_block(page, film, block, false, err));
     film->shown = index;
-cleanup:
-    return error_is_clean(err);
+    return read_stored(film, index, block, err) && put_block(page, film, block, false, err);
 }
 
 // Both of a pair, the one that is there already kept.
@@ -201,40 +162,37 @@ static bool read_pair(FilmBlock *film, int32_t first, Error *err)
         if (film->pair_index[k] == first + k) continue;
         block_destroy(&film->pair[k]);
         film->pair_index[k] = -1;
-        TRY(read_stored(film, first + k, &film->pair[k], err));
+        if (!read_stored(film, first + k, &film->pair[k], err)) return false;
         film->pair_index[k] = first + k;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // What is drawn of two stored fields, linear in time, in the place of the first: its own is read
 // again where it is wanted.
 static bool draw_mixture(const Page *page, FilmBlock *film, int32_t first, double t, Error *err)
 {
-    TRY(read_pair(film, first, err));
+    if (!read_pair(film, first, err)) return false;
     Block *a = &film->pair[0], *b = &film->pair[1];
     double part = (t - a->t) / (b->t - a->t);
     if (a->frame.node_count != b->frame.node_count)
-        FAIL(err, ERROR_FILE, "two fields of the film have %d and %d nodes", a->frame.node_count,
-             b->frame.node_count);
+        return FAULT(err, ERROR_FILE, "two fields of the film have %d and %d nodes",
+                     a->frame.node_count, b->frame.node_count);
     block_mix(a, b, part);
     a->t = t;   // from here on to the second
     film->shown = -1;
-    TRY(put_block(page, film, a, true, err));
-cleanup:
-    return error_is_clean(err);
+    return put_block(page, film, a, true, err);
 }
 
 // From one step to the next the block is linear in time, as all else is in the film; where steps
 // between two stored fields are not known it shows the nearer one, and says when that was stored.
 bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Error *err)
 {
-    const BlockTimes *times = &film->times;
+    const BlockSource *source = &film->source;
     int32_t first = film->stored[k];
-    if (times->times[first].t > t && first > 0) --first;
-    bool neighbours = first + 1 < times->count && times->times[first].t <= t &&
-                      times->row[first + 1] == times->row[first] + 1;
+    if (source->times[first].t > t && first > 0) --first;
+    bool neighbours = first + 1 < source->count && source->times[first].t <= t &&
+                      source->row[first + 1] == source->row[first] + 1;
     film->still = !neighbours && film->shown == film->stored[k] ? film->still + 1 : 1;
     if (film->still > film->still_most) film->still_most = film->still;
     return neighbours ? draw_mixture(page, film, first, t, err)
@@ -249,7 +207,7 @@ void film_block_contact(const Page *page, const FilmBlock *film, int64_t row)
 
 void film_block_close(FilmBlock *film)
 {
-    block_times_destroy(&film->times);
+    block_source_close(&film->source);
     block_destroy(&film->block);
     for (int32_t k = 0; k < 2; ++k) block_destroy(&film->pair[k]);
     memory_free(film->stored);

@@ -8,24 +8,21 @@
 #include "render/film/film_clock.h"
 
 typedef struct FilmBlock {
-    const char *folder;   // of the result
-    ResultView *view;
     const FilmClock *clock;
-    BlockQuantity quantity;
+    BlockSource source;   // folder, view and quantity are given; owned
     double magnification;   // 0: to be chosen
     BlockPage map;
     int32_t U_decimals;
-    BlockTimes times;   // owned
     int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
     int32_t still, still_most;   // frames for which the block has stood, and did at most
     int32_t shown;   // the one that stands on the page; -1: none, or a mixture
     Block pair[2];   // of neighbouring steps, to be mixed; owned
-    int32_t pair_index[2];   // of `times`; -1: none
+    int32_t pair_index[2];   // of `source`; -1: none
     Block block;   // that which is shown, its field; owned
     Axes axes;
 } FilmBlock;
 
-// The first five are given; finds the fields, `stored` NULL where there are none.
+// The first three are given; finds the fields, `stored` NULL where there are none.
 bool film_block_open(FilmBlock *film, Error *err);
 void film_block_close(FilmBlock *film);   // zeroed is fine
 

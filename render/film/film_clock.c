@@ -5,6 +5,7 @@
 #include "render/film/film_clock.h"
 
 #include "base/memory.h"
+#include "render/view/result_view.h"
 
 #include <math.h>
 
@@ -20,10 +21,16 @@ typedef struct Course {
     double *t, *log_fast;   // [count] owned
 } Course;
 
+static bool course_make(Course *course, int64_t count, Error *err)
+{
+    course->count = count;
+    return (course->t = NEW_ARRAY(double, count, err)) &&
+           (course->log_fast = NEW_ARRAY(double, count, err));
+}
+
 static void course_destroy(Course *course)
 {
-    memory_free(course->t);
-    memory_free(course->log_fast);
+    memory_free_all(course->t, course->log_fast);
     *course = (Course){0};
 }
 
@@ -46,8 +53,7 @@ static double log_fast_between(const FilmClockDef *def, int64_t row, double t)
 static bool course_create(const FilmClockDef *def, Course *course, Error *err)
 {
     int64_t n = 1, last = 1;
-    TRY(course->t = NEW_ARRAY(double, def->rows + 2, err));
-    TRY(course->log_fast = NEW_ARRAY(double, def->rows + 2, err));
+    if (!course_make(course, def->rows + 2, err)) return false;
     course->t[0] = def->low;
     for (int64_t row = 1; row < def->rows; ++row) {
         double t = def->t[row];
@@ -60,8 +66,7 @@ static bool course_create(const FilmClockDef *def, Course *course, Error *err)
     course->t[n] = def->high;
     course->log_fast[n] = log_fast_between(def, last, def->high);
     course->count = n + 1;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long one
@@ -98,27 +103,42 @@ static double choose_power(const Course *course)
     return (low + high) / 2;
 }
 
+// A place in the film's time: in step `k` of a course, `part` of the way to its end.
+typedef struct Place {
+    int64_t k;
+    double before, part;   // before: the film's time at the step's beginning
+} Place;
+
+// Led along, from step 1.
+static void place_move(const Course *course, double power, double at, Place *place)
+{
+    double own = stretched(course, place->k, power);
+    while (place->before + own < at && place->k + 1 < course->count) {
+        place->before += own;
+        own = stretched(course, ++place->k, power);
+    }
+    place->part = own > 0 ? fmin((at - place->before) / own, 1) : 0;
+}
+
+static double time_at(const Course *course, const Place *place)
+{
+    const double *t = course->t + place->k;
+    return t[-1] + place->part * (t[0] - t[-1]);
+}
+
 // The same course at `count` places, evenly spaced in the film's time.
 static bool course_even(const Course *course, double power, int64_t count, Course *even, Error *err)
 {
-    double step = length_of(course, power) / (double)(count - 1), before = 0;
-    int64_t k = 1;
-    TRY(even->t = NEW_ARRAY(double, count, err));
-    TRY(even->log_fast = NEW_ARRAY(double, count, err));
-    even->count = count;
+    double step = length_of(course, power) / (double)(count - 1);
+    Place place = {.k = 1};
+    if (!course_make(even, count, err)) return false;
     for (int64_t i = 0; i < count; ++i) {
-        double at = (double)i * step, own = stretched(course, k, power);
-        while (before + own < at && k + 1 < course->count) {
-            before += own;
-            own = stretched(course, ++k, power);
-        }
-        double part = own > 0 ? fmin((at - before) / own, 1) : 0;
-        even->t[i] = course->t[k - 1] + part * (course->t[k] - course->t[k - 1]);
-        even->log_fast[i] = log_fast_of(course, k);
+        place_move(course, power, (double)i * step, &place);
+        even->t[i] = time_at(course, &place);
+        even->log_fast[i] = log_fast_of(course, place.k);
     }
     even->t[count - 1] = course->t[course->count - 1];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before and
@@ -147,28 +167,21 @@ static double ease_slope(const FilmClockDef *def, const Course *even, double pow
 static bool frames_place(const FilmClockDef *def, const Course *even, double power,
                          FilmClock *clock, Error *err)
 {
-    TRY(clock->t = NEW_ARRAY(double, def->frames, err));
-    TRY(clock->speed = NEW_ARRAY(double, def->frames, err));
+    if (!(clock->t = NEW_ARRAY(double, def->frames, err))) return false;
+    if (!(clock->speed = NEW_ARRAY(double, def->frames, err))) return false;
     double seconds = (double)(def->frames - 1) / def->rate, whole = length_of(even, power);
-    double before = 0, own = stretched(even, 1, power);
-    int64_t k = 1;
+    Place place = {.k = 1};
     for (int32_t i = 0; i < def->frames; ++i) {
-        double at = whole * i / (def->frames - 1);
-        while (before + own < at && k + 1 < even->count) {
-            before += own;
-            own = stretched(even, ++k, power);
-        }
-        double part = own > 0 ? fmin((at - before) / own, 1) : 0;
-        double log_fast = even->log_fast[k - 1] +
-                          part * (even->log_fast[k] - even->log_fast[k - 1]);
-        clock->t[i] = even->t[k - 1] + part * (even->t[k] - even->t[k - 1]);
-        clock->speed[i] = whole / seconds * exp(-power * log_fast);
+        place_move(even, power, whole * i / (def->frames - 1), &place);
+        const double *log_fast = even->log_fast + place.k;
+        double here = log_fast[-1] + place.part * (log_fast[0] - log_fast[-1]);
+        clock->t[i] = time_at(even, &place);
+        clock->speed[i] = whole / seconds * exp(-power * here);
     }
     clock->t[def->frames - 1] = def->high;
     clock->frames = def->frames;
     clock->rate = def->rate;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
@@ -192,23 +205,15 @@ cleanup:
 
 void film_clock_destroy(FilmClock *clock)
 {
-    memory_free(clock->t);
-    memory_free(clock->speed);
+    memory_free_all(clock->t, clock->speed);
     *clock = (FilmClock){0};
 }
 
 double film_clock_seconds(const FilmClock *clock, double t)
 {
-    int32_t low = 0, high = clock->frames - 1;
+    int32_t last = clock->frames - 1;
     if (!(t > clock->t[0])) return 0;
-    if (t >= clock->t[high]) return (double)high / clock->rate;
-    while (high - low > 1) {
-        int32_t middle = low + (high - low) / 2;
-        if (clock->t[middle] <= t)
-            low = middle;
-        else
-            high = middle;
-    }
-    double part = (t - clock->t[low]) / (clock->t[high] - clock->t[low]);
-    return (low + part) / clock->rate;
+    if (t >= clock->t[last]) return (double)last / clock->rate;
+    int64_t k = curve_place(clock->t, clock->frames, t);
+    return ((double)k + (t - clock->t[k]) / (clock->t[k + 1] - clock->t[k])) / clock->rate;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/film/film_curves.h"
 
-#include "base/memory.h"
 #include "render/figures/figures.h"
 #include "render/view/space_time.h"
 
@@ -18,19 +17,6 @@ static const double PAST_WIDTH = 1.2, LATER_WIDTH = 0.8;   // points
 static const Color PAST = {0.05f, 0.27f, 0.55f, 1};
 static const Color LATER = {0.78f, 0.81f, 0.85f, 1};
 static const Color DOT_COLOR = {0.75f, 0.12f, 0.12f, 1};
-
-// The frame in its cell, less numbers and names.
-static void place_in(const Page *page, const Box *cell, Axes *axes)
-{
-    double point = page->point;
-    axes->number_size = NUMBER_SIZE;
-    axes->color = INK;
-    axes->box.top = round(cell->top + axes_top_margin(axes) * point);
-    axes->box.bottom = round(cell->bottom - axes_bottom_margin(axes) * point);
-    axes->box.right = round(cell->right - RIGHT * point);
-    axes->box.left = round(cell->left);   // the margin depends on the height alone
-    axes->box.left = round(cell->left + axes_left_margin(page, axes) * point);
-}
 
 // --- force ---------------------------------------------------------------------------------------
 
@@ -51,41 +37,33 @@ void film_force_place(const Page *page, const Box *cell, const double t[2], Film
     if (!(high > low)) high = low + 1;
     if (!(U[1] > U[0])) U[1] = U[0] + 1;   // the rod stands all the time
     force->axes.x = figure_length_axis(view, "U", U[0], U[1]);
-    force->axes.y = (Axis){.low = low - ABOVE * (high - low), .high = high, .factor = 1};
-    force->axes.y.high += ABOVE * (high - low);
-    snprintf(force->axes.y.label, sizeof force->axes.y.label, "~{F}_{T} / ~{F}_{N}");
+    double beyond = ABOVE * (high - low);
+    force->axes.y = (Axis){low - beyond, high + beyond, 1, .label = FIGURE_MU};
     force->drawn = from.row;
-    place_in(page, cell, &force->axes);
+    axes_fit(page, cell, RIGHT, &force->axes);
 }
 
 // Rows from `first` to `last`, then `end` where it is not NULL.
 static void curve_draw(const Page *page, const FilmForce *force, const Stroke *stroke,
-                       const int64_t rows[2], const Point *end, Point *line)
+                       const int64_t rows[2], const Point *end)
 {
     const ResultView *view = force->view;
-    int64_t count = 0;
-    for (int64_t row = rows[0]; row <= rows[1]; ++row) {
-        Point place = axes_place(&force->axes, view->U[row], view->mu[row]);
-        bool near = count > 0 && row < rows[1] &&
-                    hypot(place.x - line[count - 1].x, place.y - line[count - 1].y) < THIN_DISTANCE;
-        if (!near) line[count++] = place;
-    }
-    if (end) line[count++] = *end;
     canvas_clip(page->canvas, &force->axes.box);
-    draw_line(page->canvas, stroke, line, count);
+    LinePen pen = line_begin(page->canvas, stroke);
+    for (int64_t row = rows[0]; row <= rows[1]; ++row) {
+        pen.thin = row < rows[1] ? THIN_DISTANCE : 0;
+        line_add(&pen, axes_place(&force->axes, view->U[row], view->mu[row]));
+    }
+    if (end) line_add(&pen, *end);
+    line_end(&pen);
     canvas_clip(page->canvas, NULL);
 }
 
-bool film_force_draw(const Page *page, const FilmForce *force, Error *err)
+void film_force_draw(const Page *page, const FilmForce *force)
 {
     Stroke stroke = {.color = LATER, .width = LATER_WIDTH * page->point};
-    const int64_t rows[2] = {force->first - 1, force->last};
-    Point *line = NEW_ARRAY(Point, force->last - force->first + 3, err);
-    if (!line) return false;
-    curve_draw(page, force, &stroke, rows, NULL, line);
-    memory_free(line);
+    curve_draw(page, force, &stroke, (const int64_t[]){force->first - 1, force->last}, NULL);
     axes_draw(page, &force->axes);
-    return true;
 }
 
 enum { STEPS_AT_ONCE = 64 };
@@ -94,12 +72,10 @@ enum { STEPS_AT_ONCE = 64 };
 void film_force_pass(const Page *page, FilmForce *force, const FilmMoment *now)
 {
     Stroke stroke = {.color = PAST, .width = PAST_WIDTH * page->point};
-    Point line[STEPS_AT_ONCE + 2];
     while (force->drawn < now->row) {
         int64_t last = force->drawn + STEPS_AT_ONCE;
         if (last > now->row) last = now->row;
-        const int64_t rows[2] = {force->drawn, last};
-        curve_draw(page, force, &stroke, rows, NULL, line);
+        curve_draw(page, force, &stroke, (const int64_t[]){force->drawn, last}, NULL);
         force->drawn = last;
     }
 }
@@ -108,9 +84,8 @@ void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *
 {
     double point = page->point;
     Stroke stroke = {.color = PAST, .width = PAST_WIDTH * point};
-    Point place = axes_place(&force->axes, now->U, now->mu), line[2];
-    const int64_t rows[2] = {now->row, now->row};
-    curve_draw(page, force, &stroke, rows, &place, line);
+    Point place = axes_place(&force->axes, now->U, now->mu);
+    curve_draw(page, force, &stroke, (const int64_t[]){now->row, now->row}, &place);
     draw_disc(page->canvas, PAPER, place, (DOT + RING) * point);
     draw_disc(page->canvas, DOT_COLOR, place, DOT * point);
 }
@@ -122,7 +97,7 @@ void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
     const ResultView *view = profile->view;
     Axes *axes = &profile->axes;
     double low = 0, high = 0;
-    figure_x_extent(view, &low, &high);
+    result_view_x_extent(view, &low, &high);
     axes->x = figure_length_axis(view, "x", low, high);
     const Colorbar *bar = &profile->bar;
     axes->y = (Axis){.low = bar->powers ? pow(10, bar->low) : bar->low,
@@ -130,7 +105,7 @@ void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
                      .factor = 1,
                      .is_log = bar->powers};
     snprintf(axes->y.label, sizeof axes->y.label, "%s", bar->label);
-    place_in(page, cell, axes);
+    axes_fit(page, cell, RIGHT, axes);
 }
 
 void film_profile_draw(const Page *page, const FilmProfile *profile)
@@ -144,12 +119,10 @@ void film_profile_now(const Page *page, const FilmProfile *profile, const FilmMo
 {
     const ResultView *view = profile->view;
     const Axes *axes = &profile->axes;
-    const Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
+    const Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
     SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
     double height = axes->box.bottom - axes->box.top;
-    uint8_t colors[3 * MAP_SIZE];
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, profile->bar.neutral_color);
+    canvas_set_below(page->canvas, profile->bar.neutral_color);
     for (int32_t i = 0; i < view->nodes; ++i) {
         double from = 0, to = 0;
         node_extent(&data, i, &from, &to);

@@ -4,8 +4,7 @@
 #include "base/memory.h"
 #include "render/film/film_block.h"
 #include "render/film/film_plane.h"
-#include "render/figures/slip_scale.h"
-#include "render/figures/state_scale.h"
+#include "render/figures/color_scale.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,10 +39,12 @@ struct FilmPage {
 
 static bool page_open(const FilmPage *self, Page *page, Error *err)
 {
-    double point = fmax(fmin(self->def.height / HEIGHT, self->def.width / WIDTH), POINT_LEAST);
-    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.dark};
-    style.width = self->def.width / style.dpi * INCH;
-    PageDef def = {.style = &style, .height = (double)self->def.height / self->def.width};
+    double point =
+        fmax(fmin(self->def.film->height / HEIGHT, self->def.film->width / WIDTH), POINT_LEAST);
+    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.film->dark};
+    style.width = self->def.film->width / style.dpi * INCH;
+    PageDef def = {.style = &style,
+                   .height = (double)self->def.film->height / self->def.film->width};
     return page_begin(page, &def, err);
 }
 
@@ -58,7 +59,7 @@ static bool place_contact(FilmPage *page, const Box *cell, Error *err)
 static bool lay_out(FilmPage *page, Error *err)
 {
     double point = page->base.point;
-    double width = page->def.width, height = page->def.height;
+    double width = page->def.film->width, height = page->def.film->height;
     const FilmClock *clock = page->def.clock;
     const double t[2] = {clock->t[0], clock->t[clock->frames - 1]};
     double band = fmin(fmax(BAND_SHARE * height, BAND_LEAST * point), BAND_MOST * point);
@@ -68,23 +69,20 @@ static bool lay_out(FilmPage *page, Error *err)
     left.right = round(main.left + LEFT_SHARE * (main.right - main.left));
     right.left = left.right + GAP * point;
     if (!(main.bottom - main.top > 60 * point) || !(right.right - right.left > 90 * point))
-        FAIL(err, ERROR_INPUT, "%d by %d pixels are too few for a film", page->def.width,
-             page->def.height);
+        return REFUSE(err, "%d by %d pixels are too few for a film", page->def.film->width,
+                      page->def.film->height);
     if (page->block.stored) {
         Box lower = right;
         lower.top = right.bottom = (right.top + right.bottom) / 2;
-        TRY(film_block_place(&page->base, &left, &page->block, err));
-        TRY(place_contact(page, &lower, err));
-    } else {
-        TRY(place_contact(page, &left, err));
+        if (!film_block_place(&page->base, &left, &page->block, err)) return false;
+        left = lower;
     }
+    if (!place_contact(page, &left, err)) return false;
     film_force_place(&page->base, &right, t, &page->force);
     if (page->block.stored && !page->in_space)   // one above the other: frames begin at one line
         page->force.axes.box.left = page->profile.axes.box.left =
             fmax(page->force.axes.box.left, page->profile.axes.box.left);
-    TRY(film_band_create(&page->base, &foot, &page->band, err));
-cleanup:
-    return error_is_clean(err);
+    return film_band_create(&page->base, &foot, &page->band, err);
 }
 
 // Digits behind the point, so that the clock is seen to go on where it is slowest.
@@ -118,7 +116,7 @@ static void draw_title(const FilmPage *page)
                   page->def.title);
 }
 
-static bool draw_standing(FilmPage *page, Error *err)
+static void draw_standing(FilmPage *page)
 {
     draw_title(page);
     film_band_draw(&page->base, &page->band);
@@ -126,10 +124,8 @@ static bool draw_standing(FilmPage *page, Error *err)
         film_plane_draw(&page->base, &page->plane);
     else
         film_profile_draw(&page->base, &page->profile);
-    TRY(film_force_draw(&page->base, &page->force, err));
+    film_force_draw(&page->base, &page->force);
     if (page->block.stored) film_block_draw(&page->base, &page->block);
-cleanup:
-    return error_is_clean(err);
 }
 
 // --- what moves ----------------------------------------------------------------------------------
@@ -146,26 +142,24 @@ static void draw_clock(const FilmPage *page, const FilmMoment *now)
     snprintf(words, sizeof words, "%s = %.*f     ~{t} %s = %.*f", U.label, page->U_decimals,
              now->U * U.factor, view->si ? "(s)" : "/ ~{t}_{0}", page->t_decimals, now->t);
     text_draw(page->frame.text, &style,
-              (Point){page->def.width - 2 * MARGIN * point, BASELINE * point}, words);
+              (Point){page->def.film->width - 2 * MARGIN * point, BASELINE * point}, words);
 }
 
 bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err)
 {
     FilmMoment now = film_moment(page->def.view, page->def.clock->t[k]);
-    if (page->block.stored) TRY(film_block_show(&page->base, &page->block, k, now.t, err));
+    if (page->block.stored && !film_block_show(&page->base, &page->block, k, now.t, err))
+        return false;
     film_force_pass(&page->base, &page->force, &now);
     canvas_copy(page->frame.canvas, page->base.canvas);
     draw_clock(page, &now);
     film_band_now(&page->frame, &page->band, k);
     film_force_now(&page->frame, &page->force, &now);
-    if (page->in_space)
-        TRY(film_plane_now(&page->frame, &page->plane, &now, err));
-    else
-        film_profile_now(&page->frame, &page->profile, &now);
+    if (page->in_space && !film_plane_now(&page->frame, &page->plane, &now, err)) return false;
+    if (!page->in_space) film_profile_now(&page->frame, &page->profile, &now);
     if (page->block.stored) film_block_contact(&page->frame, &page->block, film_nearest_row(&now));
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 int32_t film_page_still(const FilmPage *page)
@@ -173,28 +167,28 @@ int32_t film_page_still(const FilmPage *page)
     return page->block.still_most;
 }
 
-// Of the contact: the state that def->of names, or slip rates; of the block the field.
+// Of the contact: the state that def->film->of names, or slip rates; of the block the field.
 static bool choose_values(FilmPage *page, Error *err)
 {
     const FilmPageDef *def = &page->def;
     ResultView *view = def->view;
     const FilmClock *clock = def->clock;
     Colorbar bar = slip_scale(view, fabs(view->number[NUMBER_ROD_VELOCITY]));
-    bool state = def->of && result_view_choose_state(view, def->of);
-    TRY(block_quantity_find(state ? NULL : def->of, &page->block.quantity, err));
+    bool state = def->film->of && result_view_choose_state(view, def->film->of);
+    if (!block_quantity_find(state ? NULL : def->film->of, &page->block.source.quantity, err))
+        return false;
     if (state) {
         const double range[2] = {film_moment(view, clock->t[0]).U,
                                  film_moment(view, clock->t[clock->frames - 1]).U};
-        TRY(state_read(view, false, &page->states, err));
-        TRY(state_scale(view, range, page->states, NULL, &bar, err));
+        if (!result_view_read(view, SERIES_STATE, false, &page->states, err)) return false;
+        if (!state_scale(view, range, page->states, NULL, &bar, err)) return false;
     }
     page->band.map.bar = page->profile.bar = page->plane.bar = bar;
     page->band.map.states = page->states;
     page->band.map.sign = state ? -1 : 0;
     page->plane.state = state;
     page->profile.values = state ? page->states : view->slip_rate;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- begin and end -------------------------------------------------------------------------------
@@ -204,10 +198,9 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
     TRY(page);
     page->def = *def;
-    page->block = (FilmBlock){.folder = def->folder,
-                              .view = def->view,
-                              .clock = def->clock,
-                              .magnification = def->magnification};
+    page->block = (FilmBlock){.clock = def->clock,
+                              .source = {def->folder, def->view},
+                              .magnification = def->film->magnification};
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;
@@ -218,7 +211,7 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     TRY(lay_out(page, err));
     choose_decimals(page);
     page->block.U_decimals = page->U_decimals;
-    TRY(draw_standing(page, err));
+    draw_standing(page);
     return page;
 cleanup:
     film_page_destroy(page);
@@ -233,6 +226,5 @@ void film_page_destroy(FilmPage *page)
     film_band_destroy(&page->band);
     film_block_close(&page->block);
     film_plane_destroy(&page->plane);
-    memory_free(page->states);
-    memory_free(page);
+    memory_free_all(page->states, page);
 }

@@ -13,10 +13,7 @@ typedef struct FilmPageDef {
     const char *folder;   // of the result
     ResultView *view;   // slip rates and statuses have been read
     const FilmClock *clock;
-    int32_t width, height;   // pixels
-    const char *of;   // field, or a state; NULL: von_mises
-    double magnification;   // 0: chosen
-    bool dark;
+    const FilmRequest *film;   // complete
     const char *title;   // "": none
 } FilmPageDef;
 

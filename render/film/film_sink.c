@@ -6,7 +6,6 @@
 #include "io/files/folder.h"
 #include "io/files/own_mark.h"
 #include "io/files/part_file.h"
-#include "io/video/video_file.h"
 #include "render/canvas/color.h"
 #include "render/canvas/png_encode.h"
 
@@ -33,7 +32,7 @@ typedef struct Pattern {
 } Pattern;
 
 struct FilmSink {
-    FilmSinkDef def;
+    VideoDef def;
     VideoFile *video;   // owned; NULL: PNGs
     Pattern pattern;
     uint8_t *slot[SLOTS];   // [height * width * 4] owned
@@ -72,13 +71,12 @@ static bool pattern_read(const char *path, Pattern *pattern, Error *err)
         pattern->digits = 10 * pattern->digits + (*d - '0');
     if (*d != 'd' || strchr(d, '%') || !ends_in_png(d) || pattern->digits > DIGITS_MAX ||
         strlen(d) > NAME_MAX || length >= PATH_MAX)
-        FAIL(err, ERROR_INPUT,
-             "%s: a pattern of frames has one number and ends in .png: run-%%04d.png", path);
+        return REFUSE(err, "%s: a pattern of frames has one number and ends in .png: run-%%04d.png",
+                      path);
     memcpy(pattern->before, path, length);
     pattern->before[length] = '\0';
     snprintf(pattern->behind, sizeof pattern->behind, "%s", d + 1);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // A folder's name has no ending, ends in a slash, or is that of one.
@@ -95,14 +93,7 @@ bool film_sink_check(const char *path, Error *err)
     Pattern pattern;
     if (find_mark(path)) return pattern_read(path, &pattern, err);
     if (path[0] && (video_file_is_known(path) || is_folder_name(path))) return true;
-    FAIL(err, ERROR_INPUT, "%s: %s", path, ENDINGS);
-cleanup:
-    return false;
-}
-
-bool film_sink_is_gif(const char *path)
-{
-    return video_file_is_gif(path);
+    return REFUSE(err, "%s: %s", path, ENDINGS);
 }
 
 static void frame_path(const Pattern *pattern, int32_t frame, char path[2 * PATH_MAX])
@@ -118,7 +109,7 @@ static bool frames_begin(FilmSink *sink, Error *err)
     Pattern *pattern = &sink->pattern;
     char folder[PATH_MAX], first[2 * PATH_MAX];
     if (find_mark(path)) {
-        TRY(pattern_read(path, pattern, err));
+        if (!pattern_read(path, pattern, err)) return false;
     } else {
         bool slash = path[strlen(path) - 1] == '/';
         snprintf(pattern->before, sizeof pattern->before, "%s%sframe-", path, slash ? "" : "/");
@@ -129,15 +120,15 @@ static bool frames_begin(FilmSink *sink, Error *err)
     char *last = strrchr(folder, '/');
     if (last && last != folder) {
         *last = '\0';
-        TRY(folder_make(folder, err));
+        if (!folder_make(folder, err)) return false;
     }
     frame_path(pattern, 1, first);
     if (access(first, F_OK) == 0 && !sink->def.overwrite)
-        FAIL(err, ERROR_INPUT,
-             "%s is there already: name another folder, say --overwrite, or remove those frames",
-             first);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "%s is there already: name another folder, say --overwrite, or remove those frames",
+            first);
+    return true;
 }
 
 // --- encoding ------------------------------------------------------------------------------------
@@ -219,11 +210,10 @@ static void palette_fill(uint8_t palette[3 * PALETTE_SIZE])
 
 // --- the sink ------------------------------------------------------------------------------------
 
-FilmSink *film_sink_create(const FilmSinkDef *def, Error *err)
+FilmSink *film_sink_create(const VideoDef *def, Error *err)
 {
     uint8_t palette[3 * PALETTE_SIZE];
-    VideoDef video = {def->path,  def->width, def->height,   def->rate,
-                      def->title, palette,    def->overwrite};
+    VideoDef video = *def;
     FilmSink *sink = NULL;
     TRY(film_sink_check(def->path, err));
     TRY(sink = NEW_ARRAY(FilmSink, 1, err));
@@ -231,6 +221,7 @@ FilmSink *film_sink_create(const FilmSinkDef *def, Error *err)
     pthread_mutex_init(&sink->lock, NULL);
     pthread_cond_init(&sink->changed, NULL);
     palette_fill(palette);
+    video.palette = palette;
     for (int32_t k = 0; k < SLOTS; ++k)
         TRY(sink->slot[k] = memory_bytes(4 * (int64_t)def->width * def->height, err));
     if (video_file_is_known(def->path))

@@ -4,24 +4,16 @@
 #ifndef AMONTONS_RENDER_FILM_FILM_SINK_H
 #define AMONTONS_RENDER_FILM_FILM_SINK_H
 
-#include "base/error.h"
+#include "io/video/video_file.h"
 
 typedef struct FilmSink FilmSink;
 
-typedef struct FilmSinkDef {
-    // film.mp4, .webm, .gif; of PNGs a folder, or a pattern with one number: run-%04d.png
-    const char *path;
-    int32_t width, height, rate;   // pixels; frames a second
-    const char *title;
-    bool overwrite;   // also files that are not ours; frames of PNG that are there
-} FilmSinkDef;
-
 // ERROR_INPUT lists the endings there are.
 bool film_sink_check(const char *path, Error *err);
-bool film_sink_is_gif(const char *path);
 
-// Makes the folder of PNGs; refuses one that has frames already (ERROR_INPUT).
-FilmSink *film_sink_create(const FilmSinkDef *def, Error *err);
+// path: film.mp4, .webm, .gif; of PNGs a folder, which is made, or a pattern with one number:
+// run-%04d.png. Refuses one that has frames already (ERROR_INPUT). The palette is the sink's.
+FilmSink *film_sink_create(const VideoDef *def, Error *err);
 // pixels: as io/video/video_file has them. Not kept. The error may be that of an earlier frame.
 bool film_sink_add(FilmSink *sink, const uint8_t *pixels, int32_t stride, Error *err);
 // Waits for all frames; a file gets its final name.

@@ -9,14 +9,7 @@ static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
 
 FilmMoment film_moment(const ResultView *view, double t)
 {
-    int64_t low = 0, high = view->rows - 1;
-    while (high - low > 1) {
-        int64_t middle = low + (high - low) / 2;
-        if (view->t[middle] <= t)
-            low = middle;
-        else
-            high = middle;
-    }
+    int64_t low = curve_place(view->t, view->rows, t), high = low + 1;
     double length = view->t[high] - view->t[low];
     double part = length > 0 ? fmin(fmax((t - view->t[low]) / length, 0), 1) : 1;
     return (FilmMoment){.t = t,
@@ -54,10 +47,9 @@ static bool time_read(const ResultView *view, const char *at, double *t, Error *
 {
     bool is_U = false;
     double value = 0;
-    TRY(block_moment_read(at, &is_U, &value, err));
+    if (!block_moment_read(at, &is_U, &value, err)) return false;
     *t = is_U ? time_of_U(view, value) : value;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool find_cycle(const ResultView *view, double t[2], Error *err)
@@ -69,13 +61,11 @@ static bool find_cycle(const ResultView *view, double t[2], Error *err)
         before = last;
         last = event;
     }
-    if (!last)
-        FAIL(err, ERROR_INPUT, "no bulk sliding is in this history, so there is no last cycle");
+    if (!last) return REFUSE(err, "no bulk sliding is in this history, so there is no last cycle");
     double low = before ? before->U_stop : view->U[0];
     t[0] = time_of_U(view, low);
     t[1] = time_of_U(view, last->U_stop + BEHIND * (last->U_stop - low));
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool film_span_find(const ResultView *view, const FilmSpan *span, double t[2], Error *err)
@@ -83,16 +73,16 @@ bool film_span_find(const ResultView *view, const FilmSpan *span, double t[2], E
     double first = view->t[0], end = view->t[view->rows - 1];
     t[0] = first;
     t[1] = end;
-    if (span->last_cycle) TRY(find_cycle(view, t, err));
-    if (span->from) TRY(time_read(view, span->from, &t[0], err));
-    if (span->to) TRY(time_read(view, span->to, &t[1], err));
+    if (span->last_cycle && !find_cycle(view, t, err)) return false;
+    if (span->from && !time_read(view, span->from, &t[0], err)) return false;
+    if (span->to && !time_read(view, span->to, &t[1], err)) return false;
     t[0] = fmax(t[0], first);
     t[1] = fmin(t[1], end);
     if (!(t[1] > t[0]))
-        FAIL(err, ERROR_INPUT,
-             "nothing lies between the film's start and end: the history goes from U = %g, t = %g "
-             "to U = %g, t = %g",
-             view->U[0], first, view->U[view->rows - 1], end);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(
+            err,
+            "nothing lies between the film's start and end: the history goes from U = %g, t = %g "
+            "to U = %g, t = %g",
+            view->U[0], first, view->U[view->rows - 1], end);
+    return true;
 }

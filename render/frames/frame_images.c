@@ -1,30 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/frames/frame_images.h"
 
-#include <math.h>
-
 // Of a picture for a screen: 600 pixels wide, letters 14 pixels high.
 static const double WIDTH = 95, DPI = 160;   // mm
 
 enum { LOOKED_AT = 6 };   // of the times; memory for so many blocks
-
-// Extent of all blocks as drawn, with one magnification.
-static void take_extent(FieldPage *field, Block *blocks, int32_t count)
-{
-    field->magnification = INFINITY;
-    for (int32_t k = 0; k < count; ++k)
-        field->magnification = fmin(field->magnification, block_magnification(&blocks[k]));
-    for (int32_t k = 0; k < count; ++k) {
-        double extent[4];
-        block_deform(&blocks[k], field->magnification);
-        block_extent(&blocks[k], extent);
-        for (int32_t d = 0; d < 4; ++d) {
-            double both = d % 2 ? fmax(extent[d], field->extent[d])
-                                : fmin(extent[d], field->extent[d]);
-            field->extent[d] = k == 0 ? extent[d] : both;
-        }
-    }
-}
 
 bool frame_images_fit(FrameImages *images, const int32_t *chosen, int32_t count, Error *err)
 {
@@ -32,13 +12,12 @@ bool frame_images_fit(FrameImages *images, const int32_t *chosen, int32_t count,
     int32_t looked = count < LOOKED_AT ? count : LOOKED_AT;
     for (int32_t k = 0; k < looked; ++k) {
         int32_t at = looked > 1 ? (int32_t)((int64_t)k * (count - 1) / (looked - 1)) : 0;
-        TRY(block_read(images->folder, images->view, images->times, chosen[at], &blocks[k], err));
-        TRY(block_take(&blocks[k], images->quantity, err));
+        TRY(block_read(images->source, chosen[at], &blocks[k], err));
     }
-    take_extent(&images->field, blocks, looked);
+    block_page_deform(blocks, looked, &images->field.magnification, images->field.extent);
     images->style = (PictureStyle){.format = "png", .width = WIDTH, .dpi = DPI};
-    images->map = (BlockPage){.view = images->view, .share = 1};
-    TRY(block_page_fit(&images->map, blocks, looked, images->quantity, err));
+    images->map = (BlockPage){.view = images->source->view, .share = 1};
+    TRY(block_page_fit(&images->map, blocks, looked, images->source->quantity, err));
     images->shape = field_page_lay_out(&images->field, page_width(&images->style));
 cleanup:
     for (int32_t k = 0; k < LOOKED_AT; ++k) block_destroy(&blocks[k]);
@@ -51,9 +30,8 @@ bool frame_images_html(const FrameImages *images, int32_t index, HtmlWriter *htm
     Page page = {0};
     PictureBytes picture = {0};
     PageDef def = {.style = &images->style, .height = images->shape};
-    BlockWords words = block_words(images->quantity);
-    TRY(block_read(images->folder, images->view, images->times, index, &block, err));
-    TRY(block_take(&block, images->quantity, err));
+    BlockWords words = block_words(images->source->quantity);
+    TRY(block_read(images->source, index, &block, err));
     block_deform(&block, images->field.magnification);
     TRY(page_begin(&page, &def, err));
     TRY(field_page_draw(&page, &images->field, &images->map, &block, err));

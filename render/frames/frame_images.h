@@ -10,17 +10,14 @@
 #include "render/figures/field_page.h"
 
 typedef struct FrameImages {
-    const char *folder;   // of the result
-    ResultView *view;
-    const BlockTimes *times;
-    BlockQuantity quantity;
+    const BlockSource *source;
     PictureStyle style;   // set by fit, like what follows
     FieldPage field;
     BlockPage map;
     double shape;   // height over width
 } FrameImages;
 
-// chosen: [count] indices of times. folder, view, times, quantity are given.
+// chosen: [count] indices of times. The source is given.
 bool frame_images_fit(FrameImages *images, const int32_t *chosen, int32_t count, Error *err);
 // An <img> with the picture in it.
 bool frame_images_html(const FrameImages *images, int32_t index, HtmlWriter *html, Error *err);

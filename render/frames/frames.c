@@ -11,11 +11,9 @@
 #include "render/frames/frame_images.h"
 #include "render/view/space_time.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 enum { STRIPS = 3, PRINTED = 6, STATUSES = 4 };
 enum { FIELDS_LEAST = 4 };   // stored times: fewer tell no story, the steps of the history do
@@ -35,7 +33,7 @@ typedef enum StripId { STRIP_PRESSURE, STRIP_RATIO, STRIP_RATE } StripId;
 typedef struct Frames {
     ResultView view;
     bool fields;   // of the block are stored
-    BlockTimes times;   // with fields
+    BlockSource source;   // of the fields
     int64_t *rows;   // [stored] of the history, of which there are frames; owned
     int32_t stored, count;
     int32_t chosen[RENDER_FRAMES_MAX];   // [count] indices into rows
@@ -49,11 +47,9 @@ typedef struct Frames {
 static void frames_destroy(Frames *frames)
 {
     result_view_close(&frames->view);
-    block_times_destroy(&frames->times);
-    memory_free(frames->rows);
-    memory_free(frames->x);
-    for (int32_t s = 0; s < STRIPS; ++s) memory_free(frames->y[s]);
-    memory_free(frames->status);
+    block_source_close(&frames->source);
+    memory_free_all(frames->rows, frames->x, frames->status);
+    memory_free_list((void *const *)frames->y, STRIPS);
     *frames = (Frames){0};
 }
 
@@ -62,22 +58,19 @@ static void frames_destroy(Frames *frames)
 // With some fields their times, else all steps.
 static bool choose(const char *folder, Frames *frames, Error *err)
 {
-    char path[PATH_MAX];
-    ResultView *view = &frames->view;
-    snprintf(path, sizeof path, "%s/fields.pvd", folder);
-    frames->fields = access(path, R_OK) == 0;
-    if (frames->fields) TRY(block_times_read(folder, view, &frames->times, err));
-    frames->fields = frames->times.count >= FIELDS_LEAST;
-    int64_t stored = frames->fields ? frames->times.count : view->rows;
-    if (stored > INT32_MAX) FAIL(err, ERROR_INPUT, "the history has too many steps for a page");
+    const ResultView *view = &frames->view;
+    frames->source = (BlockSource){.folder = folder, .view = &frames->view};
+    if (block_is_stored(folder) && !block_source_open(&frames->source, err)) return false;
+    frames->fields = frames->source.count >= FIELDS_LEAST;
+    int64_t stored = frames->fields ? frames->source.count : view->rows;
+    if (stored > INT32_MAX) return REFUSE(err, "the history has too many steps for a page");
     frames->stored = (int32_t)stored;
-    TRY(frames->rows = NEW_ARRAY(int64_t, stored, err));
+    if (!(frames->rows = NEW_ARRAY(int64_t, stored, err))) return false;
     for (int32_t k = 0; k < frames->stored; ++k)
-        frames->rows[k] = frames->fields ? frames->times.row[k] : k;
+        frames->rows[k] = frames->fields ? frames->source.row[k] : k;
     frames->count =
         frames_choose(view, frames->rows, frames->stored, RENDER_FRAMES_MAX, frames->chosen);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- along the contact ---------------------------------------------------------------------------
@@ -87,7 +80,7 @@ static bool read_rows(Frames *frames, ResultSeries series, double **values, Erro
 {
     double *all = NULL;
     int32_t nodes = frames->view.nodes;
-    TRY(result_view_read(&frames->view, series, &all, err));
+    TRY(result_view_read(&frames->view, series, false, &all, err));
     TRY(*values = NEW_ARRAY(double, (int64_t)frames->count *nodes, err));
     for (int32_t k = 0; k < frames->count; ++k) {
         int64_t row = frames->rows[frames->chosen[k]];
@@ -105,16 +98,17 @@ cleanup:
 static bool place_points(Frames *frames, Error *err)
 {
     const ResultView *view = &frames->view;
-    TRY(frames->x = NEW_ARRAY(double, 2 * (int64_t)view->nodes, err));
+    if (!(frames->x = NEW_ARRAY(double, 2 * (int64_t)view->nodes, err))) return false;
     for (int32_t i = 0; i < view->nodes; ++i) {
         if (i > 0 && view->pad[i] != view->pad[i - 1]) frames->x[frames->points++] = NAN;
         frames->x[frames->points++] = view->x[i];
     }
     for (int32_t s = 0; s < STRIPS; ++s)
-        TRY(frames->y[s] = NEW_ARRAY(double, (int64_t)frames->count * frames->points, err));
-    TRY(frames->status = NEW_ARRAY(uint8_t, (int64_t)frames->count * view->nodes, err));
-cleanup:
-    return error_is_clean(err);
+        if (!(frames->y[s] = NEW_ARRAY(double, (int64_t)frames->count * frames->points, err)))
+            return false;
+    if (!(frames->status = NEW_ARRAY(uint8_t, (int64_t)frames->count * view->nodes, err)))
+        return false;
+    return true;
 }
 
 static bool read_contact(Frames *frames, Error *err)
@@ -140,10 +134,7 @@ static bool read_contact(Frames *frames, Error *err)
             ++i;
         }
 cleanup:
-    memory_free(pressure);
-    memory_free(shear);
-    memory_free(rate);
-    memory_free(status);
+    memory_free_all(pressure, shear, rate, status);
     return error_is_clean(err);
 }
 
@@ -178,9 +169,10 @@ static bool fit_strips(Frames *frames, Error *err)
     static const char *const names[STRIPS] = {"~{p} / ~{P}_{ext}", "~{\u03c4} / ~{p}",
                                               "|~{v}| / ~{V}"};
     double high[STRIPS], mu = view->number[NUMBER_MU_STATIC];
-    TRY(find_high(frames, STRIP_PRESSURE, LEFT_OUT, 1, &high[STRIP_PRESSURE], err));
-    TRY(find_high(frames, STRIP_RATIO, LEFT_OUT, mu > 0 ? mu : 0.1, &high[STRIP_RATIO], err));
-    TRY(find_high(frames, STRIP_RATE, 0, 10, &high[STRIP_RATE], err));
+    if (!find_high(frames, STRIP_PRESSURE, LEFT_OUT, 1, &high[STRIP_PRESSURE], err)) return false;
+    if (!find_high(frames, STRIP_RATIO, LEFT_OUT, mu > 0 ? mu : 0.1, &high[STRIP_RATIO], err))
+        return false;
+    if (!find_high(frames, STRIP_RATE, 0, 10, &high[STRIP_RATE], err)) return false;
     high[STRIP_RATE] = fmin(pow(10, ceil(log10(high[STRIP_RATE]))), RATE_MOST);
     double first = view->x[0], last = view->x[view->nodes - 1];
     if (!(last > first)) last = first + 1;
@@ -194,25 +186,7 @@ static bool fit_strips(Frames *frames, Error *err)
     rate->is_log = true;
     rate->low = RATE_LEAST;
     rate->high = high[STRIP_RATE];
-cleanup:
-    return error_is_clean(err);
-}
-
-static void fit_force(Frames *frames)
-{
-    const ResultView *view = &frames->view;
-    double low = 0, high = 0, U_low = 0, U_high = 0;
-    result_view_range(view, &U_low, &U_high);
-    for (int64_t row = 0; row < view->rows; ++row) {
-        if (!isfinite(view->mu[row])) continue;
-        low = fmin(low, view->mu[row]);
-        high = fmax(high, view->mu[row]);
-    }
-    if (!(high > low)) high = low + 1;
-    frames->force = (Axes){.box = {LEFT, FORCE_TOP, RIGHT, FORCE_TOP + FORCE_HEIGHT},
-                           .x = figure_length_axis(view, "U", U_low, U_high),
-                           .y = {.low = low * HEADROOM, .high = high * HEADROOM, .factor = 1}};
-    snprintf(frames->force.y.label, AXIS_LABEL_SIZE, "~{F}_{T} / ~{F}_{N}");
+    return true;
 }
 
 // What all frames have in common, drawn once and used in each of them.
@@ -326,12 +300,13 @@ __attribute__((visibility("default"))) bool
 amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err)
 {
     Frames frames = {0};
-    FrameImages images = {.folder = folder, .view = &frames.view, .times = &frames.times};
+    FrameImages images = {.source = &frames.source};
     TRY(result_view_open(folder, &frames.view, err));
     TRY(choose(folder, &frames, err));
     TRY(read_contact(&frames, err));
     TRY(fit_strips(&frames, err));
-    fit_force(&frames);
+    frames.force = figure_force_axes(
+        &frames.view, 1, (Box){LEFT, FORCE_TOP, RIGHT, FORCE_TOP + FORCE_HEIGHT}, HEADROOM);
     if (frames.fields) TRY(result_view_read_status(&frames.view, err));
     if (frames.fields) TRY(frame_images_fit(&images, frames.chosen, frames.count, err));
     write_common(&frames, html);

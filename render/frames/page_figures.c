@@ -46,14 +46,6 @@ static const struct {
      "turns rapid. Where there is no colour: stick."},
 };
 
-// The last one is of a block in space whose slip turned rapid.
-static bool is_shown(const ResultView *view, const char *name)
-{
-    bool plane = view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
-    if (strcmp(name, "state-map") == 0) return view->states > 0;
-    return plane || strcmp(name, "contact-plane") != 0;
-}
-
 // --- pictures ------------------------------------------------------------------------------------
 
 // What is drawn on a fresh page, and the words with it: ours, caption is markup.
@@ -111,7 +103,7 @@ __attribute__((visibility("default"))) bool amontons_render_figures(const char *
     TRY(result_view_open(folder, &view, err));
     view.title[0] = view.warnings[0] = '\0';
     for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
-        if (!is_shown(&view, FIGURES[k].name)) continue;
+        if (!figure_is_there(FIGURES[k].name, &view)) continue;
         HistoryFigure figure = {&view, FIGURES[k].name};
         const Drawing drawing = {draw_history, &figure, FIGURES[k].format, FIGURES[k].alt,
                                  FIGURES[k].caption};
@@ -168,29 +160,6 @@ static bool add_curve(Curves *curves, const char *folder, const char *name, Html
     return true;
 }
 
-// The range of all curves.
-static Axes fit_curves(const ResultView *views, int32_t count)
-{
-    double U[2] = {INFINITY, -INFINITY}, mu[2] = {0, 0};
-    for (int32_t k = 0; k < count; ++k) {
-        double low = 0, high = 0;
-        result_view_range(&views[k], &low, &high);
-        U[0] = fmin(U[0], low);
-        U[1] = fmax(U[1], high);
-        for (int64_t row = 0; row < views[k].rows; ++row) {
-            if (!isfinite(views[k].mu[row])) continue;
-            mu[0] = fmin(mu[0], views[k].mu[row]);
-            mu[1] = fmax(mu[1], views[k].mu[row]);
-        }
-    }
-    if (!(mu[1] > mu[0])) mu[1] = mu[0] + 1;
-    Axes axes = {.box = {CURVES_LEFT, CURVES_TOP, CURVES_RIGHT, CURVES_BOTTOM},
-                 .x = figure_length_axis(&views[0], "U", U[0], U[1]),
-                 .y = {.low = mu[0] * HEADROOM, .high = mu[1] * HEADROOM, .factor = 1}};
-    snprintf(axes.y.label, sizeof axes.y.label, "~{F}_{T} / ~{F}_{N}");
-    return axes;
-}
-
 static void write_legend(HtmlWriter *html, const char *const *names, int32_t count)
 {
     html_markup(html, "<ul class='legend'>");
@@ -216,7 +185,8 @@ __attribute__((visibility("default"))) bool amontons_render_curves(const char *c
     for (int32_t k = 0; k < count; ++k) TRY(add_curve(&curves, folders[k], names[k], html, err));
     for (int32_t k = 1; k < curves.count; ++k) *drawn = *drawn && views[k].si == views[0].si;
     if (!*drawn || curves.count == 0) goto cleanup;
-    Axes axes = fit_curves(views, curves.count);
+    Axes axes = figure_force_axes(
+        views, curves.count, (Box){CURVES_LEFT, CURVES_TOP, CURVES_RIGHT, CURVES_BOTTOM}, HEADROOM);
     html_markup(html,
                 "<figure id='figure-force'><svg class='chart' viewBox='0 0 %d %d' role='img' "
                 "aria-label='Friction force over load against the displacement of the rod, a "

@@ -6,17 +6,13 @@
 #include "base/memory.h"
 #include "render/plot/map_cells.h"
 #include "render/plot/map_smooth.h"
+#include "render/plot/marks.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum {
-    LEVELS_WANTED = 6,
-    MARKS_MINDED = 2000,
-    PARTS_MOST = 16,
-    RING_SIDES = 24,
-    VECTOR_MOST = 10000
-};
+enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000, PARTS_MOST = 16, RING_SIDES = 24 };
+enum { VECTOR_MOST = 10000 };   // cells that are shapes in a file of shapes
 
 static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
 static const double DOT_SHARE = 0.13;   // of the distance of points
@@ -25,8 +21,7 @@ static const double DOT_RIM = 0.35, RING_WIDTH = 0.45;   // points
 static const double DISTANCE_MIN = 3;   // points: marks of points nearer than this are left out
 static const double MARKS_APART = 5;   // points: those that stand for others
 static const double FINE_CELL = 1.5;   // points: of a grid in which lines of equal value are sought
-static const double BAR_GAP = 6;   // points: frame to colour bar
-static const double CROSS_ARM = 1.5, CROSS_WIDTH = 0.6;   // points
+static const double CROSS_ARM = 1.5;   // points
 static const double LABEL_CLEARANCE = 6, HIDING_WORTH = 0.4;   // points: number to mark
 static const double LEVEL_INSIDE = 1e-3;   // of the range: a level this near its end is no line
 static const double LABEL_DISTANCE = 9;   // points: least, of a level's number to others and frame
@@ -52,21 +47,6 @@ MapScale map_scale_fit(const Plot *plot)
     scale.bar.clipped_above = plot->found[1] * scale.bar.factor > scale.bar.high;
     snprintf(scale.bar.label, sizeof scale.bar.label, "%s", plot->color.label);
     return scale;
-}
-
-static void set_colors(const Page *page)
-{
-    uint8_t colors[3 * MAP_SIZE];
-    color_map_fill(colors);
-    canvas_set_map(page->canvas, colors, PAPER);
-}
-
-void map_bar_draw(const Page *page, const MapScale *scale, const Box *frame)
-{
-    Box beside = *frame;
-    beside.left = round(frame->right + BAR_GAP * page->point);
-    set_colors(page);
-    colorbar_draw(page, &scale->bar, &beside);
 }
 
 // --- colours ------------------------------------------------------------------------------------
@@ -138,8 +118,7 @@ static bool grid_draw(const MapDrawing *drawing, Error *err)
         canvas_heat_triangles(drawing->page->canvas, box, corners, count);
     }
 cleanup:
-    memory_free(edges);
-    memory_free(corners);
+    memory_free_all(edges, corners);
     return error_is_clean(err);
 }
 
@@ -182,8 +161,7 @@ static double point_distance(const MapDrawing *drawing)
 typedef struct LineField {
     const double *value;
     const Point *place;
-    const int32_t *triangles;   // [3 * count]
-    int64_t count;
+    const MapTriangles *triangles;
 } LineField;
 
 // Where the level crosses a triangle: 2 points, or none (false).
@@ -269,14 +247,15 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
     Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
     Point labels[LEVELS_WANTED + 1];
     int32_t labelled = 0;
-    Point *pieces = NEW_ARRAY(Point, 3 * field->count + 3, err);
+    Point *pieces = NEW_ARRAY(Point, 3 * (int64_t)field->triangles->count + 3, err);
     if (!pieces) return false;
     for (int32_t t = 0; t < ticks.count; t++) {
         double level = tick_value(&ticks, t), slack = LEVEL_INSIDE * (range->high - range->low);
         int64_t count = 0;
         if (level < range->low + slack || level > range->high - slack) continue;
-        for (int64_t k = 0; k < field->count; k++) {
-            if (!cross_triangle(field, field->triangles + 3 * k, level, pieces + count)) continue;
+        for (int64_t k = 0; k < field->triangles->count; k++) {
+            const int32_t *corner = field->triangles->points + 3 * k;
+            if (!cross_triangle(field, corner, level, pieces + count)) continue;
             pieces[count + 2] = (Point){NAN, NAN};
             count += 3;
         }
@@ -291,36 +270,28 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
 static bool contours_draw(const MapDrawing *drawing, Error *err)
 {
     const MapGrid *grid = &drawing->grid;
+    const double *values = drawing->map->contour;
+    double *medians = NULL;
     SmoothGrid smooth = {0};
-    LineField field = {.value = drawing->map->contour,
-                       .place = drawing->place,
-                       .triangles = drawing->triangles.points,
-                       .count = drawing->triangles.count};
+    if (drawing->map->count > MAP_MANY && grid->columns > 0) {
+        TRY(values = medians = NEW_ARRAY(double, drawing->map->count, err));
+        map_medians(grid, drawing->map->contour, medians);
+    }
+    LineField field = {values, drawing->place, &drawing->triangles};
     double cell = grid->columns > 0 ? point_distance(drawing) : 0;
     int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * drawing->page->point)), PARTS_MOST);
     if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
-        TRY(map_smooth(grid, drawing->map->contour, drawing->place, parts, &smooth, err));
-        field = (LineField){.value = smooth.value,
-                            .place = smooth.place,
-                            .triangles = smooth.triangles,
-                            .count = smooth.triangle_count};
+        TRY(map_smooth(grid, values, drawing->place, parts, &smooth, err));
+        field = (LineField){smooth.value, smooth.place, &smooth.triangles};
     }
     TRY(levels_draw(drawing, &field, err));
 cleanup:
     smooth_destroy(&smooth);
+    memory_free(medians);
     return error_is_clean(err);
 }
 
 // --- points -------------------------------------------------------------------------------------
-
-static void cross_draw(const Page *page, Point at, double arm)
-{
-    Stroke stroke = {.color = INK, .width = CROSS_WIDTH * page->point};
-    draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y - arm},
-                 (Point){at.x + arm, at.y + arm});
-    draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y + arm},
-                 (Point){at.x + arm, at.y - arm});
-}
 
 // The colour inside shows; ink inside of paper is seen on any. sides 4: a square.
 static void ring_draw(const Page *page, Point at, double radius, int32_t sides)
@@ -347,7 +318,7 @@ static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bo
     Point at = drawing->place[k];
     if (!isfinite(at.x) || !isfinite(at.y)) return;
     if (!isfinite(drawing->map->value[k])) {
-        cross_draw(page, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
+        cross_draw(page, INK, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
     } else if (drawing->map->open && drawing->map->open[k] > 0) {
         ring_draw(page, at, ring, drawing->map->open[k] > 1 ? 4 : RING_SIDES);
     } else if (shows_all) {
@@ -381,16 +352,16 @@ static bool find_shape(MapDrawing *drawing, Error *err)
 {
     const PlotMap *map = drawing->map;
     const Axes *axes = drawing->axes;
-    TRY(map_grid_find(map, axes->x.is_log, axes->y.is_log, &drawing->grid, err));
-    TRY(drawing->place = NEW_ARRAY(Point, map->count, err));
+    if (!map_grid_find(map, axes->x.is_log, axes->y.is_log, &drawing->grid, err)) return false;
+    if (!(drawing->place = NEW_ARRAY(Point, map->count, err))) return false;
     for (int32_t k = 0; k < map->count; k++)
         drawing->place[k] = axes_place(axes, map->x[k], map->y[k]);
     bool joined = drawing->grid.columns == 0 || map->contour;
     if (joined)
-        TRY(map_triangles_find(&drawing->grid, drawing->place, map->count, &drawing->triangles,
-                               err));
-cleanup:
-    return error_is_clean(err);
+        if (!map_triangles_find(&drawing->grid, drawing->place, map->count, &drawing->triangles,
+                                err))
+            return false;
+    return true;
 }
 
 bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,
@@ -398,7 +369,6 @@ bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, cons
 {
     MapDrawing drawing = {.page = page, .axes = axes, .map = &panel->map, .scale = scale};
     TRY(find_shape(&drawing, err));
-    set_colors(page);
     if (drawing.grid.columns > 0)
         TRY(grid_draw(&drawing, err));
     else

@@ -15,8 +15,6 @@ typedef struct MapScale {
 } MapScale;
 
 MapScale map_scale_fit(const Plot *plot);
-// Right of `frame`; colorbar_width is what it takes there.
-void map_bar_draw(const Page *page, const MapScale *scale, const Box *frame);
 
 // axes: those of `panel`, their frame known.
 bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,

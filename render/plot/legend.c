@@ -16,7 +16,7 @@ static const double LEGEND_SPACE = 8;   // points between entries of one line
 static LegendSize legend_measure(const Page *page, const Axes *axes, const PlotPanel *panel,
                                  double share)
 {
-    double font = axes->number_size * page->point, widest = 0;
+    double font = axes_number_size(axes) * page->point, widest = 0;
     LegendSize size = {.margin = LEGEND_MARGIN * page->point,
                        .clearance = LEGEND_CLEARANCE * page->point,
                        .mark = MARKER_RADIUS * share * page->point};
@@ -58,7 +58,7 @@ static void entry_draw(const Page *page, const PlotSeries *series, Point at, dou
 void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, const Box *box,
                  double share)
 {
-    double font = axes->number_size * page->point;
+    double font = axes_number_size(axes) * page->point;
     double pitch = LEGEND_PITCH * font, y = box->top + pitch / 2;
     if (!(box->bottom > box->top)) return;
     for (int32_t k = 0; k < panel->series_count; ++k) {

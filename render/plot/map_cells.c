@@ -92,29 +92,26 @@ bool map_grid_find(const PlotMap *map, bool x_is_log, bool y_is_log, MapGrid *gr
     const bool is_log[2] = {x_is_log, y_is_log};
     *grid = (MapGrid){0};
     int32_t columns = find_lines(map->x, map->count, x_is_log, &grid->x, err);
-    TRY(columns >= 0);
+    if (!(columns >= 0)) return false;
     int32_t rows = find_lines(map->y, map->count, y_is_log, &grid->y, err);
-    TRY(rows >= 0);
+    if (!(rows >= 0)) return false;
     grid->columns = columns;
     grid->rows = rows;
     bool full = columns > 0 && map->count >= TAKEN_LEAST * columns * rows &&
                 fill_cells(map, is_log, grid, err);
-    TRY(error_is_clean(err));
+    if (!error_is_clean(err)) return false;
     if (full) {
         lines_to_edges(grid->x, columns);
         lines_to_edges(grid->y, rows);
     } else {
         map_grid_destroy(grid);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void map_grid_destroy(MapGrid *grid)
 {
-    memory_free(grid->x);
-    memory_free(grid->y);
-    memory_free(grid->point);
+    memory_free_all(grid->x, grid->y, grid->point);
     *grid = (MapGrid){0};
 }
 

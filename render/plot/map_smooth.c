@@ -2,8 +2,10 @@
 #include "render/plot/map_smooth.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // Slope at a point from the slopes before and behind it, over distances h: 0 at a summit, never so
 // steep that the cubic leaves the values; where there is but one of them, that one.
@@ -55,109 +57,96 @@ static void find_lines(const MapGrid *grid, const Point *place, bool of_columns,
     }
 }
 
-typedef struct Work {
-    double *x, *y;   // [columns], [rows] of the grid; owned, as all
-    double *fine_x, *fine_y;   // of the finer one
-    double *half;   // [rows * fine columns]
-    double *from, *to;   // a column before and after
-} Work;
-
-static void work_destroy(Work *work)
+// Of [count] lines and `parts` between any two the k-th.
+static double fine_line(const double *lines, int32_t count, int32_t parts, int32_t k)
 {
-    memory_free(work->x);
-    memory_free(work->y);
-    memory_free(work->fine_x);
-    memory_free(work->fine_y);
-    memory_free(work->half);
-    memory_free(work->from);
-    memory_free(work->to);
+    int32_t at = k / parts, next = at + 1 < count ? at + 1 : at;
+    return lines[at] + (double)(k % parts) / parts * (lines[next] - lines[at]);
 }
 
-static bool work_create(const MapGrid *grid, const SmoothGrid *smooth, Work *work, Error *err)
-{
-    TRY(work->x = NEW_ARRAY(double, grid->columns, err));
-    TRY(work->y = NEW_ARRAY(double, grid->rows, err));
-    TRY(work->fine_x = NEW_ARRAY(double, smooth->columns, err));
-    TRY(work->fine_y = NEW_ARRAY(double, smooth->rows, err));
-    TRY(work->half = NEW_ARRAY(double, (int64_t)grid->rows * smooth->columns, err));
-    TRY(work->from = NEW_ARRAY(double, grid->columns + grid->rows, err));
-    TRY(work->to = NEW_ARRAY(double, smooth->rows, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-// First along each row, then along each finer column.
-static void smooth_both(const MapGrid *grid, const double *values, int32_t parts, Work *work,
+// First along each row, then along each finer column. x, y: lines of the grid; half: [rows * finer
+// columns], from: [columns, or rows], to: [finer rows], all work.
+static void smooth_both(const MapGrid *grid, const double *values, int32_t parts, double *work,
                         SmoothGrid *smooth)
 {
+    const double *x = work, *y = x + grid->columns;
+    double *half = work + grid->columns + grid->rows;
+    double *from = half + (int64_t)grid->rows * smooth->columns;
+    double *to = from + grid->columns + grid->rows;
     for (int32_t row = 0; row < grid->rows; ++row) {
         for (int32_t k = 0; k < grid->columns; ++k) {
             int32_t point = grid->point[row * grid->columns + k];
-            work->from[k] = point < 0 ? NAN : values[point];
+            from[k] = point < 0 ? NAN : values[point];
         }
-        line_smooth(work->x, work->from, grid->columns, parts,
-                    work->half + (int64_t)row * smooth->columns);
+        line_smooth(x, from, grid->columns, parts, half + (int64_t)row * smooth->columns);
     }
     for (int32_t column = 0; column < smooth->columns; ++column) {
         for (int32_t row = 0; row < grid->rows; ++row)
-            work->from[row] = work->half[(int64_t)row * smooth->columns + column];
-        line_smooth(work->y, work->from, grid->rows, parts, work->to);
-        for (int32_t row = 0; row < smooth->rows; ++row)
-            smooth->value[(int64_t)row * smooth->columns + column] = work->to[row];
+            from[row] = half[(int64_t)row * smooth->columns + column];
+        line_smooth(y, from, grid->rows, parts, to);
+        for (int32_t row = 0; row < smooth->rows; ++row) {
+            int64_t k = (int64_t)row * smooth->columns + column;
+            smooth->value[k] = to[row];
+            smooth->place[k] = (Point){fine_line(x, grid->columns, parts, column),
+                                       -fine_line(y, grid->rows, parts, row)};
+        }
     }
 }
 
+// Each point of the finer grid is a cell of its own.
 static bool find_triangles(SmoothGrid *smooth, Error *err)
 {
-    int64_t cells = (int64_t)(smooth->columns - 1) * (smooth->rows - 1);
-    TRY(smooth->triangles = NEW_ARRAY(int32_t, 6 * cells, err));
-    int32_t *corner = smooth->triangles;
-    for (int32_t row = 0; row + 1 < smooth->rows; ++row)
-        for (int32_t column = 0; column + 1 < smooth->columns; ++column) {
-            int32_t first = row * smooth->columns + column, above = first + smooth->columns;
-            const int32_t both[6] = {first, first + 1, above + 1, first, above + 1, above};
-            for (int32_t i = 0; i < 6; ++i) *corner++ = both[i];
-        }
-    smooth->triangle_count = 2 * cells;
-cleanup:
-    return error_is_clean(err);
+    int64_t count = (int64_t)smooth->columns * smooth->rows;
+    MapGrid cells = {.columns = smooth->columns, .rows = smooth->rows};
+    if (!(cells.point = NEW_ARRAY(int32_t, count, err))) return false;
+    for (int32_t k = 0; k < count; ++k) cells.point[k] = k;
+    bool found = map_triangles_find(&cells, smooth->place, (int32_t)count, &smooth->triangles, err);
+    memory_free(cells.point);
+    return found;
 }
 
 bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,
                 SmoothGrid *smooth, Error *err)
 {
-    Work work = {0};
+    double *work = NULL;
     *smooth = (SmoothGrid){.columns = (grid->columns - 1) * parts + 1,
                            .rows = (grid->rows - 1) * parts + 1};
-    int64_t count = (int64_t)smooth->columns * smooth->rows;
+    int64_t count = (int64_t)smooth->columns * smooth->rows, lines = grid->columns + grid->rows;
     TRY(smooth->place = NEW_ARRAY(Point, count, err));
     TRY(smooth->value = NEW_ARRAY(double, count, err));
-    TRY(work_create(grid, smooth, &work, err));
-    find_lines(grid, place, true, work.x);
-    find_lines(grid, place, false, work.y);
-    for (int32_t k = 0; k < smooth->columns; ++k) {
-        int32_t at = k / parts, next = at + 1 < grid->columns ? at + 1 : at;
-        work.fine_x[k] = work.x[at] + (double)(k % parts) / parts * (work.x[next] - work.x[at]);
-    }
-    for (int32_t k = 0; k < smooth->rows; ++k) {
-        int32_t at = k / parts, next = at + 1 < grid->rows ? at + 1 : at;
-        work.fine_y[k] = work.y[at] + (double)(k % parts) / parts * (work.y[next] - work.y[at]);
-    }
-    for (int64_t k = 0; k < count; ++k)
-        smooth->place[k] =
-            (Point){work.fine_x[k % smooth->columns], -work.fine_y[k / smooth->columns]};
+    TRY(work = NEW_ARRAY(double, 2 * lines + (int64_t)grid->rows * smooth->columns + smooth->rows,
+                         err));
+    find_lines(grid, place, true, work);
+    find_lines(grid, place, false, work + grid->columns);
+    smooth_both(grid, values, parts, work, smooth);
     TRY(find_triangles(smooth, err));
-    smooth_both(grid, values, parts, &work, smooth);
 cleanup:
-    work_destroy(&work);
+    memory_free(work);
     if (!error_is_clean(err)) smooth_destroy(smooth);
     return error_is_clean(err);
 }
 
 void smooth_destroy(SmoothGrid *smooth)
 {
-    memory_free(smooth->place);
-    memory_free(smooth->value);
-    memory_free(smooth->triangles);
+    memory_free_all(smooth->place, smooth->value, smooth->triangles.points);
     *smooth = (SmoothGrid){0};
+}
+
+void map_medians(const MapGrid *grid, const double *values, double *medians)
+{
+    double near[MAP_MEDIANS * MAP_MEDIANS];
+    for (int32_t k = 0; k < grid->rows * grid->columns; ++k) {
+        int32_t count = 0;
+        if (grid->point[k] < 0) continue;
+        for (int32_t n = 0; n < MAP_MEDIANS * MAP_MEDIANS; ++n) {
+            int32_t row = k / grid->columns + n / MAP_MEDIANS - MAP_MEDIANS / 2;
+            int32_t column = k % grid->columns + n % MAP_MEDIANS - MAP_MEDIANS / 2;
+            bool outside = row < 0 || row >= grid->rows || column < 0 || column >= grid->columns;
+            int32_t point = outside ? -1 : grid->point[row * grid->columns + column];
+            if (point >= 0 && isfinite(values[point])) near[count++] = values[point];
+        }
+        qsort(near, (size_t)count, sizeof *near, order_doubles);
+        bool known = isfinite(values[grid->point[k]]);
+        medians[grid->point[k]] = known ? near[count / 2] : NAN;
+    }
 }

@@ -5,6 +5,7 @@
 #ifndef AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 #define AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 
+#include "io/text/picture_options.h"
 #include "render/canvas/canvas.h"
 #include "render/plot/map_cells.h"
 
@@ -12,8 +13,7 @@ typedef struct SmoothGrid {
     int32_t columns, rows;
     Point *place;   // [rows * columns] owned, as the next
     double *value;   // [rows * columns] NaN: between points of which one has none
-    int32_t *triangles;   // [3 * triangle_count] corners, two triangles a cell; owned
-    int64_t triangle_count;
+    MapTriangles triangles;   // two between any four of them
 } SmoothGrid;
 
 // values, place: of the map's points; parts: of each distance between two points. A cell of the
@@ -21,5 +21,8 @@ typedef struct SmoothGrid {
 bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,
                 SmoothGrid *smooth, Error *err);
 void smooth_destroy(SmoothGrid *smooth);   // zeroed is fine
+
+// Of each point that has a value the median of those in MAP_MEDIANS by MAP_MEDIANS cells around it.
+void map_medians(const MapGrid *grid, const double *values, double *medians);
 
 #endif

@@ -32,10 +32,9 @@ static void marker_shape(Canvas *canvas, PlotMarker marker, Color color, Point a
         draw_polygon(canvas, color, triangle, 3);
 }
 
-static void cross_draw(const Page *page, Color color, Point at, double radius)
+void cross_draw(const Page *page, Color color, Point at, double arm)
 {
     Stroke stroke = {.color = color, .width = CROSS_WIDTH * page->point};
-    double arm = CROSS_ARM * radius;
     draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y - arm},
                  (Point){at.x + arm, at.y + arm});
     draw_segment(page->canvas, &stroke, (Point){at.x - arm, at.y + arm},
@@ -48,7 +47,7 @@ void mark_draw(const Page *page, const PlotSeries *series, Point at, double shar
     double radius = MARKER_RADIUS * share * page->point;
     if (series->marker == MARKER_NONE || !isfinite(at.x) || !isfinite(at.y)) return;
     if (series->marker == MARKER_CROSS) {
-        cross_draw(page, COLORS[series->color], at, radius);
+        cross_draw(page, COLORS[series->color], at, CROSS_ARM * radius);
         return;
     }
     marker_shape(page->canvas, series->marker, COLORS[series->color], at, radius);

@@ -9,6 +9,7 @@ static const double MARKER_RADIUS = 1.9;   // points
 
 // share: of the usual size and width, less in an inset.
 void mark_draw(const Page *page, const PlotSeries *series, Point at, double share);
+void cross_draw(const Page *page, Color color, Point at, double arm);   // arm: pixels
 Color mark_color(const PlotSeries *series);
 Stroke mark_stroke(const Page *page, const PlotSeries *series, double share);
 

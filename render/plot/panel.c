@@ -2,26 +2,9 @@
 // The map lies below, then lines, then error bars, then marks.
 #include "render/plot/panel.h"
 
-#include "base/memory.h"
 #include "render/plot/marks.h"
 
 static const double BAR_WIDTH = 0.5, BAR_CAP = 1.4;   // points: error bars, half their caps
-
-// A NaN breaks the line; so does what a logarithmic axis cannot show.
-static bool line_draw(const Page *page, const Axes *axes, const PlotSeries *series, double share,
-                      Error *err)
-{
-    Stroke stroke = mark_stroke(page, series, share);
-    Point *line = NULL;
-    if (series->line == LINE_NONE) return true;
-    TRY((line = NEW_ARRAY(Point, series->count, err)));
-    for (int32_t k = 0; k < series->count; ++k)
-        line[k] = axes_place(axes, series->x[k], series->y[k]);
-    draw_line(page->canvas, &stroke, line, series->count);
-cleanup:
-    memory_free(line);
-    return error_is_clean(err);
-}
 
 // From low to high with caps: upright, or lying where the y axis has names.
 static void bars_draw(const Page *page, const Axes *axes, const PlotSeries *series)
@@ -50,29 +33,30 @@ static void marks_draw(const Page *page, const Axes *axes, const PlotSeries *ser
     }
 }
 
-// Lines and bars are cut off at the frame.
-static bool series_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share,
-                        Error *err)
+// Lines and bars are cut off at the frame. A NaN breaks a line; so does what a logarithmic axis
+// cannot show.
+static void series_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share)
 {
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        const PlotSeries *series = &panel->series[k];
+        Stroke stroke = mark_stroke(page, series, share);
+        if (series->line != LINE_NONE)
+            axes_curve(page, axes, &stroke, series->x, series->y, series->count);
+    }
     canvas_clip(page->canvas, &axes->box);
-    for (int32_t k = 0; k < panel->series_count; ++k)
-        TRY(line_draw(page, axes, &panel->series[k], share, err));
     for (int32_t k = 0; k < panel->series_count; ++k) bars_draw(page, axes, &panel->series[k]);
     canvas_clip(page->canvas, NULL);
     for (int32_t k = 0; k < panel->series_count; ++k)
         marks_draw(page, axes, &panel->series[k], share);
-cleanup:
-    return error_is_clean(err);
 }
 
 bool panel_draw(const Page *page, const PanelDef *def, const Axes *axes, Error *err)
 {
     const PlotPanel *common = def->common;
-    if (def->panel->has_map) TRY(figure_map(page, axes, def->panel, def->scale, err));
-    if (common && common->has_map) TRY(figure_map(page, axes, common, def->scale, err));
-    TRY(series_draw(page, axes, def->panel, def->share, err));
-    if (common) TRY(series_draw(page, axes, common, def->share, err));
+    if (def->panel->has_map && !figure_map(page, axes, def->panel, def->scale, err)) return false;
+    if (common && common->has_map && !figure_map(page, axes, common, def->scale, err)) return false;
+    series_draw(page, axes, def->panel, def->share);
+    if (common) series_draw(page, axes, common, def->share);
     axes_draw(page, axes);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

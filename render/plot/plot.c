@@ -17,17 +17,11 @@ bool plot_bar_ends(const Axes *axes, const PlotSeries *series, int32_t k, Point 
 
 static void panel_destroy(PlotPanel *panel)
 {
-    memory_free(panel->names);
-    memory_free(panel->map.x);
-    memory_free(panel->map.y);
-    memory_free(panel->map.value);
-    memory_free(panel->map.contour);
-    memory_free(panel->map.open);
+    memory_free_all(panel->names, panel->map.x, panel->map.y, panel->map.value, panel->map.contour,
+                    panel->map.open);
     for (int32_t k = 0; k < PLOT_SERIES_MAX; k++) {
-        memory_free(panel->series[k].x);
-        memory_free(panel->series[k].y);
-        memory_free(panel->series[k].low);
-        memory_free(panel->series[k].high);
+        memory_free_all(panel->series[k].x, panel->series[k].y, panel->series[k].low,
+                        panel->series[k].high);
     }
 }
 
@@ -36,7 +30,6 @@ void plot_destroy(Plot *plot)
     panel_destroy(&plot->main);
     panel_destroy(&plot->inset);
     for (int32_t k = 0; k < plot->panel_count; k++) panel_destroy(&plot->panels[k]);
-    memory_free(plot->panels);
-    memory_free(plot->computed);
+    memory_free_all(plot->panels, plot->computed);
     *plot = (Plot){0};
 }

@@ -28,16 +28,17 @@ static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *ser
     snprintf(name, sizeof name, "%s_error", plot->column[1]);
     int32_t error = find_column(table, name, "error");
     if (x < 0 || y < 0)
-        FAIL(err, ERROR_INPUT, "it needs the columns %s and %s",
-             plot->column[0][0] ? plot->column[0] : "x",
-             plot->column[1][0] ? plot->column[1] : "y");
-    if (table->rows == 0) FAIL(err, ERROR_INPUT, "below the names of its columns there is no row");
-    TRY(csv_check(table, x, false, err) && csv_check(table, y, false, err) &&
-        csv_check(table, error, true, err));
-    TRY(series->x = NEW_ARRAY(double, table->rows, err));
-    TRY(series->y = NEW_ARRAY(double, table->rows, err));
-    TRY(series->low = NEW_ARRAY(double, table->rows, err));
-    TRY(series->high = NEW_ARRAY(double, table->rows, err));
+        return REFUSE(err, "it needs the columns %s and %s",
+                      plot->column[0][0] ? plot->column[0] : "x",
+                      plot->column[1][0] ? plot->column[1] : "y");
+    if (table->rows == 0) return REFUSE(err, "below the names of its columns there is no row");
+    if (!(csv_check(table, x, false, err) && csv_check(table, y, false, err) &&
+          csv_check(table, error, true, err)))
+        return false;
+    if (!(series->x = NEW_ARRAY(double, table->rows, err))) return false;
+    if (!(series->y = NEW_ARRAY(double, table->rows, err))) return false;
+    if (!(series->low = NEW_ARRAY(double, table->rows, err))) return false;
+    if (!(series->high = NEW_ARRAY(double, table->rows, err))) return false;
     for (int32_t row = 0; row < table->rows; ++row) {
         double value = csv_value(table, row, y);
         double bar = error < 0 ? (double)NAN : csv_value(table, row, error);
@@ -47,8 +48,7 @@ static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *ser
         series->high[row] = value + bar;
     }
     series->count = table->rows;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The one with a line through several points; NULL: there are several, or none.
@@ -86,11 +86,10 @@ static bool find_computed(Plot *plot, PlotSeries *curve, const PlotSeries *serie
 {
     if (!curve) return true;
     if (!curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
-    TRY(plot->computed = NEW_ARRAY(double, series->count, err));
+    if (!(plot->computed = NEW_ARRAY(double, series->count, err))) return false;
     for (int32_t k = 0; k < series->count; ++k)
         plot->computed[k] = computed_at(curve, &plot->main.x, series->x[k]);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static void label(const Plot *plot, const char *path, PlotSeries *series)
@@ -164,7 +163,7 @@ bool plot_compare_write(const Plot *plot, const char *picture, Error *err)
     if (!plot->computed) return true;
     const PlotSeries *series = &plot->main.series[plot->main.series_count - 1];
     int length = snprintf(path, sizeof path, "%.*s-compared.csv", (int)(dot - picture), picture);
-    if (length >= (int)sizeof path) FAIL(err, ERROR_INPUT, "the picture's path is too long");
+    if (length >= (int)sizeof path) return REFUSE(err, "the picture's path is too long");
     CsvWriter *csv = csv_create(path, err);
     if (!csv) return false;
     for (int32_t c = 0; c < 2; ++c) csv_text(csv, plot->column[c][0] ? plot->column[c] : plain[c]);
@@ -179,6 +178,4 @@ bool plot_compare_write(const Plot *plot, const char *picture, Error *err)
         csv_end_row(csv);
     }
     return csv_finish(csv, err);
-cleanup:
-    return false;
 }

@@ -64,8 +64,7 @@ static bool read_names(const PlotReader *reader, YamlNode list, PlotPanel *panel
         return plot_refuse(reader, list, "names", "a list of at most 100 texts");
     panel->names = memory_array(count, sizeof *panel->names, reader->err);
     if (!panel->names) return false;
-    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item))
+    YAML_EACH (item, reader->file, list)
         snprintf(panel->names[k++], AXIS_LABEL_SIZE, "%s", yaml_text(reader->file, item));
     panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
     panel->y.name_count = count;
@@ -136,8 +135,7 @@ static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
     if (yaml_kind(reader->file, list) != YAML_LIST ||
         yaml_count(reader->file, list) > PLOT_SERIES_MAX)
         return plot_refuse(reader, list, "series", "a list of at most 32 maps");
-    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item))
+    YAML_EACH (item, reader->file, list)
         if (!read_series(reader, item, &panel->series[panel->series_count++])) return false;
     return true;
 }
@@ -171,8 +169,7 @@ static bool read_panels(const PlotReader *reader, YamlNode list, Plot *plot)
         return plot_refuse(reader, list, "panels", "a list of at most 24 maps");
     plot->panels = NEW_ARRAY(PlotPanel, count, reader->err);
     if (!plot->panels) return false;
-    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item)) {
+    YAML_EACH (item, reader->file, list) {
         PlotPanel *panel = &plot->panels[plot->panel_count++];
         if (!plot_check_keys(reader, item, "panels", "title series map ") ||
             !plot_read_text(reader, item, "title", panel->title, sizeof panel->title) ||
@@ -247,8 +244,7 @@ static bool read_page(const PlotReader *reader, Plot *plot)
     if (map == YAML_NO_NODE) return true;
     if (yaml_kind(reader->file, map) != YAML_MAP || yaml_count(reader->file, map) > PLOT_WORDS)
         return plot_refuse(reader, map, "page", "a map of options, as {style: columns}");
-    for (YamlNode item = yaml_first(reader->file, map); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item)) {
+    YAML_EACH (item, reader->file, map) {
         Error why = {0};
         char *word = plot->words[plot->word_count++];
         read_word(reader, item, word);

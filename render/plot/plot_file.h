@@ -31,7 +31,7 @@
 // neighbours, others linearly between any three next to each other:
 //
 //     color: {label: "~{\u03bc}_{M}"}             # or with unit and range, as an axis
-//     contours: {label: "~{l}_{c} / ~{L}"}     # lines at handy values
+//     contours: {label: "~{l}_{c} / ~{L}"}     # lines at handy values (MAP_MANY: of medians)
 //     map: {x: [...], y: [...], value: [...], contour: [...], open: [0, 1, 2, ...]}
 //                                             # open 1: a ring, 2: a square around the point
 //

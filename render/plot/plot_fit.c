@@ -83,13 +83,12 @@ static bool fit(PlotPanel *panel, const PlotPanel *panels, int32_t count, Error 
             axis[which]->high = axis[which]->name_count + 0.5;
             continue;
         }
-        TRY(widen_by_panel(panel, axes, which, &ends, err));
+        if (!widen_by_panel(panel, axes, which, &ends, err)) return false;
         for (int32_t k = 0; k < count; k++)
-            TRY(widen_by_panel(&panels[k], axes, which, &ends, err));
+            if (!widen_by_panel(&panels[k], axes, which, &ends, err)) return false;
         set_ends(axis[which], &ends);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Least and largest of a quantity of all maps: their values, or what their lines show.

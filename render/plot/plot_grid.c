@@ -79,29 +79,26 @@ static bool draw_one(const Page *page, const GridPage *grid, int32_t k, Error *e
     Axes axes = {.box = frame_of(page, grid, k),
                  .x = plot->main.x,
                  .y = plot->main.y,
-                 .number_size = NUMBER_SIZE,
-                 .color = INK,
                  .bare_x = k + grid->columns<plot->panel_count, .bare_y = k % grid->columns> 0};
     Point above = {(axes.box.left + axes.box.right) / 2, axes.box.top - TITLE_DROP * page->point};
-    TRY(panel_draw(page, &def, &axes, err));
+    if (!panel_draw(page, &def, &axes, err)) return false;
     text_draw(page->text, &style, above, panel->title);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool plot_grid_draw(const Page *page, const Plot *plot, const Box *below, Error *err)
 {
-    Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE};
+    Axes axes = {.x = plot->main.x, .y = plot->main.y};
     axes.box.bottom = (below->top - page->room.top) / 2;   // where ticks are counted
     GridPage grid = lay_out(page, plot, below, &axes);
     if (grid.width < 2 * BETWEEN * page->point || grid.height < 2 * BETWEEN * page->point)
-        FAIL(err, ERROR_INPUT, "the page is too small for %d panels", plot->panel_count);
-    for (int32_t k = 0; k < plot->panel_count; k++) TRY(draw_one(page, &grid, k, err));
+        return REFUSE(err, "the page is too small for %d panels", plot->panel_count);
+    for (int32_t k = 0; k < plot->panel_count; k++)
+        if (!draw_one(page, &grid, k, err)) return false;
     if (grid.has_bar) {
         Box last = frame_of(page, &grid, grid.columns - 1), all = last;
         all.bottom = frame_of(page, &grid, (grid.rows - 1) * grid.columns).bottom;
-        map_bar_draw(page, &grid.scale, &all);
+        colorbar_draw(page, &grid.scale.bar, &all, BAR_GAP);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }

@@ -17,8 +17,7 @@ bool plot_refuse(const PlotReader *reader, YamlNode node, const char *what, cons
 
 YamlNode plot_child(const PlotReader *reader, YamlNode map, const char *key)
 {
-    for (YamlNode item = yaml_first(reader->file, map); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item))
+    YAML_EACH (item, reader->file, map)
         if (strcmp(yaml_key(reader->file, item), key) == 0) return item;
     return YAML_NO_NODE;
 }
@@ -27,8 +26,7 @@ bool plot_check_keys(const PlotReader *reader, YamlNode map, const char *what, c
 {
     if (yaml_kind(reader->file, map) != YAML_MAP)
         return plot_refuse(reader, map, what, "a map of keys");
-    for (YamlNode item = yaml_first(reader->file, map); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item)) {
+    YAML_EACH (item, reader->file, map) {
         char key[40];
         snprintf(key, sizeof key, "%.37s ", yaml_key(reader->file, item));
         const char *at = strstr(known, key);
@@ -89,8 +87,7 @@ bool plot_read_numbers(const PlotReader *reader, YamlNode list, const char *what
     char allowed[60];
     snprintf(allowed, sizeof allowed, "a list of %d numbers", wanted);
     if (!good) return plot_refuse(reader, list, what, allowed);
-    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
-         item = yaml_next(reader->file, item))
+    YAML_EACH (item, reader->file, list)
         if (!plot_read_number(reader, item, what, &values[k++])) return false;
     return true;
 }

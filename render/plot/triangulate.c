@@ -21,7 +21,7 @@ static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int
         if (facet->upperdelaunay) continue;
         count++;
     }
-    TRY(*corners = NEW_ARRAY(int32_t, 3 * count + 1, err));
+    if (!(*corners = NEW_ARRAY(int32_t, 3 * count + 1, err))) return false;
     FORALLfacets
     {
         vertexT *vertex, **vertexp;
@@ -34,8 +34,7 @@ static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int
         }
         *triangles += k == 3;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Qhull changes none of `places`. What it says of a flat set of points is not passed on.
@@ -82,7 +81,6 @@ bool triangulate(const Point *points, int32_t count, int32_t **corners, int32_t 
     if (kept >= POINTS_MIN) TRY(hull_make(places, index, kept, corners, triangles, err));
     if (!*corners) TRY(*corners = NEW_ARRAY(int32_t, 1, err));
 cleanup:
-    memory_free(places);
-    memory_free(index);
+    memory_free_all(places, index);
     return error_is_clean(err);
 }

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const double FOLDED = 0.2;   // of an element's size at a corner that must be left when drawn
 static const double SHOWN = 0.05;   // largest drawn deformation over the block's larger extent
@@ -38,34 +39,38 @@ bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err)
         snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "",
                  block_words(*quantity).name);
     }
-    FAIL(err, ERROR_INPUT, "there is no field called \"%.40s\"; known are: %s", name, names);
-cleanup:
-    return false;
+    return REFUSE(err, "there is no field called \"%.40s\"; known are: %s", name, names);
 }
 
 // --- times ---------------------------------------------------------------------------------------
 
-bool block_times_read(const char *folder, const ResultView *view, BlockTimes *times, Error *err)
+bool block_is_stored(const char *folder)
 {
-    *times = (BlockTimes){0};
-    TRY(field_times_read(folder, &times->times, &times->count, err));
-    TRY(times->row = NEW_ARRAY(int64_t, times->count, err));
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/fields.pvd", folder);
+    return access(path, R_OK) == 0;
+}
+
+bool block_source_open(BlockSource *source, Error *err)
+{
+    const ResultView *view = source->view;
+    TRY(field_times_read(source->folder, &source->times, &source->count, err));
+    TRY(source->row = NEW_ARRAY(int64_t, source->count, err));
     int64_t row = 0;
-    for (int32_t k = 0; k < times->count; ++k) {
-        double t = times->times[k].t;
+    for (int32_t k = 0; k < source->count; ++k) {
+        double t = source->times[k].t;
         while (row + 1 < view->rows && fabs(view->t[row + 1] - t) <= fabs(view->t[row] - t)) ++row;
-        times->row[k] = row;
+        source->row[k] = row;
     }
 cleanup:
-    if (!error_is_clean(err)) block_times_destroy(times);
+    if (!error_is_clean(err)) block_source_close(source);
     return error_is_clean(err);
 }
 
-void block_times_destroy(BlockTimes *times)
+void block_source_close(BlockSource *source)
 {
-    memory_free(times->times);
-    memory_free(times->row);
-    *times = (BlockTimes){0};
+    memory_free_all(source->times, source->row);
+    *source = (BlockSource){0};
 }
 
 bool block_moment_read(const char *at, bool *is_U, double *value, Error *err)
@@ -75,32 +80,29 @@ bool block_moment_read(const char *at, bool *is_U, double *value, Error *err)
     bool known = *is_U || strncmp(at, "t=", 2) == 0;
     *value = known ? strtod(at + 2, &end) : NAN;
     if (!end || end == at + 2 || *end || !isfinite(*value))
-        FAIL(err, ERROR_INPUT, "a time is given as U=0.0117 or t=120, not as \"%.40s\"", at);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "a time is given as U=0.0117 or t=120, not as \"%.40s\"", at);
+    return true;
 }
 
-bool block_time_find(const BlockTimes *times, const ResultView *view, const char *at,
-                     int32_t *index, Error *err)
+bool block_time_find(const BlockSource *source, const char *at, int32_t *index, Error *err)
 {
     bool by_U = false;
     double wanted = 0, nearest = INFINITY;
-    TRY(block_moment_read(at, &by_U, &wanted, err));
-    for (int32_t k = 0; k < times->count; ++k) {
-        double away = fabs((by_U ? view->U[times->row[k]] : times->times[k].t) - wanted);
+    if (!block_moment_read(at, &by_U, &wanted, err)) return false;
+    for (int32_t k = 0; k < source->count; ++k) {
+        double away = fabs((by_U ? source->view->U[source->row[k]] : source->times[k].t) - wanted);
         if (!(away < nearest)) continue;
         nearest = away;
         *index = k;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
-int32_t block_time_before(const BlockTimes *times, const ResultView *view, double U)
+int32_t block_time_before(const BlockSource *source, double U)
 {
     int32_t index = 0;
-    for (int32_t k = 0; k < times->count; ++k)
-        if (view->U[times->row[k]] <= U) index = k;
+    for (int32_t k = 0; k < source->count; ++k)
+        if (source->view->U[source->row[k]] <= U) index = k;
     return index;
 }
 
@@ -116,33 +118,10 @@ static void frame_extent(const FieldFrame *frame, double low[3], double high[3])
     }
 }
 
-bool block_read(const char *folder, const ResultView *view, const BlockTimes *times, int32_t index,
-                Block *block, Error *err)
-{
-    char path[PATH_MAX];
-    *block = (Block){.t = times->times[index].t, .row = times->row[index]};
-    block->U = view->U[block->row];
-    snprintf(path, sizeof path, "%s/%s", folder, times->times[index].file);
-    TRY(field_frame_read(path, &block->frame, err));
-    TRY(block->value = NEW_ARRAY(double, block->frame.node_count, err));
-    TRY(block->place = memory_array(block->frame.node_count, sizeof *block->place, err));
-    if (block->frame.dim > 2) {
-        TRY(block->moved = memory_array(block->frame.node_count, sizeof *block->moved, err));
-        frame_extent(&block->frame, block->low, block->high);
-        block->camera = camera_before(block->low, block->high);
-    }
-    block_deform(block, 0);
-cleanup:
-    if (!error_is_clean(err)) block_destroy(block);
-    return error_is_clean(err);
-}
-
 void block_destroy(Block *block)
 {
     field_frame_destroy(&block->frame);
-    memory_free(block->value);
-    memory_free(block->place);
-    memory_free(block->moved);
+    memory_free_all(block->value, block->place, block->moved);
     *block = (Block){0};
 }
 
@@ -199,8 +178,7 @@ static bool take_work(Block *block, const double *stress, const double *other,
         block->value[i] = factor * work / fmax(shares[i], 1);
     }
 cleanup:
-    memory_free(strain);
-    memory_free(shares);
+    memory_free_all(strain, shares);
     return error_is_clean(err);
 }
 
@@ -227,7 +205,7 @@ bool block_take(Block *block, BlockQuantity quantity, Error *err)
     bool across = quantity == BLOCK_STRESS_YY || quantity == BLOCK_STRESS_XY ||
                   quantity == BLOCK_STRESS_YZ;
     if (across && dim == 2)
-        FAIL(err, ERROR_INPUT, "%s is there in space only", block_words(quantity).name);
+        return REFUSE(err, "%s is there in space only", block_words(quantity).name);
     if (quantity == BLOCK_ENERGY)
         return take_work(block, frame->stress_elastic, NULL, frame->displacement, 0.5, err);
     if (quantity == BLOCK_DISSIPATION)
@@ -248,7 +226,27 @@ bool block_take(Block *block, BlockQuantity quantity, Error *err)
                                  [BLOCK_DISPLACEMENT] = size_of(frame->displacement + 3 * i)};
         block->value[i] = values[quantity];
     }
+    return true;
+}
+
+bool block_read(const BlockSource *source, int32_t index, Block *block, Error *err)
+{
+    char path[PATH_MAX];
+    *block = (Block){.t = source->times[index].t, .row = source->row[index]};
+    block->U = source->view->U[block->row];
+    snprintf(path, sizeof path, "%s/%s", source->folder, source->times[index].file);
+    TRY(field_frame_read(path, &block->frame, err));
+    TRY(block->value = NEW_ARRAY(double, block->frame.node_count, err));
+    TRY(block->place = memory_array(block->frame.node_count, sizeof *block->place, err));
+    if (block->frame.dim > 2) {
+        TRY(block->moved = memory_array(block->frame.node_count, sizeof *block->moved, err));
+        frame_extent(&block->frame, block->low, block->high);
+        block->camera = camera_before(block->low, block->high);
+    }
+    block_deform(block, 0);
+    TRY(block_take(block, source->quantity, err));
 cleanup:
+    if (!error_is_clean(err)) block_destroy(block);
     return error_is_clean(err);
 }
 

@@ -35,28 +35,29 @@ typedef struct Block {
     Camera camera;
 } Block;
 
-// The times stored in the result at `folder`, as rows of the history, [*count], rising.
-typedef struct BlockTimes {
+// The fields stored in a result.
+typedef struct BlockSource {
+    const char *folder;   // borrowed, like the view
+    ResultView *view;
+    BlockQuantity quantity;   // that blocks are read with
+    int32_t count;   // times, rising
     FieldTime *times;   // [count] owned
-    int64_t *row;   // [count] owned
-    int32_t count;
-} BlockTimes;
-bool block_times_read(const char *folder, const ResultView *view, BlockTimes *times, Error *err);
-void block_times_destroy(BlockTimes *times);   // zeroed is fine
+    int64_t *row;   // [count] of the history, the nearest; owned
+} BlockSource;
+bool block_source_open(BlockSource *source, Error *err);   // folder, view and quantity are given
+void block_source_close(BlockSource *source);   // zeroed is fine
+bool block_is_stored(const char *folder);   // whether there are fields
 
 // "U=0.0117" or "t=120" as a number of one of the two; ERROR_INPUT: neither of them.
 bool block_moment_read(const char *at, bool *is_U, double *value, Error *err);
 // The index of the time nearest to such a moment.
-bool block_time_find(const BlockTimes *times, const ResultView *view, const char *at,
-                     int32_t *index, Error *err);
+bool block_time_find(const BlockSource *source, const char *at, int32_t *index, Error *err);
 // The last one up to this displacement of the rod; the first where there is none.
-int32_t block_time_before(const BlockTimes *times, const ResultView *view, double U);
+int32_t block_time_before(const BlockSource *source, double U);
 
-bool block_read(const char *folder, const ResultView *view, const BlockTimes *times, int32_t index,
-                Block *block, Error *err);
+bool block_read(const BlockSource *source, int32_t index, Block *block, Error *err);
 void block_destroy(Block *block);   // zeroed is fine
-
-// Fills block->value.
+// Fills block->value with another quantity.
 bool block_take(Block *block, BlockQuantity quantity, Error *err);
 
 // 1, 2 or 5 times a power of ten: the deformation then shows, but folds nothing over.

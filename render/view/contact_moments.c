@@ -33,17 +33,16 @@ static bool take_asked(const ResultView *view, const char *at, ContactMoments *m
         bool by_U = false;
         double value = 0;
         if (moments->count == MOMENTS_MAX)
-            FAIL(err, ERROR_INPUT, "a figure shows %d moments at most", MOMENTS_MAX);
+            return REFUSE(err, "a figure shows %d moments at most", MOMENTS_MAX);
         snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
-        TRY(block_moment_read(word, &by_U, &value, err));
+        if (!block_moment_read(word, &by_U, &value, err)) return false;
         moments->row[moments->count++] = nearest_row(view, by_U ? view->U : view->t, value);
     }
     qsort(moments->row, (size_t)moments->count, sizeof *moments->row, order_int64);
     moments->asked = true;
     moments->first = moments->row[0];
     moments->last = moments->row[moments->count - 1];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Of rapid events the one nearest to `wanted`; without a wish the last that carried the whole
@@ -68,22 +67,21 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
     bool by_U = true;
     double wanted = 0;
     if (at) {
-        TRY(block_moment_read(at, &by_U, &wanted, err));
+        if (!block_moment_read(at, &by_U, &wanted, err)) return false;
         if (!by_U) wanted = view->U[nearest_row(view, view->t, wanted)];
     }
     const ViewEvent *event = find_event(view, at ? &wanted : NULL);
     if (!event)
-        FAIL(err, ERROR_INPUT,
-             "no rapid slip has been seen from start to end: say when, as --at U=%.4g",
-             view->U[view->rows / 2]);
+        return REFUSE(err,
+                      "no rapid slip has been seen from start to end: say when, as --at U=%.4g",
+                      view->U[view->rows / 2]);
     moments->first = nearest_row(view, view->U, event->U_start);
     moments->last = nearest_row(view, view->U, event->U_stop);
     while (moments->first > 0 && view->U[moments->first] >= event->U_start) --moments->first;
     for (int32_t k = 0; k < view->rapid_count; ++k)
         if (view->rapid[k][1] < event->U_start)
             moments->before = nearest_row(view, view->U, view->rapid[k][1]);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Fills moments->arrival with the time of the first rapid step of each node in the event.
@@ -176,11 +174,10 @@ bool contact_moments_find(const ResultView *view, const double *rates, const cha
     const ContactPlane *plane = &view->plane;
     *moments = (ContactMoments){0};
     if (at && !whole) return take_asked(view, at, moments, err);
-    TRY(take_event(view, at, moments, err));
-    TRY(find_arrival(view, plane, rates, moments, err));
+    if (!take_event(view, at, moments, err)) return false;
+    if (!find_arrival(view, plane, rates, moments, err)) return false;
     choose_rows(view, plane, rates, moments);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void contact_moments_destroy(ContactMoments *moments)

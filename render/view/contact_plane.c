@@ -46,13 +46,12 @@ static bool take_face(const ContactPlane *plane, const Faces *faces, int32_t f, 
     int32_t count = 0;
     while (count < faces->width && stored[count] >= 0) ++count;
     int32_t kind = element_kind_of(2, count);
-    if (kind < 0) FAIL(err, ERROR_FILE, "a face of the contact has %d points", count);
+    if (kind < 0) return FAULT(err, ERROR_FILE, "a face of the contact has %d points", count);
     face->kind = (ElementKind)kind;
     for (int32_t a = 0; a < count; ++a)
         if (!take_point(plane, faces, stored[a], &face->point[a], face->place[a]))
-            FAIL(err, ERROR_FILE, "a face of the contact has a point that is none");
-cleanup:
-    return error_is_clean(err);
+            return FAULT(err, ERROR_FILE, "a face of the contact has a point that is none");
+    return true;
 }
 
 static void place_at(const Face *face, const double at[2], double place[2])
@@ -172,29 +171,33 @@ static bool read_nodes(ArrayFile *file, ContactPlane *plane, Error *err)
     } arrays[] = {{NODES_X, &plane->x}, {NODES_Y, &plane->y}, {NODES_WEIGHT, &plane->weight}};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
         int32_t count = 0;
-        TRY(result_file_read_nodes(file, arrays[k].nodes, arrays[k].values, &count, err));
+        if (!result_file_read_nodes(file, arrays[k].nodes, arrays[k].values, &count, err))
+            return false;
         if (count != plane->nodes)
-            FAIL(err, ERROR_FILE, "%d of %d contact nodes have a place", count, plane->nodes);
+            return FAULT(err, ERROR_FILE, "%d of %d contact nodes have a place", count,
+                         plane->nodes);
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool read_faces(ArrayFile *file, Faces *faces, Error *err)
 {
     int32_t two = 0;
-    TRY(result_file_read_faces(file, FACES_NODES, &faces->point, &faces->count, &faces->width,
-                               err));
-    TRY(result_file_read_faces(file, FACES_CORNERS, &faces->corner, &faces->corners, &two, err));
+    if (!result_file_read_faces(file, FACES_NODES, &faces->point, &faces->count, &faces->width,
+                                err))
+        return false;
+    if (!result_file_read_faces(file, FACES_CORNERS, &faces->corner, &faces->corners, &two, err))
+        return false;
     if (faces->count == 0)
-        FAIL(err, ERROR_INPUT,
-             "the history does not have the faces of the contact: it was written before they were "
-             "stored, or by a run that did not read its mesh");
-    if (faces->corners > 0 && two != 2) FAIL(err, ERROR_FILE, "corners have %d numbers", two);
+        return REFUSE(
+            err,
+            "the history does not have the faces of the contact: it was written before they were "
+            "stored, or by a run that did not read its mesh");
+    if (faces->corners > 0 && two != 2)
+        return FAULT(err, ERROR_FILE, "corners have %d numbers", two);
     if (faces->width > FACE_NODES_MAX)
-        FAIL(err, ERROR_FILE, "faces have up to %d points", faces->width);
-cleanup:
-    return error_is_clean(err);
+        return FAULT(err, ERROR_FILE, "faces have up to %d points", faces->width);
+    return true;
 }
 
 bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Error *err)
@@ -217,19 +220,13 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
     keep_outline(sides, count, plane);
     find_extent(plane);
 cleanup:
-    memory_free(sides);
-    memory_free(faces.corner);
-    memory_free(faces.point);
+    memory_free_all(sides, faces.corner, faces.point);
     if (!error_is_clean(err)) contact_plane_destroy(plane);
     return error_is_clean(err);
 }
 
 void contact_plane_destroy(ContactPlane *plane)
 {
-    memory_free(plane->x);
-    memory_free(plane->y);
-    memory_free(plane->weight);
-    memory_free(plane->patches);
-    memory_free(plane->sides);
+    memory_free_all(plane->x, plane->y, plane->weight, plane->patches, plane->sides);
     *plane = (ContactPlane){0};
 }

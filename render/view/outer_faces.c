@@ -30,7 +30,7 @@ static bool list_faces(const ElementList *elements, OuterFace **faces, int32_t *
     for (int32_t e = 0; e < elements->count; ++e)
         all += element_face_count((ElementKind)elements->kind[e]);
     *count = 0;
-    TRY(*faces = NEW_ARRAY(OuterFace, all, err));
+    if (!(*faces = NEW_ARRAY(OuterFace, all, err))) return false;
     for (int32_t e = 0; e < elements->count; ++e)
         for (int32_t side = 0; side < element_face_count((ElementKind)elements->kind[e]); ++side) {
             OuterFace *face = &(*faces)[(*count)++];
@@ -42,8 +42,7 @@ static bool list_faces(const ElementList *elements, OuterFace **faces, int32_t *
             qsort(face->key, (size_t)element_corner_count(kind), sizeof *nodes, order_int32);
         }
     qsort(*faces, (size_t)*count, sizeof **faces, compare_faces);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool outer_faces(const ElementList *elements, OuterFace **faces, int32_t *count, Error *err)

@@ -18,12 +18,62 @@ static bool scalar_read(ResultView *view, ResultSeries series, double **values, 
 {
     int64_t rows = 0;
     int32_t width = 0;
-    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
+    if (!result_file_read_series(view->file, series, values, &rows, &width, err)) return false;
     if (width != 1)
-        FAIL(err, ERROR_FILE, "%s has %d columns, not 1", result_series_name(series), width);
+        return FAULT(err, ERROR_FILE, "%s has %d columns, not 1", result_series_name(series),
+                     width);
     if (rows < view->rows) view->rows = rows;
-cleanup:
-    return error_is_clean(err);
+    return true;
+}
+
+int64_t curve_place(const double *values, int64_t count, double at)
+{
+    int64_t low = 0, high = count - 1;
+    while (high - low > 1) {
+        int64_t middle = low + (high - low) / 2;
+        if (values[middle] <= at)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+double curve_value(const ViewCurve *curve, double at)
+{
+    if (curve->count < 2 || !(at >= curve->at[0] && at <= curve->at[curve->count - 1])) return NAN;
+    int64_t k = curve_place(curve->at, curve->count, at);
+    double span = curve->at[k + 1] - curve->at[k];
+    double part = span > 0 ? (at - curve->at[k]) / span : 1;
+    return curve->value[k] + part * (curve->value[k + 1] - curve->value[k]);
+}
+
+// 0 in results that do not say it, which are older.
+double result_view_trailing_end(const ResultView *view)
+{
+    double x = view->number[NUMBER_TRAILING];
+    return isfinite(x) ? x : 0;
+}
+
+void result_view_x_extent(const ResultView *view, double *low, double *high)
+{
+    double begin = result_view_trailing_end(view), length = view->number[NUMBER_LENGTH];
+    double end = isfinite(length) && length > 0 ? begin + length : begin;
+    *low = fmin(begin, view->x[0]);
+    *high = fmax(end, view->x[view->nodes - 1]);
+    if (!(*high > *low)) *high = *low + 1;   // one node at 0
+}
+
+void result_view_mu_range(const ResultView *view, const double U[2], double range[2])
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double mu = view->mu[row];
+        if (!(view->U[row] >= U[0] && view->U[row] <= U[1]) || !isfinite(mu)) continue;
+        range[0] = fmin(range[0], mu);
+        range[1] = fmax(range[1], mu);
+    }
 }
 
 void result_view_range(const ResultView *view, double *low, double *high)
@@ -42,15 +92,13 @@ static bool range_check(const ResultView *view, Error *err)
 {
     double low = 0, high = 0;
     if (view->rows < 2)
-        FAIL(err, ERROR_INPUT, "the history holds %lld step%s: a picture needs two at least",
-             (long long)view->rows, view->rows == 1 ? "" : "s");
+        return REFUSE(err, "the history holds %lld step%s: a picture needs two at least",
+                      (long long)view->rows, view->rows == 1 ? "" : "s");
     result_view_range(view, &low, &high);
     if (!(high > low))
-        FAIL(err, ERROR_INPUT,
-             "the rod does not move in this history: pictures are drawn against "
-             "its displacement U");
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "the rod does not move in this history: pictures are drawn against "
+                           "its displacement U");
+    return true;
 }
 
 enum { SLIP_COMPONENTS = 2 };   // in space
@@ -82,36 +130,25 @@ static bool nodes_series_read(ResultView *view, ResultSeries series, double **va
 {
     int64_t rows = 0;
     int32_t width = 0, nodes = view->all_nodes;
-    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
+    if (!result_file_read_series(view->file, series, values, &rows, &width, err)) return false;
     int32_t components = series == SERIES_STATE         ? view->states
                          : view->line && width != nodes ? SLIP_COMPONENTS
                                                         : 1;
     if (width != (int64_t)components * nodes)
-        FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
-             result_series_name(series), width, nodes);
+        return FAULT(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
+                     result_series_name(series), width, nodes);
     if (components > 1) take_values(view, series, components, *values, rows * nodes);
     if (rows < view->rows) view->rows = rows;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
-bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err)
+bool result_view_read(ResultView *view, ResultSeries series, bool whole, double **values,
+                      Error *err)
 {
+    if (series == SERIES_STATE && view->states == 0)
+        return REFUSE(err, "the friction of this result remembers nothing: there is no state");
     TRY(nodes_series_read(view, series, values, err));
-    TRY(range_check(view, err));
-cleanup:
-    if (!error_is_clean(err)) {
-        memory_free(*values);
-        *values = NULL;
-    }
-    return error_is_clean(err);
-}
-
-// The same of the nodes that are shown against U.
-bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err)
-{
-    TRY(nodes_series_read(view, series, values, err));
-    if (view->line) take_line(view, *values, view->rows);
+    if (view->line && !whole) take_line(view, *values, view->rows);
     TRY(range_check(view, err));
 cleanup:
     if (!error_is_clean(err)) {
@@ -147,24 +184,21 @@ cleanup:
 static bool nodes_read(ResultView *view, Error *err)
 {
     int32_t pads = 0;
-    TRY(result_file_read_nodes(view->file, NODES_X, &view->x, &view->nodes, err));
-    TRY(result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err));
+    if (!result_file_read_nodes(view->file, NODES_X, &view->x, &view->nodes, err)) return false;
+    if (!result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err)) return false;
     if (view->nodes < 1 || pads != view->nodes)
-        FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
+        return FAULT(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
     view->all_nodes = view->nodes;
-    if (result_file_has_nodes(view->file, NODES_LINE)) TRY(line_read(view, err));
-cleanup:
-    return error_is_clean(err);
+    return !result_file_has_nodes(view->file, NODES_LINE) || line_read(view, err);
 }
 
 // A text of several lines; "" where the history has none: no error.
 static bool lines_read(ResultView *view, const char *name, char **lines, Error *err)
 {
     Error absent = {0};
-    TRY(*lines = NEW_ARRAY(char, LINES_SIZE, err));
+    if (!(*lines = NEW_ARRAY(char, LINES_SIZE, err))) return false;
     if (!result_file_text(view->file, name, *lines, LINES_SIZE, &absent)) (*lines)[0] = '\0';
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Three columns of the file into a list of peaks.
@@ -179,7 +213,7 @@ static bool peaks_read(ResultView *view, Error *err)
         view->peaks[k] = (ViewPeak){column[0][k], column[1][k], column[2][k] > 0.5};
     view->peak_count = count;
 cleanup:
-    for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
+    memory_free_list((void *const *)column, 3);
     return error_is_clean(err);
 }
 
@@ -206,20 +240,19 @@ static bool events_read(ResultView *view, Error *err)
         view->rapid[view->rapid_count++][1] = event->U_stop;
     }
 cleanup:
-    for (int32_t k = 0; k < 4; ++k) memory_free(column[k]);
+    memory_free_list((void *const *)column, 4);
     return error_is_clean(err);
 }
 
 // Older histories name the states of one's own formulas alone.
 static bool states_read(ResultView *view, Error *err)
 {
-    TRY(lines_read(view, "states", &view->state_names, err));
-    TRY(lines_read(view, "state_unit", &view->state_unit, err));
+    if (!lines_read(view, "states", &view->state_names, err)) return false;
+    if (!lines_read(view, "state_unit", &view->state_unit, err)) return false;
     if (!result_file_remembers(view->file)) return true;
     view->states = 1;
     for (const char *at = view->state_names; *at; ++at) view->states += *at == '\n';
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 void result_view_state_name(const ResultView *view, char name[VIEW_STATE_SIZE])
@@ -273,7 +306,8 @@ cleanup:
 
 bool result_view_read_slip_rate(ResultView *view, Error *err)
 {
-    return view->slip_rate || result_view_read(view, SERIES_SLIP_RATE, &view->slip_rate, err);
+    return view->slip_rate ||
+           result_view_read(view, SERIES_SLIP_RATE, false, &view->slip_rate, err);
 }
 
 // In space also those beside the line, where the history says what the contact is made of.
@@ -281,20 +315,18 @@ bool result_view_read_status(ResultView *view, Error *err)
 {
     if (view->line && result_file_has_faces(view->file) && !result_view_read_plane(view, err))
         return false;
-    return view->status || result_view_read(view, SERIES_STATUS, &view->status, err);
+    return view->status || result_view_read(view, SERIES_STATUS, false, &view->status, err);
 }
 
 bool result_view_read_plane(ResultView *view, Error *err)
 {
     if (!view->line)
-        FAIL(err, ERROR_INPUT,
-             "the block is in the plane: slip-map and contact-density show its contact");
-    if (view->plane.patch_count == 0)
-        TRY(contact_plane_read(view->file, view->all_nodes, &view->plane, err));
-    if (!view->contact_status)
-        TRY(result_view_read_contact(view, SERIES_STATUS, &view->contact_status, err));
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err,
+                      "the block is in the plane: slip-map and contact-density show its contact");
+    return (view->plane.patch_count > 0 ||
+            contact_plane_read(view->file, view->all_nodes, &view->plane, err)) &&
+           (view->contact_status ||
+            result_view_read(view, SERIES_STATUS, true, &view->contact_status, err));
 }
 
 // y of the node nearest to `wanted`.
@@ -349,7 +381,7 @@ cleanup:
 
 bool result_view_read_slip(ResultView *view, Error *err)
 {
-    return view->slip || result_view_read(view, SERIES_SLIP, &view->slip, err);
+    return view->slip || result_view_read(view, SERIES_SLIP, false, &view->slip, err);
 }
 
 bool result_view_read_front(ResultView *view, Error *err)
@@ -361,27 +393,12 @@ void result_view_close(ResultView *view)
 {
     Error ignored = {0};   // nothing was written: closing has nothing to lose
     array_file_close(view->file, &ignored);
-    memory_free(view->t);
-    memory_free(view->U);
-    memory_free(view->mu);
-    memory_free(view->x);
-    memory_free(view->pad);
-    memory_free(view->line);
-    memory_free(view->title);
-    memory_free(view->pad_names);
-    memory_free(view->warnings);
-    memory_free(view->state_names);
-    memory_free(view->state_unit);
-    memory_free(view->slip_rate);
-    memory_free(view->slip);
-    memory_free(view->front);
-    memory_free(view->status);
-    memory_free_all(view->precursors.at, view->precursors.value);
-    memory_free_all(view->front_speed.at, view->front_speed.value);
-    memory_free(view->contact_status);
+    memory_free_all(view->title, view->t, view->U, view->mu, view->x, view->pad, view->line,
+                    view->pad_names, view->warnings, view->slip_rate, view->slip, view->front,
+                    view->status, view->contact_status, view->state_names, view->state_unit,
+                    view->events, view->peaks, view->rapid);
+    memory_free_all(view->precursors.at, view->precursors.value, view->front_speed.at,
+                    view->front_speed.value);
     contact_plane_destroy(&view->plane);
-    memory_free(view->events);
-    memory_free(view->rapid);
-    memory_free(view->peaks);
     *view = (ResultView){0};
 }

@@ -24,6 +24,11 @@ typedef struct ViewCurve {
     int64_t count;
     double *at, *value;   // [count]
 } ViewCurve;
+double curve_value(const ViewCurve *curve,
+                   double at);   // linear between points; NaN: beyond its ends
+// The last but one, or one before it, of [count] values that do not fall which is not above `at`;
+// the first where all are.
+int64_t curve_place(const double *values, int64_t count, double at);
 
 typedef struct ResultView {
     ArrayFile *file;   // owned
@@ -71,9 +76,11 @@ bool result_view_read_plane(ResultView *view, Error *err);
 bool result_view_read_slip(ResultView *view, Error *err);
 bool result_view_read_front(ResultView *view, Error *err);
 
-// *values [rows * nodes], the caller's; in space |v| of slip rates, their size of shear. `rows` may
-// shrink.
-bool result_view_read(ResultView *view, ResultSeries series, double **values, Error *err);
+// *values [rows * nodes], the caller's, or where the whole contact is wanted [rows * all_nodes]; in
+// space |v| of slip rates, their size of shear. `rows` may shrink. ERROR_INPUT also where there is
+// no state.
+bool result_view_read(ResultView *view, ResultSeries series, bool whole, double **values,
+                      Error *err);
 
 // The name of the state that is chosen.
 enum { VIEW_STATE_SIZE = 64 };
@@ -83,14 +90,17 @@ void result_view_state_name(const ResultView *view, char name[VIEW_STATE_SIZE]);
 // False: there is none such.
 bool result_view_choose_state(ResultView *view, const char *name);
 
-// The same of all nodes of the contact: *values [rows * all_nodes].
-bool result_view_read_contact(ResultView *view, ResultSeries series, double **values, Error *err);
-
 // Another line along the drive than that in the middle: "y=0.2", the nodes nearest to it.
 // ERROR_INPUT also where the block is in the plane. Before any series of nodes is read.
 bool result_view_choose_line(ResultView *view, const char *words, Error *err);
 
-// The first and the last finite U.
+// The least and the largest finite U; the same of mu while U is from U[0] to U[1], infinite and in
+// the wrong order where there is none.
 void result_view_range(const ResultView *view, double *low, double *high);
+void result_view_mu_range(const ResultView *view, const double U[2], double range[2]);
+
+double result_view_trailing_end(const ResultView *view);   // x, length
+// The block where its length is known, all contact nodes in any case.
+void result_view_x_extent(const ResultView *view, double *low, double *high);
 
 #endif

@@ -203,16 +203,13 @@ bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
     }
     bands_fill(data, grid, ranges, by_column);
 cleanup:
-    memory_free(by_column);
-    memory_free(ranges);
-    memory_free(next);
+    memory_free_all(by_column, ranges, next);
     return error_is_clean(err);
 }
 
 void pixel_grid_destroy(PixelGrid *grid)
 {
-    memory_free(grid->values);
-    memory_free(grid->band);
+    memory_free_all(grid->values, grid->band);
     grid->values = NULL;
     grid->band = NULL;
 }

@@ -58,14 +58,13 @@ static bool add_face(const Block *block, const OuterFace *face, const SpaceCut *
     for (int32_t j = 0; j < parts; ++j)
         for (int32_t i = 0; i < (triangle ? parts - j : parts); ++i) {
             const SurfacePoint lower[3] = {lattice[j][i], lattice[j][i + 1], lattice[j + 1][i]};
-            TRY(surface_add_outside(lower, cut, surface, err));
+            if (!surface_add_outside(lower, cut, surface, err)) return false;
             if (triangle && i + j == parts - 1) continue;
             const SurfacePoint upper[3] = {lattice[j][i + 1], lattice[j + 1][i + 1],
                                            lattice[j + 1][i]};
-            TRY(surface_add_outside(upper, cut, surface, err));
+            if (!surface_add_outside(upper, cut, surface, err)) return false;
         }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- lines ---------------------------------------------------------------------------------------
@@ -108,9 +107,9 @@ static bool add_side(const Block *block, const FaceSide *side, const SpaceCut *c
     int32_t count = 1;
     if (side->through >= 0) line[count++] = node_point(block, side->through);
     line[count++] = node_point(block, side->high);
-    for (int32_t k = 0; k + 1 < count; ++k) TRY(surface_add_line(&line[k], cut, lines, err));
-cleanup:
-    return error_is_clean(err);
+    for (int32_t k = 0; k + 1 < count; ++k)
+        if (!surface_add_line(&line[k], cut, lines, err)) return false;
+    return true;
 }
 
 // Sides of the boundary, those of one face side by side: [*count].
@@ -118,12 +117,11 @@ static bool list_sides(const FieldFrame *frame, const OuterFace *faces, int32_t 
                        FaceSide **sides, int32_t *count, Error *err)
 {
     *count = 0;
-    TRY(*sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * face_count, err));
+    if (!(*sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * face_count, err))) return false;
     for (int32_t f = 0; f < face_count; ++f)
         *count += add_face_sides(frame, &faces[f], *sides + *count);
     qsort(*sides, (size_t)*count, sizeof **sides, order_int32_pairs);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // An outline where two faces meet at an angle, or where there is one only; edges: all of them, too.
@@ -135,12 +133,12 @@ static bool add_lines(const Block *block, const FaceSide *sides, int32_t count, 
         bool pair = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
         if (pair) same = 0;
         for (int32_t d = 0; d < 3 && pair; ++d) same += sides[k].normal[d] * sides[k + 1].normal[d];
-        if (same < BEND) TRY(add_side(block, &sides[k], cut, &surface->outline, err));
-        if (surface->with_edges) TRY(add_side(block, &sides[k], cut, &surface->edges, err));
+        if (same < BEND && !add_side(block, &sides[k], cut, &surface->outline, err)) return false;
+        if (surface->with_edges && !add_side(block, &sides[k], cut, &surface->edges, err))
+            return false;
         k += pair;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface *surface,
@@ -157,16 +155,13 @@ bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface 
     TRY(add_lines(block, sides, side_count, cut, surface, err));
     for (int32_t k = 0; k < cut->count; ++k) TRY(surface_add_section(block, cut, k, surface, err));
 cleanup:
-    memory_free(faces);
-    memory_free(sides);
+    memory_free_all(faces, sides);
     if (!error_is_clean(err)) surface_destroy(surface);
     return error_is_clean(err);
 }
 
 void surface_destroy(Surface *surface)
 {
-    memory_free(surface->triangles.points);
-    memory_free(surface->outline.points);
-    memory_free(surface->edges.points);
+    memory_free_all(surface->triangles.points, surface->outline.points, surface->edges.points);
     *surface = (Surface){.with_edges = false};
 }

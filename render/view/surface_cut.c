@@ -25,14 +25,14 @@ bool space_cut_read(const char *words, SpaceCut *cut, Error *err)
             cut->value[cut->count++] = strtod(at + 2, &end);
         }
         if (!end || end == at + 2 || (*end && *end != ','))
-            FAIL(err, ERROR_INPUT,
-                 "a cut is x, y or z = a place, as y=0.25, or up to three of them with commas "
-                 "between, not \"%.40s\"",
-                 words);
+            return REFUSE(
+                err,
+                "a cut is x, y or z = a place, as y=0.25, or up to three of them with commas "
+                "between, not \"%.40s\"",
+                words);
         at = end;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 SurfacePoint surface_point_at(const Block *block, ElementKind kind, const int32_t *nodes,
@@ -53,11 +53,10 @@ SurfacePoint surface_point_at(const Block *block, ElementKind kind, const int32_
 
 static bool add(SurfaceParts *parts, const SurfacePoint *points, int32_t each, Error *err)
 {
-    SurfacePoint *longer =
-        memory_grow(parts->points, parts->count, &parts->room, (size_t)each * sizeof *points, err);
-    if (!longer) return false;
-    parts->points = longer;
-    memcpy(longer + (int64_t)each * parts->count++, points, (size_t)each * sizeof *points);
+    if (!memory_grow(&parts->points, parts->count, &parts->room, (size_t)each * sizeof *points,
+                     err))
+        return false;
+    memcpy(parts->points + (int64_t)each * parts->count++, points, (size_t)each * sizeof *points);
     return true;
 }
 
@@ -141,11 +140,10 @@ bool surface_add_outside(const SurfacePoint corner[3], const SpaceCut *cut, Surf
         memcpy(points, corner, 3 * sizeof *points);
         int32_t count = clip(cut, k, -1, points, 3);
         for (int32_t j = 0; j < k && count > 2; ++j) count = clip(cut, j, 1, points, count);
-        TRY(add_polygon(points, count, surface, err));
-        TRY(add_cut_line(corner, cut, k, -1, surface, err));
+        if (!add_polygon(points, count, surface, err)) return false;
+        if (!add_cut_line(corner, cut, k, -1, surface, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool surface_add_line(const SurfacePoint *two, const SpaceCut *cut, SurfaceParts *lines, Error *err)
@@ -156,10 +154,9 @@ bool surface_add_line(const SurfacePoint *two, const SpaceCut *cut, SurfaceParts
         memcpy(points, two, 2 * sizeof *points);
         int32_t count = clip(cut, k, -1, points, 2);
         for (int32_t j = 0; j < k && count == 2; ++j) count = clip(cut, j, 1, points, count);
-        if (count == 2) TRY(add(lines, points, 2, err));
+        if (count == 2 && !add(lines, points, 2, err)) return false;
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // --- the section ---------------------------------------------------------------------------------
@@ -217,12 +214,10 @@ static bool add_slice(const SurfacePoint *corner[4], const SpaceCut *cut, int32_
     for (int32_t j = 0; j < k && count > 2; ++j)   // edges with the planes before it
         for (int32_t i = 1; i + 1 < count; ++i) {
             const SurfacePoint triangle[3] = {points[0], points[i], points[i + 1]};
-            TRY(add_cut_line(triangle, cut, j, k, surface, err));
+            if (!add_cut_line(triangle, cut, j, k, surface, err)) return false;
         }
     count = clip_to_taken(cut, k, points, count);
-    TRY(add_polygon(points, count, surface, err));
-cleanup:
-    return error_is_clean(err);
+    return add_polygon(points, count, surface, err);
 }
 
 // Six tetrahedra around one diagonal of a small cube.
@@ -267,7 +262,7 @@ bool surface_add_section(const Block *block, const SpaceCut *cut, int32_t k, Sur
                          Error *err)
 {
     for (int32_t e = 0; e < block->frame.element_count; ++e)
-        if (straddles(block, e, cut, k)) TRY(add_element(block, e, cut, k, surface, err));
-cleanup:
-    return error_is_clean(err);
+        if (straddles(block, e, cut, k) && !add_element(block, e, cut, k, surface, err))
+            return false;
+    return true;
 }

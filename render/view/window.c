@@ -23,12 +23,11 @@ static bool read_moment(const ResultView *view, const char *at, double *U, Error
 {
     bool is_U = false;
     double value = 0;
-    TRY(block_moment_read(at, &is_U, &value, err));
+    if (!block_moment_read(at, &is_U, &value, err)) return false;
     *U = value;
     for (int64_t row = 0; !is_U && row < view->rows; ++row)
         if (row == 0 || view->t[row] <= value) *U = view->U[row];
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 bool window_find(const ResultView *view, const PictureStyle *style, Window *window, Error *err)
@@ -45,13 +44,12 @@ bool window_find(const ResultView *view, const PictureStyle *style, Window *wind
         snprintf(window->words, sizeof window->words, "the last %d of %d slidings", SLIDINGS_SHOWN,
                  count);
     }
-    if (style->from) TRY(read_moment(view, style->from, &window->low, err));
-    if (style->to) TRY(read_moment(view, style->to, &window->high, err));
+    if (style->from && !read_moment(view, style->from, &window->low, err)) return false;
+    if (style->to && !read_moment(view, style->to, &window->high, err)) return false;
     window->low = fmax(window->low, low);
     window->high = fmin(window->high, high);
     if (!(window->high > window->low))
-        FAIL(err, ERROR_INPUT, "nothing lies from U = %g to U = %g: the history goes from %g to %g",
-             window->low, window->high, low, high);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE(err, "nothing lies from U = %g to U = %g: the history goes from %g to %g",
+                      window->low, window->high, low, high);
+    return true;
 }

@@ -16,14 +16,6 @@
 // Of dense_apply_each: half a megabyte; whole vectors, so that all rows are rounded alike.
 enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 
-// Vectors are found one by one where this times as many are fewer than all.
-enum { MANY = 6 };
-
-typedef struct DenseTridiagonal {
-    int32_t size;
-    double *diagonal, *beside;
-} DenseTridiagonal;
-
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
@@ -36,17 +28,12 @@ void dtrtri_(const char *uplo, const char *diag, const int *n, double *a, const 
              size_t uplo_size, size_t diag_size);
 void dlauum_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
-void dsyevd_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
-             double *work, const int *lwork, int *iwork, const int *liwork, int *info,
-             size_t jobz_size, size_t uplo_size);
+void dsygvd_(const int *itype, const char *jobz, const char *uplo, const int *n, double *a,
+             const int *lda, double *b, const int *ldb, double *w, double *work, const int *lwork,
+             int *iwork, const int *liwork, int *info, size_t jobz_size, size_t uplo_size);
 void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e,
              double *tau, double *work, const int *lwork, int *info, size_t uplo_size);
-void dorgtr_(const char *uplo, const int *n, double *a, const int *lda, const double *tau,
-             double *work, const int *lwork, int *info, size_t uplo_size);
 void dsterf_(const int *n, double *d, double *e, int *info);
-void dstein_(const int *n, const double *d, const double *e, const int *m, const double *w,
-             const int *iblock, const int *isplit, double *z, const int *ldz, double *work,
-             int *iwork, int *ifail, int *info);
 void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz,
              double *work, const int *lwork, int *iwork, const int *liwork, int *info,
              size_t compz_size);
@@ -185,67 +172,48 @@ void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
     if (n > 0) cblas_daxpy(n, factor, x, 1, y, 1);
 }
 
-// Doubles, and dsyevd's integers in the place of some: it asks for 1 + 6 n + 2 n^2, and 3 + 5 n;
-// dgeev for 4 n at least.
+// Doubles, and integers in the place of some: dstedc asks for 1 + 4 n + n^2 and 3 + 5 n beside its
+// vectors and three numbers a row, dsygvd for less; dgeev for 4 n at least.
 int64_t dense_eigen_work(int32_t n)
 {
-    return 1 + 6 * (int64_t)n + 2 * (int64_t)n * n + 3 + 5 * (int64_t)n;
+    return 4 + 12 * (int64_t)n + 2 * (int64_t)n * n;
 }
 
-// dsyevd: reduction to tridiagonal form, then divide and conquer (LAPACK Users' Guide, 3rd ed.,
-// 2.4.4); of 171, 339, 651 unknowns 2.4, 3.6 and 6.2 times as fast as QL.
-bool dense_eigen(double *a, int32_t n, double *values, double *work)
-{
-    int info = 0, whole = 3 + 5 * n, size = (int)(dense_eigen_work(n) - whole);
-    if (n > 0)
-        dsyevd_("V", "L", &n, a, &n, values, work, &size, (int *)(void *)(work + size), &whole,
-                &info, 1, 1);
-    return info == 0;
-}
-
-// Some of T's vectors by inverse iteration (dstein), orthogonal where values are close. T is taken
-// as one block: where an entry of `beside` is 0 that costs no more than a random start.
-static bool find_few_vectors(DenseTridiagonal t, int32_t count, const double *values,
-                             double *vectors, double *work)
-{
-    int info = 0, n = t.size, *blocks = (int *)(void *)(work + 5 * (int64_t)n);
-    int *ends = blocks + n, *rest = ends + n, *failed = rest + n;
-    for (int32_t k = 0; k < n; k++) blocks[k] = 1;
-    ends[0] = n;
-    dstein_(&n, t.diagonal, t.beside, &count, values, blocks, ends, vectors, &n, work, rest, failed,
-            &info);
-    return info == 0;
-}
-
-// All of them by divide and conquer (dstedc), which destroys T.
-static bool find_all_vectors(DenseTridiagonal t, double *vectors, double *work)
-{
-    int info = 0, n = t.size, whole = 3 + 5 * n, size = 1 + 4 * n + n * n;
-    dstedc_("I", &n, t.diagonal, t.beside, vectors, &n, work, &size, (int *)(void *)(work + size),
-            &whole, &info, 1);
-    return info == 0;
-}
-
+// Tridiagonal form, its values by QL, its vectors by divide and conquer (LAPACK Users' Guide, 3rd
+// ed., 2.4.4), of which those that are wanted are turned back.
 bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work)
 {
     int64_t size = n;
-    DenseTridiagonal t = {.size = n, .diagonal = work + size, .beside = work + 2 * size};
-    double *reflectors = work, *vectors = work + 3 * size, *rest = vectors + size * size;
-    int info = 0, rest_size = (int)(dense_eigen_work(n) - 3 * size - size * size), wanted = 0;
+    double *reflectors = work, *diagonal = work + size, *beside = diagonal + size;
+    double *vectors = beside + size, *rest = vectors + size * size;
+    int info = 0, wanted = 0, room = 1 + 4 * n + n * n, whole = 3 + 5 * n;
     if (n == 0) return true;
-    dsytrd_("L", &n, a, &n, t.diagonal, t.beside, reflectors, rest, &rest_size, &info, 1);
-    memcpy(values, t.diagonal, (size_t)n * sizeof *values);
-    memcpy(rest, t.beside, (size_t)n * sizeof *rest);
+    dsytrd_("L", &n, a, &n, diagonal, beside, reflectors, rest, &room, &info, 1);
+    memcpy(values, diagonal, (size_t)n * sizeof *values);
+    memcpy(rest, beside, (size_t)n * sizeof *rest);
     if (info == 0) dsterf_(&n, values, rest, &info);
-    if (info != 0) return false;
-    while (wanted < n && values[n - 1 - wanted] > least) wanted++;
-    if (wanted == 0) return true;
+    while (info == 0 && wanted < n && values[n - 1 - wanted] > least) wanted++;
+    if (wanted == 0) return info == 0;
+    dstedc_("I", &n, diagonal, beside, vectors, &n, rest, &room, (int *)(void *)(rest + room),
+            &whole, &info, 1);
     double *first = vectors + (size - wanted) * size;
-    bool few = wanted <= n / MANY && find_few_vectors(t, wanted, values + n - wanted, first, rest);
-    if (!few && !find_all_vectors(t, vectors, rest)) return false;
-    dormtr_("L", "L", "N", &n, &wanted, a, &n, reflectors, first, &n, rest, &rest_size, &info, 1, 1,
-            1);
+    if (info != 0) return false;
+    dormtr_("L", "L", "N", &n, &wanted, a, &n, reflectors, first, &n, rest, &room, &info, 1, 1, 1);
     memcpy(a + (size - wanted) * size, first, (size_t)(size * wanted) * sizeof *a);
+    return info == 0;
+}
+
+bool dense_eigen(double *a, int32_t n, double *values, double *work)
+{
+    return dense_eigen_above(a, n, -INFINITY, values, work);
+}
+
+bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *work)
+{
+    int info = 0, size = 1 + 6 * n + 2 * n * n, whole = 3 + 5 * n, kind = 1;
+    if (n > 0)
+        dsygvd_(&kind, "V", "L", &n, a, &n, b, &n, values, work, &size,
+                (int *)(void *)(work + size), &whole, &info, 1, 1);
     return info == 0;
 }
 
@@ -256,15 +224,6 @@ bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *v
     int info = 0, size = (int)dense_eigen_work(n), one = 1;
     if (n > 0)
         dgeev_("N", "V", &n, a, &n, re, im, NULL, &one, vectors, &n, work, &size, &info, 1, 1);
-    return info == 0;
-}
-
-bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work)
-{
-    int info = 0, size = (int)dense_eigen_work(n) - n;
-    double *reflectors = work, *rest = work + n;
-    if (n > 0) dsytrd_("L", &n, a, &n, diagonal, beside, reflectors, rest, &size, &info, 1);
-    if (n > 0 && info == 0) dorgtr_("L", &n, a, &n, reflectors, rest, &size, &info, 1);
     return info == 0;
 }
 
@@ -301,23 +260,6 @@ void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
                     a.values + first * rows, stride * a.rows, x + first, stride, 1, y, 1);
         first = end - stride;
     }
-}
-
-void dense_bordered_apply(DenseBordered a, const double *x, double *y)
-{
-    int32_t border = a.border, inner = a.size - border;
-    const double *in = x + border;
-    double *out = y + border;
-    memset(y, 0, (size_t)border * sizeof *y);
-    for (int32_t k = 0; k < inner; k++) out[k] = a.diagonal[k] * in[k];
-    for (int32_t k = 0; k + 1 < inner; k++) {
-        out[k] += a.beside[k] * in[k + 1];
-        out[k + 1] += a.beside[k] * in[k];
-    }
-    if (border > 0 && inner > 0)
-        cblas_dgemv(CblasColMajor, CblasTrans, inner, border, 1, a.values + border, a.size, in, 1,
-                    0, y, 1);
-    dense_add_nonzero((DenseView){a.values, a.size, border}, x, 1, y);
 }
 
 // A few rows at a time, which stay in the processor's cache for the next vector.

@@ -66,24 +66,15 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work);
 // `a`. What stands before them is of no use.
 bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work);
 
+// Values and vectors (columns, in the place of `a`) of a y = value b y, y'b y = 1, a and b symmetric
+// [n * n]. b is destroyed; false also: it is not positive definite.
+bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *work);
+
 // Eigenvalues (re, im: [n]) and right eigenvectors of a general `a` [n * n], which is destroyed. A
 // complex pair takes two columns of `vectors` [n * n], real and imaginary part of the one with im >
 // 0. work: [dense_eigen_work(n)].
 bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
                          double *work);
-
-// a = Q T Q' for a symmetric `a` [n * n], which becomes the orthogonal Q; T is tridiagonal, its
-// diagonal [n] and beside it n - 1 entries. work: [dense_eigen_work(n)].
-bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work);
-
-// y = a x for a symmetric `a` [n * n], both triangles, tridiagonal from row and column `border` on:
-// there `diagonal` and `beside` are read in its place, and before it columns that meet a 0 are not.
-typedef struct DenseBordered {
-    const double *values;
-    int32_t size, border;
-    const double *diagonal, *beside;   // [size - border] each
-} DenseBordered;
-void dense_bordered_apply(DenseBordered a, const double *x, double *y);
 
 // A general matrix: column-major, `rows` long columns, no gaps.
 typedef struct DenseView {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Four numbers at once, and functions that are compiled twice: for any processor of its kind, and
 // for those x86 processors that have AVX2 and FMA; which one runs is decided when the program is
-// loaded. Used by algebra/dense, algebra/sparse and algebra/sparse_expand.
+// loaded. Used by algebra/dense and algebra/sparse_expand.
 #ifndef AMONTONS_ALGEBRA_LANES_H
 #define AMONTONS_ALGEBRA_LANES_H
 

@@ -1,13 +1,57 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "algebra/sparse.h"
 
-#include "algebra/lanes.h"
 #include "base/memory.h"
+
+#include <cholmod.h>
 
 void sparse_pattern_destroy(SparsePattern *pattern)
 {
     memory_free_all(pattern->start, pattern->index);
     *pattern = (SparsePattern){0};
+}
+
+// With B [points * groups] the entries of B B' are the pairs of points. From points to unknowns: each
+// neighbour gives `width` columns, and the rows of a point are alike.
+static bool couple_unknowns(const cholmod_sparse *pairs, int32_t width, SparsePattern *pattern,
+                            Error *err)
+{
+    const int32_t *first = pairs->p, *neighbour = pairs->i;
+    int32_t points = (int32_t)pairs->ncol, filled = 0;
+    pattern->size = width * points;
+    pattern->start = NEW_ARRAY(int32_t, (int64_t)pattern->size + 1, err);
+    pattern->index = NEW_ARRAY(int32_t, (int64_t)width * width * first[points], err);
+    for (int32_t row = 0; error_is_clean(err) && row < pattern->size; row++) {
+        for (int32_t k = first[row / width]; k < first[row / width + 1]; k++)
+            for (int32_t d = 0; d < width; d++) pattern->index[filled++] = width * neighbour[k] + d;
+        pattern->start[row + 1] = filled;
+    }
+    return error_is_clean(err);
+}
+
+bool sparse_pattern_of_groups(int32_t groups, int32_t *start, int32_t *member, int32_t points,
+                              int32_t width, SparsePattern *pattern, Error *err)
+{
+    cholmod_common common;
+    cholmod_sparse b = {.nrow = (size_t)points,
+                        .ncol = (size_t)groups,
+                        .nzmax = (size_t)start[groups],
+                        .p = start,
+                        .i = member,
+                        .itype = CHOLMOD_INT,
+                        .xtype = CHOLMOD_PATTERN,
+                        .packed = 1};
+    cholmod_start(&common);
+    common.print = 0;
+    cholmod_sparse *pairs = cholmod_aat(&b, NULL, 0, 0, &common);
+    bool done = pairs && cholmod_sort(pairs, &common);
+    if (!done)
+        error_set(err, ERROR_MEMORY, __FILE__, __LINE__, "no memory for the pattern of %d unknowns",
+                  width * points);
+    done = done && couple_unknowns(pairs, width, pattern, err);
+    cholmod_free_sparse(&pairs, &common);
+    cholmod_finish(&common);
+    return done;
 }
 
 // Bisection: the columns of a row are ascending. The entry must exist.
@@ -35,33 +79,37 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
     }
 }
 
-// Columns of `lanes` share a pass, their entries of a row side by side; a constant.
-WITH_CONSTANTS void apply_together(const SparsePattern *pattern, const double *values,
-                                   const double *x, int lanes, double *y, double *work)
+static cholmod_dense columns_view(double *x, size_t rows, int64_t columns)
 {
-    int64_t size = pattern->size, wide = lanes * LANE;
-    for (int64_t k = 0; k < size; k++)
-        for (int64_t j = 0; j < wide; j++) work[k * wide + j] = x[j * size + k];
-    for (int64_t row = 0; row < size; row++) {
-        Lane sum[SPARSE_WIDE / LANE] = {0};
-        for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k++) {
-            const Lane *from = (const Lane *)work + (int64_t)pattern->index[k] * lanes;
-            UNROLLED
-            for (int j = 0; j < lanes; j++) sum[j] += values[k] * from[j];
-        }
-        for (int64_t j = 0; j < wide; j++) y[j * size + row] = sum[j / LANE][j % LANE];
-    }
+    return (cholmod_dense){.nrow = rows,
+                           .ncol = (size_t)columns,
+                           .nzmax = rows * (size_t)columns,
+                           .d = rows,
+                           .x = x,
+                           .xtype = CHOLMOD_REAL};
 }
 
-FOR_EACH_PROCESSOR void sparse_apply_many(const SparsePattern *pattern, const double *values,
-                                          const double *x, int64_t columns, double *y, double *work)
+// By columns of the transpose: four of x share a pass over the values.
+void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
+                       int64_t columns, double *y)
 {
-    enum { WIDE = SPARSE_WIDE };
-    int64_t size = pattern->size, column = 0;
-    for (; column + WIDE <= columns; column += WIDE)
-        apply_together(pattern, values, x + column * size, WIDE / LANE, y + column * size, work);
-    for (; column + LANE <= columns; column += LANE)
-        apply_together(pattern, values, x + column * size, 1, y + column * size, work);
-    for (; column < columns; column++)
-        sparse_apply(pattern, values, x + column * size, y + column * size);
+    size_t size = (size_t)pattern->size;
+    double one[2] = {1, 0}, zero[2] = {0, 0};
+    cholmod_common common;
+    // CHOLMOD's views are not const; what is multiplied is only read.
+    cholmod_sparse a = {.nrow = size,
+                        .ncol = size,
+                        .nzmax = (size_t)pattern->start[pattern->size],
+                        .p = pattern->start,
+                        .i = pattern->index,
+                        .x = (void *)(uintptr_t)values,
+                        .itype = CHOLMOD_INT,
+                        .xtype = CHOLMOD_REAL,
+                        .sorted = 1,
+                        .packed = 1};
+    cholmod_dense from = columns_view((double *)(uintptr_t)x, size, columns);
+    cholmod_dense to = columns_view(y, size, columns);
+    cholmod_start(&common);
+    cholmod_sdmult(&a, 1, one, zero, &from, &to, &common);
+    cholmod_finish(&common);
 }

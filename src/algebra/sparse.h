@@ -24,18 +24,21 @@ typedef struct SparsePattern {
     int32_t *index;   // [start[size]] ascending in a column; owned
 } SparsePattern;
 void sparse_pattern_destroy(SparsePattern *pattern);
+// That in which all points of a group are neighbours, each of `width` unknowns. start: [groups + 1]
+// of their points in `member`.
+bool sparse_pattern_of_groups(int32_t groups, int32_t *start, int32_t *member, int32_t points,
+                              int32_t width, SparsePattern *pattern, Error *err);
 
 // Where (row, column), which the pattern holds, stands among the values.
 int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
 
 // y = A x; values: [start[size]].
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y);
-// Of `columns` columns of x and y, [size] each; work: [size * SPARSE_WIDE].
-enum { SPARSE_WIDE = 8 };
+// Of `columns` columns of x and y, [size] each.
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
-                       int64_t columns, double *y, double *work);
+                       int64_t columns, double *y);
 
-// The fill-reducing order and symbolic factor of one pattern, made once.
+// The fill-reducing order and symbolic factor of one pattern, which must outlive it.
 typedef struct SparseAnalysis SparseAnalysis;
 SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
                                int32_t border_count, Error *err);

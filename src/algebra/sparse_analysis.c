@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CAMD orders the border last. The matrix is put into L's order here, entry by entry:
-// cholmod_factorize would transpose it twice for that at every factorisation.
+// CAMD orders the border last.
 #include "algebra/sparse_analysis.h"
 
 #include "base/memory.h"
@@ -17,7 +16,6 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
         cholmod_common *common = &analysis->common;
         cholmod_free_factor(&analysis->symbolic, common);
         cholmod_free_factor(&analysis->spare, common);
-        cholmod_free_sparse(&analysis->ordered, common);
         cholmod_free_dense(&analysis->forward, common);
         cholmod_free_dense(&analysis->work_y, common);
         cholmod_free_dense(&analysis->work_e, common);
@@ -26,7 +24,7 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
             cholmod_free_dense(&analysis->passages[k], common);
         cholmod_finish(common);
     }
-    memory_free_all(analysis->source, analysis);
+    memory_free(analysis);
 }
 
 // A CHOLMOD view of the pattern, into the caller's arrays.
@@ -54,13 +52,12 @@ static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border
 }
 
 // Symbolic factorisation in the given `order` [n]; an earlier one is dropped.
-static bool analyse_in_order(SparseAnalysis *analysis, cholmod_sparse *pattern, int32_t *order,
-                             bool postorder, Error *err)
+static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool postorder, Error *err)
 {
     cholmod_common *common = &analysis->common;
     cholmod_free_factor(&analysis->symbolic, common);
     common->postorder = postorder;
-    analysis->symbolic = cholmod_analyze_p(pattern, order, NULL, 0, common);
+    analysis->symbolic = cholmod_analyze_p(&analysis->pattern, order, NULL, 0, common);
     if (!analysis->symbolic)
         return FAULT(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)",
                      common->status);
@@ -70,8 +67,7 @@ static bool analyse_in_order(SparseAnalysis *analysis, cholmod_sparse *pattern, 
 // The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
 // border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own
 // order is taken as it is.
-static bool analyse_with_border(SparseAnalysis *analysis, cholmod_sparse *pattern,
-                                const int32_t *border, Error *err)
+static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, Error *err)
 {
     cholmod_common *common = &analysis->common;
     int32_t size = analysis->size, count = analysis->border_count;
@@ -79,7 +75,7 @@ static bool analyse_with_border(SparseAnalysis *analysis, cholmod_sparse *patter
     int32_t *order = NEW_ARRAY(int32_t, size, err);
     if (!member || !order) goto cleanup;
     for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
-    if (!cholmod_camd(pattern, NULL, 0, member, order, common))
+    if (!cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
         FAIL(err, ERROR_LIBRARY, "CHOLMOD: the fill-reducing order failed (status %d)",
              common->status);
     // S is full, in whatever order.
@@ -88,9 +84,8 @@ static bool analyse_with_border(SparseAnalysis *analysis, cholmod_sparse *patter
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->supernodal = CHOLMOD_SUPERNODAL;
     common->final_ll = 1;
-    TRY(analyse_in_order(analysis, pattern, order, true, err));
-    if (!border_is_last(analysis, border))
-        TRY(analyse_in_order(analysis, pattern, order, false, err));
+    TRY(analyse_in_order(analysis, order, true, err));
+    if (!border_is_last(analysis, border)) TRY(analyse_in_order(analysis, order, false, err));
     if (!border_is_last(analysis, border))
         FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
 cleanup:
@@ -98,56 +93,20 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The lower triangle, column by column, in the order of L: entry (i, j) of the pattern becomes one
-// of column min(p(i), p(j)).
-static bool order_entries(SparseAnalysis *analysis, const SparsePattern *pattern, Error *err)
-{
-    cholmod_common *common = &analysis->common;
-    const int32_t *permutation = analysis->symbolic->Perm;
-    int32_t size = analysis->size, entries = 0;
-    int32_t *place = NEW_ARRAY(int32_t, size, err), *next = NEW_ARRAY(int32_t, size, err);
-    if (!place || !next) goto cleanup;
-    for (int32_t k = 0; k < size; k++) place[permutation[k]] = k;
-    for (int32_t j = 0; j < size; j++)
-        for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
-            int32_t i = pattern->index[k];
-            if (i >= j) next[place[i] < place[j] ? place[i] : place[j]]++, entries++;
-        }
-    analysis->source = NEW_ARRAY(int32_t, entries, err);
-    analysis->ordered = cholmod_allocate_sparse((size_t)size, (size_t)size, (size_t)entries, 0, 1,
-                                                -1, CHOLMOD_REAL, common);
-    if (!analysis->source) goto cleanup;
-    if (!analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, size);
-    int32_t *start = analysis->ordered->p, *index = analysis->ordered->i;
-    for (int32_t j = 0; j < size; j++) {
-        start[j + 1] = start[j] + next[j];
-        next[j] = start[j];
-    }
-    for (int32_t j = 0; j < size; j++)
-        for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
-            int32_t a = place[pattern->index[k]], b = place[j];
-            if (pattern->index[k] < j) continue;
-            int32_t at = next[a < b ? a : b]++;
-            index[at] = a < b ? b : a;
-            analysis->source[at] = k;
-        }
-cleanup:
-    memory_free_all(place, next);
-    return error_is_clean(err);
-}
-
 // CHOLMOD prints nothing. NULL: no memory.
-static SparseAnalysis *begin_analysis(int32_t size, int32_t border_count, Error *err)
+static SparseAnalysis *begin_analysis(const cholmod_sparse *pattern, int32_t border_count,
+                                      Error *err)
 {
     SparseAnalysis *analysis = NEW_ARRAY(SparseAnalysis, 1, err);
     if (!analysis) return NULL;
     cholmod_start(&analysis->common);
     analysis->started = true;
     analysis->common.print = 0;
-    analysis->size = size;
+    analysis->pattern = *pattern;
+    analysis->size = (int32_t)pattern->nrow;
     analysis->border_count = border_count;
-    analysis->permuted = cholmod_zeros((size_t)size, 1, CHOLMOD_REAL, &analysis->common);
-    if (!analysis->permuted) FAIL(err, ERROR_MEMORY, NO_MEMORY, size);
+    analysis->permuted = cholmod_zeros(pattern->nrow, 1, CHOLMOD_REAL, &analysis->common);
+    if (!analysis->permuted) FAIL(err, ERROR_MEMORY, NO_MEMORY, analysis->size);
 cleanup:
     if (error_is_clean(err)) return analysis;
     sparse_analysis_destroy(analysis);
@@ -158,39 +117,19 @@ SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *bord
                                int32_t border_count, Error *err)
 {
     cholmod_sparse view = pattern_view(pattern);
-    SparseAnalysis *analysis = begin_analysis(pattern->size, border_count, err);
-    if (!analysis) return NULL;
-    TRY(analyse_with_border(analysis, &view, border, err));
-    TRY(order_entries(analysis, pattern, err));
-cleanup:
-    if (error_is_clean(err)) return analysis;
+    SparseAnalysis *analysis = begin_analysis(&view, border_count, err);
+    if (!analysis || analyse_with_border(analysis, border, err)) return analysis;
     sparse_analysis_destroy(analysis);
     return NULL;
 }
 
-// Without the values, which another thread may be writing.
-static cholmod_sparse *copy_pattern(const cholmod_sparse *from, cholmod_common *common)
-{
-    cholmod_sparse *to = cholmod_allocate_sparse(from->nrow, from->ncol, from->nzmax, from->sorted,
-                                                 from->packed, from->stype, CHOLMOD_REAL, common);
-    if (!to) return NULL;
-    memcpy(to->p, from->p, (from->ncol + 1) * sizeof(int32_t));
-    memcpy(to->i, from->i, from->nzmax * sizeof(int32_t));
-    return to;
-}
-
 SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err)
 {
-    int64_t entries = (int64_t)from->ordered->nzmax;
-    SparseAnalysis *analysis = begin_analysis(from->size, from->border_count, err);
+    SparseAnalysis *analysis = begin_analysis(&from->pattern, from->border_count, err);
     if (!analysis) return NULL;
     analysis->symbolic = cholmod_copy_factor(from->symbolic, &analysis->common);
-    analysis->ordered = copy_pattern(from->ordered, &analysis->common);
-    TRY((analysis->source = NEW_ARRAY(int32_t, entries, err)));
-    if (!analysis->symbolic || !analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, from->size);
-    memcpy(analysis->source, from->source, (size_t)entries * sizeof *from->source);
-cleanup:
-    if (error_is_clean(err)) return analysis;
+    if (analysis->symbolic) return analysis;
+    error_set(err, ERROR_MEMORY, __FILE__, __LINE__, NO_MEMORY, from->size);
     sparse_analysis_destroy(analysis);
     return NULL;
 }

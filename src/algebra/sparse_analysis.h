@@ -15,10 +15,9 @@ enum { PASSAGE_COLUMNS = 16 };   // of one pass over a factor with many columns
 struct SparseAnalysis {
     cholmod_common common;
     bool started;
+    cholmod_sparse pattern;   // a view of the caller's, without values
     int32_t size;
     cholmod_factor *symbolic;
-    cholmod_sparse *ordered;   // the matrix in L's order, its lower triangle (stype -1)
-    int32_t *source;   // [entries of it] where they stand among the caller's values
     cholmod_factor *spare;   // of a factor that was destroyed: the next one's memory; NULL: none
     int32_t border_count;
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors

@@ -44,8 +44,7 @@ static bool factorise_alone(cholmod_sparse *matrix, cholmod_factor *numeric, cho
     bool teams = omp_get_max_active_levels && omp_set_max_active_levels;
     int levels = teams ? omp_get_max_active_levels() : 0;
     if (teams) omp_set_max_active_levels(0);
-    double unshifted[2] = {0, 0};
-    bool done = cholmod_super_numeric(matrix, NULL, unshifted, numeric, common);
+    bool done = cholmod_factorize(matrix, numeric, common);
     if (teams) omp_set_max_active_levels(levels);
     return done;
 }
@@ -64,10 +63,11 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
                                       : cholmod_copy_factor(analysis->symbolic, common);
     analysis->spare = NULL;
     if (!factor->numeric) FAIL(err, ERROR_MEMORY, "no memory for a sparse factor");
-    double *ordered = analysis->ordered->x;
-    int64_t entries = (int64_t)analysis->ordered->nzmax;
-    for (int64_t k = 0; k < entries; k++) ordered[k] = values[analysis->source[k]];
-    if (!factorise_alone(analysis->ordered, factor->numeric, common))
+    cholmod_sparse matrix = analysis->pattern;
+    matrix.stype = 1;   // of the upper triangle one transpose is in L's order, of the lower one two
+    matrix.xtype = CHOLMOD_REAL;
+    matrix.x = (void *)(uintptr_t)values;   // CHOLMOD's views are not const, and only read
+    if (!factorise_alone(&matrix, factor->numeric, common))
         FAIL(err, common->status == CHOLMOD_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
              "CHOLMOD: the factorisation failed (status %d)", common->status);
     if (factor->numeric->minor < factor->numeric->n)

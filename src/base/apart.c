@@ -93,9 +93,7 @@ static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *r
         // A signal that came before it waited does not interrupt it.
         if (poll(&ready, 1, told ? -1 : WAKE_MS) <= 0) continue;
         if (reply->size == room) {
-            char *longer = memory_resize(reply->bytes, room, 2 * room, 1, err);
-            if (!longer) return false;
-            reply->bytes = longer;
+            if (!memory_resize(&reply->bytes, room, 2 * room, 1, err)) return false;
             room *= 2;
         }
         ssize_t count = read(pipe, reply->bytes + reply->size, (size_t)(room - reply->size));

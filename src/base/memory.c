@@ -83,29 +83,30 @@ void *memory_bytes(int64_t size, Error *err)
     return allocate(size, 1, &padded, err);
 }
 
-// Copied rather than realloc'ed: realloc does not keep the alignment.
-void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err)
+// Copied rather than realloc'ed: realloc does not keep the alignment. A pointer to any type is read
+// and written byte by byte.
+bool memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err)
 {
-    void *longer = memory_array(new_count, size, err);
-    if (!longer) return NULL;
+    void *old = NULL, *longer = memory_array(new_count, size, err);
+    if (!longer) return false;
+    memcpy(&old, array, sizeof old);
     int64_t kept = old_count < new_count ? old_count : new_count;
-    if (array && kept > 0) memcpy(longer, array, (size_t)kept * size);
-    memory_free(array);
-    return longer;
+    if (old && kept > 0) memcpy(longer, old, (size_t)kept * size);
+    memory_free(old);
+    memcpy(array, &longer, sizeof longer);
+    return true;
 }
 
-void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err)
+bool memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err)
 {
     int64_t more = *room > 0 ? 2 * (int64_t)*room : FIRST_ROOM;
-    if (list && count < *room) return list;
+    if (count < *room) return true;
     if (more > INT32_MAX) more = INT32_MAX;
     if (more == *room)
-        FAIL(err, ERROR_MEMORY, "a list of more than %d items is not possible", *room);
-    void *longer = memory_resize(list, *room, more, size, err);
-    if (longer) *room = (int32_t)more;
-    return longer;
-cleanup:
-    return NULL;
+        return FAULT(err, ERROR_MEMORY, "a list of more than %d items is not possible", *room);
+    if (!memory_resize(list, *room, more, size, err)) return false;
+    *room = (int32_t)more;
+    return true;
 }
 
 char *memory_text(const char *text, Error *err)

@@ -22,14 +22,14 @@ void *memory_array(int64_t count, size_t size, Error *err);
 // The same of `size` bytes, not zeroed: for a buffer that a file is read into at once.
 void *memory_bytes(int64_t size, Error *err);
 
-// A longer (or shorter) copy of `array`, whose old items it frees; new items are zeroed. On failure
-// NULL, the error set, and `array` untouched.
-void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
+// Makes the array that *array points to (array: a T **; of NULL a new one) longer or shorter; new
+// items are zeroed. On failure it is untouched.
+bool memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
 
-// A list with room for one more than its `count` items: `list` itself, or a copy twice as long
-// where it was full. *room: items that it can hold; 0 at first, with list NULL. On failure NULL,
-// the error set, `list` and *room untouched.
-void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err);
+// Makes room for one more than `count` items in the list that *list points to (list: a T **): twice
+// as much where it is full. *room: items that it can hold; 0 at first, with *list NULL. On failure
+// both are untouched.
+bool memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err);
 
 char *memory_text(const char *text, Error *err);   // an owned copy
 void memory_free(void *array);   // NULL is fine

@@ -8,14 +8,14 @@
 
 #include <sched.h>
 #include <stdatomic.h>
-#include <stdbool.h>
 
-static _Thread_local bool within_piece;
+static _Thread_local int32_t left_to_piece;   // threads; 0: not within a piece
 
 typedef struct Work {
     void (*piece)(void *context, int32_t k, int32_t worker);
     void *context;
     int32_t count;
+    int32_t left_to_piece;
     atomic_int next;
 } Work;
 
@@ -28,6 +28,7 @@ typedef struct Helper {
 
 int32_t parallel_workers(void)
 {
+    if (left_to_piece > 0) return left_to_piece;
     cpu_set_t allowed;
     int32_t count = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
     return count < PARALLEL_WORKERS_MAX ? count : PARALLEL_WORKERS_MAX;
@@ -35,12 +36,12 @@ int32_t parallel_workers(void)
 
 static void do_pieces(Work *work, int32_t worker)
 {
-    bool before = within_piece;
-    within_piece = true;
+    int32_t before = left_to_piece;
+    left_to_piece = work->left_to_piece;
     for (int32_t k = atomic_fetch_add(&work->next, 1); k < work->count;
          k = atomic_fetch_add(&work->next, 1))
         work->piece(work->context, k, worker);
-    within_piece = before;
+    left_to_piece = before;
 }
 
 static void *help(void *self)
@@ -54,10 +55,11 @@ static void *help(void *self)
 void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t worker),
                   void *context)
 {
-    Work work = {piece, context, count, 0};
+    int32_t workers = memory_may_fail() ? 1 : parallel_workers(), made = 1;
+    int32_t wanted = count < workers ? count : workers;
+    Work work = {piece, context, count, wanted > 0 ? workers / wanted : 1, 0};
     Helper helpers[PARALLEL_WORKERS_MAX];
-    int32_t workers = within_piece || memory_may_fail() ? 1 : parallel_workers(), made = 1;
-    for (; made < workers && made < count; made++) {
+    for (; made < wanted; made++) {
         helpers[made] = (Helper){.work = &work, .number = made};
         if (thread_start(help, &helpers[made], &helpers[made].thread) != 0) break;
     }

@@ -13,11 +13,12 @@ enum {
         20000000   // some ms: with less, threads (20 us each to begin) save little
 };
 
-int32_t parallel_workers(void);   // processors of this process, PARALLEL_WORKERS_MAX at most
+// Processors of this process, PARALLEL_WORKERS_MAX at most; from within a piece: those left to it.
+int32_t parallel_workers(void);
 
 // Calls piece(context, k, worker) for k from 0 to count - 1; returns when all are done. worker:
-// which thread it is, for room of its own; 0 is the caller's. From within a piece: all in its
-// thread.
+// which thread it is, for room of its own; 0 is the caller's. From within a piece: those that are
+// left to it share in the same way.
 void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t worker),
                   void *context);
 

@@ -62,6 +62,15 @@ int32_t text_nearest(const char *given, const char *const *names, int32_t count)
     return nearest;
 }
 
+const char *text_hint(const char *given, const char *const *names, int32_t count,
+                      const char *otherwise, char hint[TEXT_HINT_SIZE])
+{
+    int32_t nearest = text_nearest(given, names, count);
+    if (nearest < 0) return otherwise;
+    snprintf(hint, TEXT_HINT_SIZE, "; did you mean `%.130s`?", names[nearest]);
+    return hint;
+}
+
 // The first byte says how many follow and, in the four cases below, narrows the range of the next
 // (RFC 3629, section 4). A text that ends within a character ends with a zero byte, which is no
 // continuation: nothing is read beyond it.
@@ -114,6 +123,13 @@ void text_estimate(double value, double bar, double known_to, char text[ESTIMATE
         snprintf(text, ESTIMATE_SIZE, "%.*f +- %.*f", decimals, value, decimals, bar);
     else
         snprintf(text, ESTIMATE_SIZE, "%.*f", decimals, value);
+}
+
+// 17 are always enough (IEEE 754 double).
+void text_shortest(double value, int32_t least, char text[NUMBER_TEXT_SIZE])
+{
+    do snprintf(text, NUMBER_TEXT_SIZE, "%.*g", least++, value);
+    while (least <= 17 && strtod(text, NULL) != value);
 }
 
 bool text_ends_with(const char *text, const char *ending)

@@ -17,10 +17,20 @@ int32_t text_distance(const char *a, const char *b);
 // mistake (more than a third of the longer name differs). names: [count].
 int32_t text_nearest(const char *given, const char *const *names, int32_t count);
 
+// "; did you mean `NAME`?" of the nearest name; `otherwise` where none is near. Static storage, or
+// `hint`.
+enum { TEXT_HINT_SIZE = 160 };
+const char *text_hint(const char *given, const char *const *names, int32_t count,
+                      const char *otherwise, char hint[TEXT_HINT_SIZE]);
+
 // A value in the digits that are known of it. With an error bar (NaN: none) two digits of that,
 // "0.3296 +- 0.0029"; else those that `known_to` leaves, the last off by 1 at most, "0.33"; six
 // where that is 0, one where it is NaN. "none": the value is NaN.
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
+
+// The fewest digits, `least` at least, that read back as the same finite number.
+enum { NUMBER_TEXT_SIZE = 32 };
+void text_shortest(double value, int32_t least, char text[NUMBER_TEXT_SIZE]);
 
 bool text_ends_with(const char *text, const char *ending);
 

@@ -34,3 +34,8 @@ int transfer_write(int descriptor, const void *bytes, int64_t size, int64_t at)
     }
     return 0;
 }
+
+int transfer_sync(int descriptor)
+{
+    return fdatasync(descriptor) != 0 && errno != EINVAL ? errno : 0;
+}

@@ -13,5 +13,7 @@
 int64_t transfer_read(int descriptor, void *bytes, int64_t size, int64_t at);
 // 0, or the errno of the failure.
 int transfer_write(int descriptor, const void *bytes, int64_t size, int64_t at);
+// All that was written onto the disk; likewise. A file system that cannot do that is no failure.
+int transfer_sync(int descriptor);
 
 #endif

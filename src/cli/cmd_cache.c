@@ -4,14 +4,11 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <time.h>
 
 enum { SHOWN_MAX = 20 };
-
-static const CommandText text = {.name = "cache", .help = cache_txt};
 
 // The last ones of the list: those used last.
 typedef struct Shown {
@@ -44,7 +41,7 @@ static void print_entries(const Shown *shown)
         say("  ... and %lld more, unused for longer\n", (long long)(shown->count - count));
 }
 
-int command_cache(int argc, char **argv)
+int command_cache(const Command *command, int argc, char **argv)
 {
     const char *none = NULL;
     bool clean = false;
@@ -53,7 +50,7 @@ int command_cache(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"clean", 0, NULL, "Remove all reductions of the cache", .flag = &clean}, {0}};
-    int status = options_read(&text, options, argc, argv, &none);
+    int status = options_read(command, options, argc, argv, &none);
     if (status != 0) return status;
     bool done = clean ? amontons_cache_clean(&summary, &err)
                       : amontons_cache_list(keep_entry, &shown, &summary, &err);

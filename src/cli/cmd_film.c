@@ -4,7 +4,6 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/say.h"
-#include "cli_help.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,12 +12,6 @@
 
 enum { RATE_MAX = 240, NAME_SIZE = 256 };
 static const double STILL_MOST = 0.5;   // s: what stands for longer looks as if it were at rest
-
-static const CommandText text = {.name = "film",
-                                 .argument = "RESULT",
-                                 .what = "result folder",
-                                 .example = "amontons film fig1-result -o fig1.mp4",
-                                 .help = film_txt};
 
 // A number above 0, with nothing behind it.
 static int read_number(const char *name, const char *word, double *number)
@@ -80,7 +73,7 @@ static int make_film(const char *result, FilmRequest *film, bool quiet)
     return 0;
 }
 
-int command_film(int argc, char **argv)
+int command_film(const Command *command, int argc, char **argv)
 {
     const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL;
     char name[NAME_SIZE];
@@ -113,7 +106,7 @@ int command_film(int argc, char **argv)
         option_overwrite(&film.overwrite),
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},
         {0}};
-    int status = options_read(&text, options, argc, argv, &result);
+    int status = options_read(command, options, argc, argv, &result);
     if (status == 0) status = read_number("--seconds", seconds, &film.seconds);
     if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
     if (status == 0 && rate) status = option_count("--fps", rate, 1, RATE_MAX, &film.rate);

@@ -4,23 +4,16 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const CommandText text = {.name = "info",
-                                 .argument = "FILE\nkeys",
-                                 .what = "file",
-                                 .example = "amontons info validation/paper/fig1.yaml",
-                                 .help = info_txt};
-
-int command_info(int argc, char **argv)
+int command_info(const Command *command, int argc, char **argv)
 {
     const char *file = NULL, *picture = NULL;
     OptionWords settings = {0};
-    bool trusted = false, overwrite = false;
+    bool overwrite = false;
     Error err = {0};
     const Option options[] = {
         {"set", 0, "KEY=VALUE",
@@ -30,12 +23,11 @@ int command_info(int argc, char **argv)
         {"picture", 0, "FILE.png",
          "Draw the mesh, and for a scene where the rod is. Also .pdf, .svg", .word = &picture},
         option_overwrite(&overwrite),
-        option_trust(&trusted),
+        option_trust(),
         {0}};
-    int status = options_read(&text, options, argc, argv, &file);
+    int status = options_read(command, options, argc, argv, &file);
     if (status == 0) status = option_may_write(picture, overwrite);
     if (status != 0) return status;
-    if (trusted) trust_meshes();
     InfoOptions wanted = {.overrides = settings.list,
                           .override_count = settings.count,
                           .picture = picture,

@@ -6,15 +6,8 @@
 #include "cli/point_table.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
-#include "cli_help.h"
 
 #include <stdlib.h>
-
-static const CommandText text = {.name = "model1d",
-                                 .argument = "SCENE",
-                                 .what = "scene",
-                                 .example = "amontons model1d validation/paper/fig1.yaml",
-                                 .help = model1d_txt};
 
 typedef struct Model1dWords {
     SceneWords common;
@@ -22,7 +15,7 @@ typedef struct Model1dWords {
     bool theory_only;
 } Model1dWords;
 
-static int read_words(int argc, char **argv, Model1dWords *words)
+static int read_words(const Command *command, int argc, char **argv, Model1dWords *words)
 {
     const Option own[] = {
         {"theory", 0, NULL, "Formulas only, no simulation", .flag = &words->theory_only},
@@ -31,7 +24,7 @@ static int read_words(int argc, char **argv, Model1dWords *words)
          .word = &words->alpha},
         {"points", 0, "N", "Nodes of the simulated line (default: 81)", .word = &words->points},
         {0}};
-    return scene_words_read(&text, own, argc, argv, &words->common);
+    return scene_words_read(command, own, argc, argv, &words->common);
 }
 
 // The values of --alpha and --points as `options`. The exit status.
@@ -118,14 +111,14 @@ static void print_answers(const Model1dSummary *summary)
 }
 
 // The table is printed while it is made, answers when all is known.
-int command_model1d(int argc, char **argv)
+int command_model1d(const Command *command, int argc, char **argv)
 {
     Model1dWords words = {0};
     Model1dOptions options = amontons_model1d_options();
     Model1dSummary summary;
     Error err = {0};
     Scene *scene = NULL;
-    int status = read_words(argc, argv, &words);
+    int status = read_words(command, argc, argv, &words);
     if (status == 0) status = check_words(&words, &options);
     if (status == 0) status = scene_words_open(&words.common, &scene);
     if (status != 0) return status;

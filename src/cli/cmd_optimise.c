@@ -5,30 +5,19 @@
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "cli/study_run.h"
-#include "cli_help.h"
 
-static const CommandText optimise_text = {
-    .name = "optimise",
-    .argument = "STUDY",
-    .what = "study",
-    .example = "amontons optimise docs/examples/best_pads.yaml",
-    .help = optimise_txt};
-static const CommandText fit_text = {.name = "fit",
-                                     .argument = "STUDY",
-                                     .what = "study",
-                                     .example = "amontons fit docs/examples/viscosity.yaml",
-                                     .help = fit_txt};
+#include <string.h>
 
-static int search(const CommandText *text, int argc, char **argv)
+int command_search(const Command *command, int argc, char **argv)
 {
-    bool fits = text == &fit_text;
+    bool fits = strcmp(command->name, "fit") == 0;
     const char *ending = fits ? "-fit" : "-best";
     StudyWords words = {0};
     StudyRun run;
     FitSummary fit = {0};
     OptimiseSummary best = {0};
     Error err = {0};
-    int status = study_words_read(text, ending, false, argc, argv, &words);
+    int status = study_words_read(command, ending, false, argc, argv, &words);
     if (status == 0) status = study_run_begin(&words, ending, &run);
     if (status != 0) return status;
     bool done = fits ? amontons_fit(words.study, &run.options, &fit, &err)
@@ -39,14 +28,4 @@ static int search(const CommandText *text, int argc, char **argv)
             fits ? fit.computed : best.computed, fits ? fit.seconds : best.seconds, fits ? "s" : "",
             run.options.folder, fits ? ", fit.csv; figures/" : "; figures/course.png");
     return study_run_status(&run, done, &err);
-}
-
-int command_optimise(int argc, char **argv)
-{
-    return search(&optimise_text, argc, argv);
-}
-
-int command_fit(int argc, char **argv)
-{
-    return search(&fit_text, argc, argv);
 }

@@ -4,7 +4,6 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,12 +17,6 @@ enum {
     PICTURE_OPTIONS(X) PICTURE_OPTION_COUNT
 #undef X
 };
-
-static const CommandText text = {.name = "render",
-                                 .argument = "RESULT\nSWEEP\nPLOT.yaml",
-                                 .what = "result folder",
-                                 .example = "amontons render fig1-result",
-                                 .help = render_txt};
 
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)
@@ -79,7 +72,7 @@ static int set_style(const char *const words[PICTURE_OPTION_COUNT], bool no_titl
 }
 
 // The module that draws them checks the figures: it knows which there are.
-int command_render(int argc, char **argv)
+int command_render(const Command *command, int argc, char **argv)
 {
     const char *from = NULL, *plot = NULL, *words[PICTURE_OPTION_COUNT] = {0};
     bool no_title = false;
@@ -123,7 +116,7 @@ int command_render(int argc, char **argv)
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &request.style.dark},
         option_overwrite(&request.style.overwrite),
         {0}};
-    int status = options_read(&text, options, argc, argv, &from);
+    int status = options_read(command, options, argc, argv, &from);
     if (status == 0) status = set_style(words, no_title, &request.style);
     if (status != 0) return status;
     if ((figures.count || request.panels) && (is_plot(from) || is_sweep(from)))

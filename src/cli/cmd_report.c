@@ -3,16 +3,9 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static const CommandText text = {.name = "report",
-                                 .argument = "RESULT...",
-                                 .what = "result folder",
-                                 .example = "amontons report fig1-result",
-                                 .help = report_txt};
 
 // A path with slashes behind it; at most one argument's length.
 static void default_file(const OptionWords *results, char *file, size_t size)
@@ -26,12 +19,12 @@ static void default_file(const OptionWords *results, char *file, size_t size)
         snprintf(file, size, "%.*s/report.html", (int)length, folder);
 }
 
-int command_report(int argc, char **argv)
+int command_report(const Command *command, int argc, char **argv)
 {
     const char *first = NULL, *file = NULL;
     char path[AMONTONS_PATH_SIZE];
     OptionWords results = {0};
-    CommandText taken = text;
+    Command taken = *command;
     bool overwrite = false;
     Error err = {0};
     const Option options[] = {

@@ -6,7 +6,6 @@
 #include "cli/progress.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
-#include "cli_help.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,12 +13,6 @@
 #include <string.h>
 
 enum { SETTING_SIZE = 80 };
-
-static const CommandText text = {.name = "run",
-                                 .argument = "SCENE",
-                                 .what = "scene",
-                                 .example = "amontons run validation/paper/fig1.yaml",
-                                 .help = run_txt};
 
 // A line for each mesh, above the progress bar.
 static void show_level(const LevelView *view, void *context)
@@ -162,7 +155,7 @@ static int show_forecast(const Scene *scene)
 }
 
 // Without -o the folder is named after the scene, and made in the current folder.
-int command_run(int argc, char **argv)
+int command_run(const Command *command, int argc, char **argv)
 {
     SceneWords words = {0};
     RunWords run = {0};
@@ -183,7 +176,7 @@ int command_run(int argc, char **argv)
         {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",
          .flag = &run.profile},
         {0}};
-    int status = scene_words_read(&text, own, argc, argv, &words);
+    int status = scene_words_read(command, own, argc, argv, &words);
     if (status == 0) status = ask_own(&run, &words);
     if (status == 0) status = scene_words_open(&words, &scene);
     if (status != 0) return status;

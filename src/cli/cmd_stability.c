@@ -6,7 +6,6 @@
 #include "cli/point_table.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
-#include "cli_help.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,19 +13,13 @@
 
 enum { SLIDINGS_STANDARD = 2 };   // the second peak already belongs to the periodic regime
 
-static const CommandText text = {.name = "stability",
-                                 .argument = "SCENE",
-                                 .what = "scene",
-                                 .example = "amontons stability validation/paper/fig1.yaml",
-                                 .help = stability_txt};
-
 typedef struct StabilityWords {
     SceneWords common;
     const char *from, *slidings;
     bool whole;
 } StabilityWords;
 
-static int read_words(int argc, char **argv, StabilityWords *words)
+static int read_words(const Command *command, int argc, char **argv, StabilityWords *words)
 {
     const Option own[] = {
         {"from", 0, "STATE",
@@ -41,7 +34,7 @@ static int read_words(int argc, char **argv, StabilityWords *words)
         {"whole", 0, NULL, "Follow the front to the end of the block, beyond l_c",
          .flag = &words->whole},
         {0}};
-    return scene_words_read(&text, own, argc, argv, &words->common);
+    return scene_words_read(command, own, argc, argv, &words->common);
 }
 
 // The values of --from and --slidings as `options`. The exit status.
@@ -148,14 +141,14 @@ static void print_answers(const StabilitySummary *summary)
 }
 
 // With --from end one state's line is the whole answer: there is no path to sum up.
-int command_stability(int argc, char **argv)
+int command_stability(const Command *command, int argc, char **argv)
 {
     StabilityWords words = {0};
     StabilityOptions options = {0};
     StabilitySummary summary;
     Error err = {0};
     Scene *scene = NULL;
-    int status = read_words(argc, argv, &words);
+    int status = read_words(command, argc, argv, &words);
     if (status == 0) status = check_words(&words, &options);
     if (status == 0) status = scene_words_open(&words.common, &scene);
     if (status != 0) return status;

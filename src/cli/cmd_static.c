@@ -3,15 +3,8 @@
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "cli/scene_words.h"
-#include "cli_help.h"
 
 #include <math.h>
-
-static const CommandText text = {.name = "static",
-                                 .argument = "SCENE",
-                                 .what = "scene",
-                                 .example = "amontons static validation/freefem/friction.yaml",
-                                 .help = static_txt};
 
 // Of a force, an energy and a moment, each per width, and of a length; empty: normalised.
 typedef struct Units {
@@ -55,14 +48,14 @@ static void print_summary(const Scene *scene, const StaticSummary *summary)
 }
 
 // Without -o nothing is written: the lines printed are all.
-int command_static(int argc, char **argv)
+int command_static(const Command *command, int argc, char **argv)
 {
     SceneWords words = {0};
     Error err = {0};
     Scene *scene = NULL;
     StaticSummary summary;
     static const Option none[] = {{0}};
-    int status = scene_words_read(&text, none, argc, argv, &words);
+    int status = scene_words_read(command, none, argc, argv, &words);
     if (status == 0) status = scene_words_open(&words, &scene);
     if (status != 0) return status;
     stop_on_signals();

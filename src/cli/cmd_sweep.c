@@ -4,30 +4,27 @@
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "cli/study_run.h"
-#include "cli_help.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 static const char ENDING[] = "-sweep";
-static const CommandText text = {.name = "sweep",
-                                 .argument = "STUDY",
-                                 .what = "study",
-                                 .example = "amontons sweep validation/paper/fig2a.yaml",
-                                 .help = sweep_txt};
-
-// One point, in a job of a Slurm array. list: the file that the sweep wrote for the array; Slurm
-// puts into the environment which element this process is, and keeps its exit status.
-static int run_element(const char *list)
+// A share of the points, in a job of a Slurm array. Slurm puts into the environment which element
+// this process is, and keeps its exit status.
+static int run_element(const StudyWords *words)
 {
     const char *index = getenv("SLURM_ARRAY_TASK_ID");
     char *end = NULL;
     Error err = {0};
     long element = index ? strtol(index, &end, 10) : -1;
-    if (!index || !*index || *end || element < 0 || element > INT32_MAX)
+    if (!index || !*index || *end || element < 0 || element > INT32_MAX || !words->folder)
         return report_misuse("--element is for jobs that `amontons sweep --slurm` submits");
-    return amontons_sweep_element(list, (int32_t)element, &err) ? 0 : report_error(&err);
+    SweepOptions options = {.folder = words->folder,
+                            .overrides = words->settings.list,
+                            .override_count = words->settings.count};
+    bool done = amontons_sweep_element(words->study, &options, (int32_t)element, &err);
+    return done ? 0 : report_error(&err);
 }
 
 // Failed points are no error of the sweep, but its exit status shows them.
@@ -55,14 +52,14 @@ static int close_sweep(const StudyRun *run, const SweepSummary *summary)
     return amontons_error_exit_status(ERROR_COMPUTE);
 }
 
-int command_sweep(int argc, char **argv)
+int command_sweep(const Command *command, int argc, char **argv)
 {
     StudyWords words = {0};
     StudyRun run;
     SweepSummary summary;
     Error err = {0};
-    int status = study_words_read(&text, ENDING, true, argc, argv, &words);
-    if (status == 0 && words.is_element) return run_element(words.study);   // a signal ends it
+    int status = study_words_read(command, ENDING, true, argc, argv, &words);
+    if (status == 0 && words.is_element) return run_element(&words);   // a signal ends it
     if (status == 0) status = study_run_begin(&words, ENDING, &run);
     if (status != 0) return status;
     bool done = amontons_sweep(words.study, &run.options, &summary, &err);

@@ -4,18 +4,19 @@
 #ifndef AMONTONS_CLI_COMMANDS_H
 #define AMONTONS_CLI_COMMANDS_H
 
-int command_run(int argc, char **argv);
-int command_static(int argc, char **argv);
-int command_stability(int argc, char **argv);
-int command_model1d(int argc, char **argv);
-int command_sweep(int argc, char **argv);
-int command_optimise(int argc, char **argv);
-int command_fit(int argc, char **argv);
-int command_render(int argc, char **argv);
-int command_report(int argc, char **argv);
-int command_film(int argc, char **argv);
-int command_info(int argc, char **argv);
-int command_cache(int argc, char **argv);
+#include "cli/options.h"
+
+int command_run(const Command *command, int argc, char **argv);
+int command_static(const Command *command, int argc, char **argv);
+int command_stability(const Command *command, int argc, char **argv);
+int command_model1d(const Command *command, int argc, char **argv);
+int command_sweep(const Command *command, int argc, char **argv);
+int command_search(const Command *command, int argc, char **argv);   // optimise, fit
+int command_render(const Command *command, int argc, char **argv);
+int command_report(const Command *command, int argc, char **argv);
+int command_film(const Command *command, int argc, char **argv);
+int command_info(const Command *command, int argc, char **argv);
+int command_cache(const Command *command, int argc, char **argv);
 
 // Called by libraries (main.c): by OpenBLAS when it is loaded, by those with OpenMP in them.
 int openblas_num_threads_env(void);

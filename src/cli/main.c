@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
+#include "cli_help.h"
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -34,31 +35,43 @@ void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned fl
     region(data);
 }
 
-typedef struct Command {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *arguments;
-    const char *sentence;
-} Command;
-
 // In the order in which `--help` lists them.
 static const Command commands[] = {
-    {"run", command_run, "SCENE", "simulates a scene and writes a result folder"},
-    {"static", command_static, "SCENE", "finds the equilibrium under a given load"},
-    {"stability", command_stability, "SCENE", "finds where slow slip loses stability: l_c, mu_M"},
+    {"run", command_run, "SCENE", "simulates a scene and writes a result folder", "scene",
+     "amontons run validation/paper/fig1.yaml", run_txt, NULL},
+    {"static", command_static, "SCENE", "finds the equilibrium under a given load", "scene",
+     "amontons static validation/freefem/friction.yaml", static_txt, NULL},
+    {"stability", command_stability, "SCENE", "finds where slow slip loses stability: l_c, mu_M",
+     "scene", "amontons stability validation/paper/fig1.yaml", stability_txt, NULL},
     {"model1d", command_model1d, "SCENE",
-     "computes the 1D model of the paper: theory and simulation"},
-    {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table"},
-    {"optimise", command_optimise, "STUDY", "searches the best design of a study"},
-    {"fit", command_fit, "STUDY", "finds the numbers of a scene that measurements speak for"},
-    {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
-    {"report", command_report, "RESULT", "writes a page about a run, a sweep or several runs"},
-    {"film", command_film, "RESULT", "films a stored result: block, slip, force"},
-    {"info", command_info, "FILE", "prints what a mesh, a scene or a result holds"},
-    {"cache", command_cache, "", "says how large the cache of reductions is, or cleans it"},
+     "computes the 1D model of the paper: theory and simulation", "scene",
+     "amontons model1d validation/paper/fig1.yaml", model1d_txt, NULL},
+    {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table",
+     "study", "amontons sweep validation/paper/fig2a.yaml", sweep_txt, NULL},
+    {"optimise", command_search, "STUDY", "searches the best design of a study", "study",
+     "amontons optimise docs/examples/best_pads.yaml", optimise_txt, NULL},
+    {"fit", command_search, "STUDY", "finds the numbers of a scene that measurements speak for",
+     "study", "amontons fit docs/examples/viscosity.yaml", fit_txt, NULL},
+    {"render", command_render, "RESULT\nSWEEP\nPLOT.yaml",
+     "draws the pictures of a stored result again", "result folder", "amontons render fig1-result",
+     render_txt, NULL},
+    {"report", command_report, "RESULT...", "writes a page about a run, a sweep or several runs",
+     "result folder", "amontons report fig1-result", report_txt, NULL},
+    {"film", command_film, "RESULT", "films a stored result: block, slip, force", "result folder",
+     "amontons film fig1-result -o fig1.mp4", film_txt, NULL},
+    {"info", command_info, "FILE\nkeys", "prints what a mesh, a scene or a result holds", "file",
+     "amontons info validation/paper/fig1.yaml", info_txt, NULL},
+    {"cache", command_cache, NULL, "says how large the cache of reductions is, or cleans it", NULL,
+     NULL, cache_txt, NULL},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+// Bytes of the first of several forms; also of "RESULT...".
+static int first_form(const char *argument)
+{
+    return argument ? (int)strcspn(argument, "\n.") : 0;
+}
 
 // The exit status: 0, as help was asked for.
 static int print_help(void)
@@ -68,7 +81,8 @@ static int print_help(void)
         "When and how an elastic block pushed by a rod starts to slide.\n"
         "\n");
     for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        say("  %-10s %-8s %s\n", commands[k].name, commands[k].arguments, commands[k].sentence);
+        say("  %-10s %-8.*s %s\n", commands[k].name, first_form(commands[k].argument),
+            commands[k].argument ? commands[k].argument : "", commands[k].sentence);
     say("\n"
         "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
         "  amontons info keys        every key that a scene may have\n"
@@ -128,7 +142,7 @@ static int help_on(const char *name)
     if (!command) return report_unknown(name);
     char word[] = "--help";
     char *words[] = {(char *)name, word, NULL};
-    return command->run(2, words);
+    return command->run(command, 2, words);
 }
 
 // The first word decides; everything behind it is the command's own to read. The exit status.
@@ -142,7 +156,7 @@ static int run_command(int argc, char **argv)
     if (wants_help) return argc > 2 ? help_on(argv[2]) : print_help();
     const Command *command = find_command(word);
     if (!command) return report_unknown(word);
-    return command->run(argc - 1, argv + 1);
+    return command->run(command, argc - 1, argv + 1);
 }
 
 // A process may be started with standard streams closed; the first files that it opens would then

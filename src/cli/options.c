@@ -68,6 +68,7 @@ static error_t take_word(int key, char *word, struct argp_state *state)
         const Option *option = &reading->options[k];
         if (option_key(reading->options, k) != key) continue;
         if (option->flag) *option->flag = true;
+        if (option->variable) setenv(option->variable, "yes", 1);
         if (option->word) *option->word = word ? word : "";
         if (option->words) add_word(option->words, word);
         return 0;
@@ -76,17 +77,18 @@ static error_t take_word(int key, char *word, struct argp_state *state)
 }
 
 // The exit status.
-static int check_words(const CommandText *text, const Reading *reading)
+static int check_words(const Command *command, const Reading *reading)
 {
-    if (!text->argument)
-        return reading->argument ? report_misuse("%s takes no argument, `%s` is one", text->name,
+    if (!command->argument)
+        return reading->argument ? report_misuse("%s takes no argument, `%s` is one", command->name,
                                                  reading->argument)
                                  : 0;
     if (!reading->argument)
-        return report_misuse("%s needs a %s, as in `%s`", text->name, text->what, text->example);
+        return report_misuse("%s needs a %s, as in `%s`", command->name, command->what,
+                             command->example);
     if (reading->all && reading->all->too_many)
-        return report_misuse("%s takes %d arguments at most", text->name, OPTION_WORDS_MAX);
-    if (reading->too_many) return report_misuse("%s takes one %s", text->name, text->what);
+        return report_misuse("%s takes %d arguments at most", command->name, OPTION_WORDS_MAX);
+    if (reading->too_many) return report_misuse("%s takes one %s", command->name, command->what);
     for (const Option *option = reading->options; option->name; option++)
         if (option->words && option->words->too_many)
             return report_misuse("--%s is given more than %d times", option->name,
@@ -95,14 +97,14 @@ static int check_words(const CommandText *text, const Reading *reading)
 }
 
 // argp leaves the program by itself where an option is unknown, with the status set here.
-int options_read(const CommandText *text, const Option *options, int argc, char **argv,
+int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument)
 {
     struct argp_option known[OPTIONS_MAX + 1] = {0};
     char name[40];   // what usage lines begin with
-    Reading reading = {.options = options, .all = text->all};
+    Reading reading = {.options = options, .all = command->all};
     struct argp argp = {
-        .options = known, .parser = take_word, .args_doc = text->argument, .doc = text->help};
+        .options = known, .parser = take_word, .args_doc = command->argument, .doc = command->help};
     for (int32_t k = 0; k < OPTIONS_MAX && options[k].name; k++)
         known[k] = (struct argp_option){
             .name = options[k].name,
@@ -112,11 +114,11 @@ int options_read(const CommandText *text, const Option *options, int argc, char 
                      (options[k].meaning ? 0 : OPTION_HIDDEN),
             .doc = options[k].meaning};
     argp_err_exit_status = amontons_error_exit_status(ERROR_INPUT);
-    snprintf(name, sizeof name, "amontons %s", text->name);
+    snprintf(name, sizeof name, "amontons %s", command->name);
     argv[0] = name;
     argp_parse(&argp, argc, argv, 0, NULL, &reading);
     *argument = reading.argument;
-    return check_words(text, &reading);
+    return check_words(command, &reading);
 }
 
 void default_folder(const char *file, const char *ending, char *folder, size_t size)
@@ -155,17 +157,12 @@ int option_may_write(const char *named, bool overwrite)
     return report_misuse("%s is there already: name another file, or say --overwrite", named);
 }
 
-Option option_trust(bool *trusted)
+Option option_trust(void)
 {
     return (Option){
         "trust", 0, NULL,
         "Also use a .geo that runs commands or writes files, and a friction law that is a plug-in",
-        .flag = trusted};
-}
-
-void trust_meshes(void)
-{
-    setenv("AMONTONS_TRUST", "yes", 1);
+        .variable = "AMONTONS_TRUST"};
 }
 
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the

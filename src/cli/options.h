@@ -24,20 +24,24 @@ typedef struct Option {
     bool *flag;
     const char **word;   // the last one given
     OptionWords *words;   // all of them, also `--set a=1 b=2`
+    const char *variable;   // of the environment, which is then "yes"
 } Option;
 
-typedef struct CommandText {
+typedef struct Command Command;
+struct Command {
     const char *name;   // "run"
-    const char *argument;   // "SCENE"; NULL: none is taken
+    int (*run)(const Command *command, int argc, char **argv);   // the exit status
+    const char *argument;   // "SCENE", or several forms, a line each; NULL: none is taken
+    const char *sentence;   // in the list of commands
     const char *what;   // "scene", of which one must be given
     const char *example;   // `amontons run validation/paper/fig1.yaml`
     const char *help;   // before the list of options; and behind it, after a \v
     OptionWords *all;   // all arguments, where several are taken; NULL: one is
-} CommandText;
+};
 
 // Puts the options given to where `options` say, and what the command works on into *argument.
 // `--help` and unknown options end the program. The exit status, 0 or 2.
-int options_read(const CommandText *text, const Option *options, int argc, char **argv,
+int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument);
 
 // The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give
@@ -52,10 +56,9 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 Option option_overwrite(bool *overwrite);
 int option_may_write(const char *named, bool overwrite);
 
-// `--trust`, of every command that reads meshes; and what it means, for this process and those that
-// it starts: a .geo may run commands.
-Option option_trust(bool *trusted);
-void trust_meshes(void);
+// `--trust`, of every command that reads meshes, for this process and those that it starts: a .geo
+// may run commands.
+Option option_trust(void);
 
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);

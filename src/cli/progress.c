@@ -192,6 +192,33 @@ void progress_stage(const char *stage, void *context)
     progress->bar_stands = true;
 }
 
+// Seconds since the first call; the clock starts with it.
+static double begin_clock(Progress *progress, const struct timespec *now)
+{
+    if (!progress->running) progress->started = *now;
+    progress->running = true;
+    return seconds_between(&progress->started, now);
+}
+
+// Whether a bar is drawn now, or a line printed.
+static bool is_due(const Progress *progress, double part, const struct timespec *now)
+{
+    if (progress->style == PROGRESS_LINES) return (int32_t)(10 * part) > progress->tenths;
+    return progress->drawn.tv_sec == 0 || seconds_between(&progress->drawn, now) >= draw_interval;
+}
+
+static void show(Progress *progress, double part, const char *state, const struct timespec *now)
+{
+    progress->tenths = (int32_t)(10 * part);
+    if (progress->style == PROGRESS_LINES) {
+        tell("%3d %%  %s\n", 10 * progress->tenths, state);
+        return;
+    }
+    draw_bar(part, state);
+    progress->drawn = *now;
+    progress->bar_stands = true;
+}
+
 // The clock starts at the first step: mesh and relaxation are not steps, and would spoil the time
 // left.
 void progress_step(const StepView *view, void *context)
@@ -206,21 +233,11 @@ void progress_step(const StepView *view, void *context)
         show_member(progress, view, &now);
         return;
     }
-    if (!progress->running) progress->started = now;
-    double elapsed = seconds_between(&progress->started, &now);
+    double elapsed = begin_clock(progress, &now);
     follow_pace(progress, view, elapsed);
-    if (progress->style == PROGRESS_BAR) {
-        if (progress->running && seconds_between(&progress->drawn, &now) < draw_interval) return;
-        format_state(progress, view, elapsed, state, sizeof state);
-        draw_bar(view->fraction, state);
-        progress->drawn = now;
-        progress->bar_stands = true;
-    } else if ((int32_t)(10 * view->fraction) > progress->tenths) {
-        progress->tenths = (int32_t)(10 * view->fraction);
-        format_state(progress, view, elapsed, state, sizeof state);
-        tell("%3d %%  %s\n", 10 * progress->tenths, state);
-    }
-    progress->running = true;
+    if (!is_due(progress, view->fraction, &now)) return;
+    format_state(progress, view, elapsed, state, sizeof state);
+    show(progress, view->fraction, state, &now);
 }
 
 // "[####....]  33 %  of the film  0:12 left"
@@ -230,21 +247,12 @@ void progress_part(Progress *progress, double part, const char *what)
     struct timespec now;
     if (progress->style == PROGRESS_QUIET) return;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    if (!progress->running) progress->started = now;
-    bool drawn = progress->running && seconds_between(&progress->drawn, &now) < draw_interval;
-    double elapsed = seconds_between(&progress->started, &now);
-    progress->running = true;
+    double elapsed = begin_clock(progress, &now);
+    if (!is_due(progress, part, &now)) return;
     progress_format_left(elapsed * (1 - part) / part, time, sizeof time);
     if (elapsed > SECONDS_LEAST) snprintf(left, sizeof left, "  %s left", time);
     snprintf(state, sizeof state, "%s%s", what, left);
-    if (progress->style == PROGRESS_BAR && !drawn) {
-        draw_bar(part, state);
-        progress->drawn = now;
-        progress->bar_stands = true;
-    } else if (progress->style == PROGRESS_LINES && (int32_t)(10 * part) > progress->tenths) {
-        progress->tenths = (int32_t)(10 * part);
-        tell("%3d %%  %s\n", 10 * progress->tenths, state);
-    }
+    show(progress, part, state, &now);
 }
 
 // The line is cleared for what is printed next. Called also after a failure; a second time it does

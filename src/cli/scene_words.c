@@ -3,7 +3,7 @@
 
 enum { OWN_MAX = 8, COMMON_COUNT = 5 };
 
-int scene_words_read(const CommandText *text, const Option *own, int argc, char **argv,
+int scene_words_read(const Command *command, const Option *own, int argc, char **argv,
                      SceneWords *words)
 {
     Option options[COMMON_COUNT + OWN_MAX + 1] = {
@@ -12,10 +12,9 @@ int scene_words_read(const CommandText *text, const Option *own, int argc, char 
          .words = &words->settings},
         {"overwrite", 0, NULL, "Replace an earlier result in DIR", .flag = &words->overwrite},
         {"quiet", 'q', NULL, "Print nothing but warnings and errors", .flag = &words->quiet},
-        option_trust(&words->trusted)};
+        option_trust()};
     for (int32_t k = 0; k < OWN_MAX && own[k].name; k++) options[COMMON_COUNT + k] = own[k];
-    int status = options_read(text, options, argc, argv, &words->scene);
-    if (words->trusted) trust_meshes();
+    int status = options_read(command, options, argc, argv, &words->scene);
     if (status == 0 && words->folder && !*words->folder)
         return report_misuse("-o: the folder has no name");
     return status;

@@ -10,11 +10,11 @@ typedef struct SceneWords {
     const char *scene;
     const char *folder;   // of -o; NULL: not given
     OptionWords settings;   // "load.pressure=0.006"
-    bool overwrite, quiet, trusted;
+    bool overwrite, quiet;
 } SceneWords;
 
 // Reads them, and the command's own options (a table that ends with {0}). The exit status, 0 or 2.
-int scene_words_read(const CommandText *text, const Option *own, int argc, char **argv,
+int scene_words_read(const Command *command, const Option *own, int argc, char **argv,
                      SceneWords *words);
 
 // Reads the scene with its settings; on failure it says why, and *scene is NULL. The exit status.

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-int study_words_read(const CommandText *text, const char *ending, bool has_elements, int argc,
+int study_words_read(const Command *command, const char *ending, bool has_elements, int argc,
                      char **argv, StudyWords *words)
 {
     char output[160];
@@ -29,12 +29,10 @@ int study_words_read(const CommandText *text, const char *ending, bool has_eleme
         {"retry", 0, NULL, "Compute points again that failed before", .flag = &words->retry},
         {"fresh", 0, NULL, "Compute all points again", .flag = &words->fresh},
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &words->quiet},
-        option_trust(&words->trusted),
+        option_trust(),
         {has_elements ? "element" : NULL, 0, NULL, NULL, .flag = &words->is_element},
         {0}};
-    int status = options_read(text, options, argc, argv, &words->study);
-    if (words->trusted) trust_meshes();
-    return status;
+    return options_read(command, options, argc, argv, &words->study);
 }
 
 // A line a point; on a terminal a last line with the progress of the whole.

@@ -12,7 +12,7 @@ enum { FAILURES_SHOWN = 10 };
 typedef struct StudyWords {
     const char *study, *folder, *jobs, *slurm;
     OptionWords settings;
-    bool has_slurm, is_element, retry, fresh, quiet, trusted;
+    bool has_slurm, is_element, retry, fresh, quiet;
 } StudyWords;
 
 typedef struct StudyRun {
@@ -27,7 +27,7 @@ typedef struct StudyRun {
 
 // ending: of the folder where -o gives none, "-sweep". has_elements: points may be jobs of a
 // cluster that are this command with --element. Status 0 or 2.
-int study_words_read(const CommandText *text, const char *ending, bool has_elements, int argc,
+int study_words_read(const Command *command, const char *ending, bool has_elements, int argc,
                      char **argv, StudyWords *words);
 // Signals are taken from here on. Status 0 or 2.
 int study_run_begin(const StudyWords *words, const char *ending, StudyRun *run);

@@ -11,20 +11,19 @@
 typedef struct Bulk {
     int32_t dim;   // unknowns of a node
     int32_t dof_count;   // dim * nodes
-    SparsePattern pattern;   // of K and C; owned
-    double *stiffness;   // [pattern.start[dof_count]]; owned
-    double *damping;   // same; owned
-    double *mass;   // [dof_count] lumped, both directions alike; owned
     double *load;   // [dof_count] f, force/width; starts at 0; owned
     uint8_t *held;   // [dof_count] 1: stays at 0 (bulk_hold); owned
-    double area;
+    SparsePattern pattern;   // of K and C, empty before bulk_assemble; owned
+    double *stiffness;   // [pattern.start[dof_count]]; owned
+    double *damping;   // same; owned
+    double *mass;   // [dof_count] lumped, all directions alike; owned
+    double area;   // length^2; in space the volume
 } Bulk;
 
-// materials: one, or as many as the mesh has regions, by their numbers.
+// Without loads and supports, and without matrices.
+bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err);
+// Fills pattern, K, C and M. materials: one, or as many as the mesh has regions, by their numbers.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
-// On the pattern of `like`, a bulk of the same elements.
-bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *materials, Bulk *bulk,
-                        Error *err);
 void bulk_destroy(Bulk *bulk);
 
 // load += int N_a traction dA, traction: [dim]. A pressure P on top is (0, -P).

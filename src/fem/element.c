@@ -31,13 +31,13 @@ double element_strain_matrix(ElementKind kind, const MeshPlace *position, const 
     return determinant;
 }
 
-// out += weight * B' D B, B: [strains][dofs]. Inlined where the number of strains is known: twice
-// as fast in the plane.
-static inline __attribute__((always_inline)) void
-add_form(int32_t strains, int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
-         const double d[STRAINS_MAX][STRAINS_MAX], double weight,
-         double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
+// out += weight * B' D B, B: [strains][dofs].
+static void add_quadratic_form(int32_t dim, int32_t dofs,
+                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
+                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
 {
+    int32_t strains = strain_count(dim);
     for (int32_t j = 0; j < dofs; j++) {
         double stress[STRAINS_MAX];
         for (int32_t r = 0; r < strains; r++) {
@@ -51,17 +51,6 @@ add_form(int32_t strains, int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS
             out[i][j] += sum;
         }
     }
-}
-
-static void add_quadratic_form(int32_t dim, int32_t dofs,
-                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
-                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
-                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
-{
-    if (dim == 2)
-        add_form(strain_count(2), dofs, b, d, weight, out);
-    else
-        add_form(strain_count(3), dofs, b, d, weight, out);
 }
 
 // Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of

@@ -105,7 +105,7 @@ static bool check_repeats(const Mesh *mesh, Error *err)
             for (int32_t b = mesh->first_node[e]; b < a; b++)
                 if (mesh->element_nodes[a] == mesh->element_nodes[b])
                     return REFUSE(err, "%s: element %lld (%s) has node %lld twice", mesh->path,
-                                  (long long)mesh->element_number[e], element_name(mesh->kind[e]),
+                                  (long long)mesh->element_number[e], ELEMENTS[mesh->kind[e]].name,
                                   (long long)mesh->node_number[mesh->element_nodes[a]]);
     return true;
 }
@@ -221,7 +221,7 @@ static bool check_orientation(Mesh *mesh, Error *err)
              "%s: element %lld (%s) at %s has a non-positive %s: its Jacobian determinant "
              "runs from %.3g to %.3g of its size squared%s",
              mesh->path, (long long)mesh->element_number[first_bad],
-             element_name(mesh->kind[first_bad]), place_text(mesh->dim, bad_centre, at),
+             ELEMENTS[mesh->kind[first_bad]].name, place_text(mesh->dim, bad_centre, at),
              mesh->dim == 2 ? "area" : "volume", bad_range[0], bad_range[1],
              bad_range[0] > AREA_TOLERANCE || bad_range[1] < -AREA_TOLERANCE
                  ? " while others run the other way round (a surface of the .geo is reversed)"

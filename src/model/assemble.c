@@ -6,9 +6,9 @@
 #include "base/clock.h"
 #include "algebra/dense.h"
 #include "model/regions.h"
-#include "model/shape_cache.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -37,8 +37,9 @@ static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
     return true;
 }
 
-// lambda is that of plane strain.
-bool model_take_to_space(Model *model, Error *err)
+// A material in space is neither in plane stress nor in plane strain: lambda is that of plane
+// strain. ERROR_INPUT: it keeps its volume.
+static bool take_to_space(Model *model, Error *err)
 {
     Materials *materials = &model->materials;
     bool possible = true;
@@ -80,14 +81,16 @@ bool model_read_mesh(Model *model, Error *err)
     done = done && check_memory(scene, file.node_count, err);
     TRY(scene_blame(scene, "mesh.file", done, err));
     model->mesh_origin = file.origin;
+    if (file.origin == MESH_OF_OTHER_FILES && scene->reduction.cache)
+        snprintf(model->cache_note, sizeof model->cache_note,
+                 "the mesh file draws on more than its own text: meshed anew");
     TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
     const Mesh *mesh = &model->mesh;
     model->length = mesh->x_max - mesh->x_min;
     model->middle = 0.5 * (mesh->x_min + mesh->x_max);
     model->height = mesh->z_max - mesh->z_min;
-    model->elements = mesh->element_count;
     if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
-    TRY(mesh->dim > 2 ? model_take_to_space(model, err) : refuse_across(scene, err));
+    TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
     TRY(model_mark_regions(model, err));
 cleanup:
     mesh_file_destroy(&file);
@@ -107,11 +110,22 @@ static double free_scale(const Model *model, double load)
     return load < 0 ? -load : material->young * floor;
 }
 
+// The pressure, else the largest traction. Never 0: a scene without loads is measured by 1.
+double load_reference(const Scene *scene)
+{
+    double largest = fabs(scene->load.pressure);
+    if (largest > 0) return largest;
+    for (int32_t k = 0; k < scene->load.traction_count; k++)
+        largest =
+            fmax(largest, fmax(fabs(scene->load.tractions[k].x), fabs(scene->load.tractions[k].z)));
+    return largest > 0 ? largest : 1;
+}
+
 // What is held needs no load, and what flies towards the plane has its momentum.
-bool model_set_load(Model *model, double unit_resultant, Error *err)
+static bool set_load(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
-    double load = unit_resultant * load_reference(scene);
+    double load = model->unit_load.resultant * load_reference(scene);
     bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
     if (!(load > 0) && held) load = free_scale(model, load);
     if (!(load > 0))
@@ -152,18 +166,15 @@ static bool add_loads(Model *model, Error *err)
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
     model->unit_load.resultant = unit;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
-    return model_set_load(model, unit, err);
+    return set_load(model, err);
 }
 
-// The assembled bulk of the full mesh, its loads and its interface; needed to build a basis, to
-// find one by content, and wherever nothing is reduced.
-bool model_build_bulk(Model *model, Error *err)
+bool model_lay_bulk(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
-    if (!bulk_assemble(&model->mesh, model->materials.list, &model->bulk, err)) return false;
-    if (!add_loads(model, err)) return false;
+    if (!bulk_create(&model->mesh, &model->bulk, err) || !add_loads(model, err)) return false;
     InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
                         .contact_names = scene->groups.contact.name,
                         .has_rod = scene->rod.kind != ROD_NONE,
@@ -180,12 +191,9 @@ bool model_build_bulk(Model *model, Error *err)
                                                        : "groups.rod";
     if (!scene_blame(scene, last, done, err)) return false;
     done = model_place_regions(model, middle - 0.5 * width, middle + 0.5 * width, err);
-    if (!scene_blame(scene, "materials", done, err)) return false;
-    model->full_dofs = model->bulk.dof_count;
-    return error_is_clean(err);
+    return scene_blame(scene, "materials", done, err);
 }
 
-// Supports are no part of the cached shape: their unknowns leave the assembled matrices.
 bool model_hold_supports(Model *model, Error *err)
 {
     const Scene *scene = model->scene;

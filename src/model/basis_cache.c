@@ -45,7 +45,9 @@ static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
     archive_numbers(archive, errors->inertia, errors->count);
     archive_numbers(archive, errors->error, errors->count);
     archive_lend_numbers(archive, &part->load, all);
-    archive_lend_numbers(archive, &part->mass, all * all);
+    archive_lend_numbers(archive, &part->mass, m * m);
+    archive_lend_numbers(archive, &part->coupling, (all - m) * m);
+    archive_lend_numbers(archive, &part->masses, all - m);
     archive_lend_numbers(archive, &part->damping, all * all);
     archive_lend_numbers(archive, &part->stiffness, m * m);
     archive_images(&part->border, part->border_count, border, archive);
@@ -55,6 +57,7 @@ static void archive_basis(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;
     archive_index(archive, &reduced->dim, 2, DIM_MAX + 1);
+    archive_number(archive, &reduced->area);
     archive_length(archive, &reduced->interface_count);
     archive_length(archive, &reduced->mirrored);
     archive_length(archive, &reduced->count);

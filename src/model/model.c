@@ -123,9 +123,9 @@ static double half_plane(Moduli moduli)
     return axial > 0 ? 4 * shear * (axial - shear) / axial : 0;
 }
 
-static RodGround ground_of(const Model *model, double region)
+static RodGround ground_of(const Model *model, int32_t region)
 {
-    const Material *face = &model->materials.list[(int32_t)region];
+    const Material *face = &model->materials.list[region];
     return (RodGround){half_plane(material_elastic(face)), half_plane(material_viscous(face))};
 }
 

@@ -16,7 +16,7 @@
 
 // What the strip covers of the face around the node at its end.
 typedef struct RodEnd {
-    double region[2];   // the material below the node and that above
+    int32_t region[2];   // the material below the node and that above
     double below;   // which part of it is below, 1
 } RodEnd;
 
@@ -27,27 +27,25 @@ typedef struct Model {
     int32_t contact_region;   // of which of them the contact (its first pad) is
     FrictionLaw law;
     FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
-    Mesh mesh;   // empty: the shape came from the cache, and no fields are asked for; owned, like
-        // all that follows
-    Bulk bulk;   // assembled; empty where the shape came from the cache
+    Mesh mesh;   // owned, like all that follows
+    Bulk bulk;   // its loads; M, C and K where the full mesh is stepped
     struct {
         double size, resultant;   // largest nodal load, sum of all towards the plane; per unit of
             // load_reference()
-    } unit_load;   // of an assembled bulk
+    } unit_load;   // of the bulk
     Interface interface;
     ReducedBulk reduced;   // count 0: the full mesh is stepped
     BulkOperator system;   // what is stepped: the reduced bulk or the full one
     double length, height;   // L, H of the block, length
     double breadth;   // of the block along y, length; 1 in the plane, where forces are per width
     double middle;   // x of its middle, length
-    int32_t elements, full_dofs;   // of the mesh
     MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
     ChoiceSizes choice;   // what reduction.use: auto goes by
     ExpectedCost expected;
     bool is_reduced;   // what was chosen
     bool from_cache;   // the basis was: nothing of the full mesh was factored
-    char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
+    char cache_note[CACHE_NOTE_SIZE];   // why what is cached was not used or kept; empty: nothing
     double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s
 } Model;
 

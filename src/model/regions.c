@@ -134,7 +134,7 @@ static RodEnd find_end(const Model *model, const MeshBoundary *rod, const uint8_
     int32_t below = find_region(mesh, on, &inside[0]), above = find_region(mesh, on, &inside[1]);
     if (!(low < z)) below = above;
     if (!(high > z)) above = below;
-    return (RodEnd){.region = {fmax(below, 0), fmax(above, 0)},
+    return (RodEnd){.region = {below > 0 ? below : 0, above > 0 ? above : 0},
                     .below = high > low ? (z - low) / (high - low) : 0};
 }
 

@@ -15,10 +15,6 @@
 
 enum { WORDS_SIZE = 700 };
 
-static const SheetPart PARTS[] = {{"numbers", "Key numbers"},  {"differences", "What differs"},
-                                  {"figures", "Force curves"}, {"again", "To reproduce"},
-                                  {"cite", "How to cite"},     {0}};
-
 // Folders of one name are told apart by the end of their paths.
 static void name_runs(RunSource *runs, int32_t count)
 {
@@ -36,23 +32,23 @@ static void name_runs(RunSource *runs, int32_t count)
 
 static void write_states(HtmlWriter *html, const RunSource *run)
 {
-    char words[RUN_NAME_SIZE + WORDS_SIZE + 40], path[40], sentence[WORDS_SIZE];
+    char words[RUN_NAME_SIZE + WORDS_SIZE + 40], sentence[WORDS_SIZE];
     if (run->state != RUN_DONE) {
         snprintf(words, sizeof words, "%s %s", run->name,
                  run->state == RUN_FAILED ? "failed: its own report says why"
                                           : "has not ended: it has no numbers yet");
         sheet_box(html, "failure", words);
     }
-    for (int32_t k = 0; k < RUN_WARNINGS_MAX; ++k) {
-        snprintf(path, sizeof path, "warnings.%d", k);
-        if (!json_find_text(run->json, path, sentence, sizeof sentence)) break;
+    for (int32_t k = 0; run_warning(run, k, sentence, sizeof sentence); ++k) {
         snprintf(words, sizeof words, "%s: %s", run->name, sentence);
         sheet_box(html, "warning", words);
     }
 }
 
-static bool write_curves(HtmlWriter *html, const RunSource *runs, int32_t count, Error *err)
+static bool write_curves(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const RunSource *runs = source->runs;
+    int32_t count = source->count;
     const char *folders[RENDER_CURVES_MAX], *names[RENDER_CURVES_MAX];
     bool drawn = true;
     int32_t with = 0;
@@ -68,30 +64,36 @@ static bool write_curves(HtmlWriter *html, const RunSource *runs, int32_t count,
     if (with == 0) return true;
     RenderCurvesFunction render =
         (RenderCurvesFunction)module_function("render", "amontons_render_curves", err);
-    if (!render) return false;
-    if (!render(folders, names, with, html, &drawn, err)) return false;
+    if (!render || !render(folders, names, with, html, &drawn, err)) return false;
     if (!drawn)
         html_markup(html, "<p class='note'>Some runs are in SI units and some are normalised: "
                           "their curves have no common axis.</p>\n");
     return error_is_clean(err);
 }
 
-static void write_again(HtmlWriter *html, const RunSource *runs, int32_t count)
+static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
 {
     html_markup(html, "<p>The report of each run holds its scene: ");
     html_markup(html, "<code>amontons report FOLDER</code>, with</p>\n<ul>");
-    for (int32_t k = 0; k < count; ++k) {
-        html_around(html, "<li>", runs[k].name, ": ");
-        html_text(html, runs[k].title);
-        html_markup(html, "</li>");
+    for (int32_t k = 0; k < source->count; ++k) {
+        html_around(html, "<li>", source->runs[k].name, ": ");
+        html_around(html, "", source->runs[k].title, "</li>");
     }
     html_markup(html, "</ul>\n");
+    return error_is_clean(err);
 }
 
 bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t count, Error *err)
 {
-    char title[60], version[40] = "";
+    const SheetPart parts[] = {{"numbers", "Key numbers", numbers_write},
+                               {"differences", "What differs", scene_differences_write},
+                               {"figures", "Force curves", write_curves},
+                               {"again", "To reproduce", write_again},
+                               SHEET_CITE,
+                               {0}};
+    char title[60];
     RunSource *runs = NEW_ARRAY(RunSource, count, err);
+    PageSource source = {.runs = runs, .count = count};
     TRY(runs);
     if (count > RENDER_CURVES_MAX)
         FAIL(err, ERROR_INPUT, "%d runs: a comparison takes up to %d; a sweep takes many", count,
@@ -99,18 +101,10 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
     for (int32_t k = 0; k < count; ++k) TRY(run_source_open(folders[k], &runs[k], err));
     name_runs(runs, count);
     snprintf(title, sizeof title, "Comparison of %d runs", count);
-    sheet_begin(html, title, "Report by amontons", PARTS);
+    sheet_begin(html, title, "Report by amontons", parts);
     for (int32_t k = 0; k < count; ++k) write_states(html, &runs[k]);
-    sheet_part(html, &PARTS[0]);
-    numbers_write(html, runs, count);
-    sheet_part(html, &PARTS[1]);
-    scene_differences_write(html, runs, count);
-    sheet_part(html, &PARTS[2]);
-    TRY(write_curves(html, runs, count, err));
-    sheet_part(html, &PARTS[3]);
-    write_again(html, runs, count);
-    json_find_text(runs[0].json, "version", version, sizeof version);
-    sheet_end(html, version);
+    TRY(sheet_parts(html, parts, &source, err));
+    sheet_end(html, runs[0].json);
 cleanup:
     for (int32_t k = 0; runs && k < count; ++k) run_source_close(&runs[k]);
     memory_free(runs);

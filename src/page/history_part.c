@@ -45,12 +45,12 @@ static bool bar_figure_write(HtmlWriter *html, const RunSource *run, Error *err)
     return go_on_without(html, "figure of the error bar", err);
 }
 
-bool figures_write(HtmlWriter *html, const RunSource *run, Error *err)
+bool figures_write(HtmlWriter *html, PageSource *source, Error *err)
 {
     RenderFiguresFunction render =
         (RenderFiguresFunction)module_function("render", "amontons_render_figures", err);
-    if (render) render(run->folder, html, err);
-    return go_on_without(html, "figures", err) && bar_figure_write(html, run, err);
+    if (render) render(source->runs->folder, html, err);
+    return go_on_without(html, "figures", err) && bar_figure_write(html, source->runs, err);
 }
 
 // --- frames --------------------------------------------------------------------------------------
@@ -67,14 +67,14 @@ static void write_controls(HtmlWriter *html)
                       "frame; links in the table of events lead here.</p>\n");
 }
 
-bool frames_write(HtmlWriter *html, const RunSource *run, RenderFrames *found, Error *err)
+bool frames_write(HtmlWriter *html, PageSource *source, Error *err)
 {
+    RenderFrames *found = &source->frames;
     RenderFramesFunction render =
         (RenderFramesFunction)module_function("render", "amontons_render_frames", err);
-    *found = (RenderFrames){0};
     if (!render) return false;
     write_controls(html);
-    if (render(run->folder, html, found, err)) {
+    if (render(source->runs->folder, html, found, err)) {
         html_markup(html,
                     "<p class='note'>%d of %d %s are shown, close together where the force "
                     "or the rod moves much%s. ",
@@ -203,13 +203,13 @@ static bool write_table(HtmlWriter *html, const RunSource *run, const RenderFram
     html_markup(html, "</tbody></table></div>\n");
 cleanup:
     if (file) array_file_close(file, err);
-    for (int32_t k = 0; k < COLUMNS; ++k) memory_free(table.column[k]);
+    memory_free_list((void *const *)table.column, COLUMNS);
     return error_is_clean(err);
 }
 
-bool events_write(HtmlWriter *html, const RunSource *run, const RenderFrames *frames, Error *err)
+bool events_write(HtmlWriter *html, PageSource *source, Error *err)
 {
-    write_table(html, run, frames, err);
+    write_table(html, source->runs, &source->frames, err);
     return go_on_without(html, "events", err);
 }
 
@@ -226,21 +226,20 @@ static const FilmKind FILMS[] = {{".mp4", "video/mp4", "ftyp", 4},
                                  {".gif", "image/gif", "GIF8", 0}};
 enum { FILM_KINDS = sizeof FILMS / sizeof *FILMS };
 
-bool film_find(const char *folder, char *name)
+void film_find(PageSource *source)
 {
     struct dirent **entries = NULL;
     int32_t best = FILM_KINDS;
-    int count = scandir(folder, &entries, NULL, alphasort);
+    int count = scandir(source->runs->folder, &entries, NULL, alphasort);
     for (int i = 0; i < count; ++i) {
         for (int32_t k = 0; k < best; ++k) {
             if (!text_ends_with(entries[i]->d_name, FILMS[k].ending)) continue;
-            snprintf(name, NAME_MAX + 1, "%s", entries[i]->d_name);
+            snprintf(source->film, sizeof source->film, "%s", entries[i]->d_name);
             best = k;
         }
         free(entries[i]);
     }
     if (count >= 0) free(entries);
-    return best < FILM_KINDS;
 }
 
 static const FilmKind *kind_of(const char *name)
@@ -287,13 +286,14 @@ static void write_address(HtmlWriter *html, const char *name)
     }
 }
 
-bool film_write(HtmlWriter *html, const char *folder, const char *name, Error *err)
+bool film_write(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const char *name = source->film;
     char path[PATH_MAX];
     uint8_t *bytes = NULL;
     int64_t size = 0;
     const FilmKind *kind = kind_of(name);
-    if (!folder_holds(folder, name, path)) return true;
+    if (!folder_holds(source->runs->folder, name, path)) return true;
     TRY(read_film(path, kind, &bytes, &size, err));
     if (bytes) {
         bool moves = strncmp(kind->type, "video", 5) == 0;

@@ -139,8 +139,10 @@ static void begin_table(HtmlWriter *html, const char *caption, const RunSource *
     html_markup(html, "<th scope='col'>meaning</th></tr></thead><tbody>\n");
 }
 
-void numbers_write(HtmlWriter *html, const RunSource *runs, int32_t count)
+bool numbers_write(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const RunSource *runs = source->runs;
+    int32_t count = source->count;
     begin_table(html,
                 "What was found. \u00b1 is 95 %; without it: the digits "
                 "that finer meshes keep as a rule, the last within 1.",
@@ -152,4 +154,5 @@ void numbers_write(HtmlWriter *html, const RunSource *runs, int32_t count)
                 count);
     write_rows(html, CHECKS, sizeof CHECKS / sizeof *CHECKS, write_cell, runs, count);
     html_markup(html, "</tbody></table></div>\n");
+    return error_is_clean(err);
 }

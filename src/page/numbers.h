@@ -3,8 +3,7 @@
 #ifndef AMONTONS_PAGE_NUMBERS_H
 #define AMONTONS_PAGE_NUMBERS_H
 
-#include "io/text/html_writer.h"
-#include "page/run_source.h"
+#include "page/sheet.h"
 
 // As text_estimate has it; that nothing is known of its error is said.
 void estimate_write(HtmlWriter *html, double value, double bar, double known_to);
@@ -13,6 +12,6 @@ double run_known_to(const RunSource *run, const char *path, double *bar);
 
 // What was found, and how far the computation can be trusted: two tables, each with a caption. Of
 // one run they also say what a number means.
-void numbers_write(HtmlWriter *html, const RunSource *runs, int32_t count);
+bool numbers_write(HtmlWriter *html, PageSource *source, Error *err);
 
 #endif

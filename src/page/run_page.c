@@ -13,26 +13,6 @@
 
 enum { PARTS_MAX = 9, WORDS_SIZE = 700 };
 
-static const SheetPart NUMBERS = {"numbers", "Key numbers"}, FILM = {"film", "Film"},
-                       FRAMES = {"frames-part", "Frames"}, FIGURES = {"figures", "Figures"},
-                       EVENTS = {"events", "Events"}, SCENE = {"scene", "Scene"},
-                       AGAIN = {"again", "To reproduce"}, CITE = {"cite", "How to cite"};
-
-static int32_t list_parts(const RunSource *run, bool film, SheetPart parts[PARTS_MAX])
-{
-    int32_t count = 0;
-    if (run->state != RUN_UNFINISHED) parts[count++] = NUMBERS;
-    if (run->has_history) parts[count++] = FRAMES;
-    if (film) parts[count++] = FILM;
-    if (run->has_history) parts[count++] = FIGURES;
-    if (run->has_history) parts[count++] = EVENTS;
-    if (run->state != RUN_UNFINISHED) parts[count++] = SCENE;
-    if (run->state != RUN_UNFINISHED) parts[count++] = AGAIN;
-    parts[count++] = CITE;
-    parts[count] = (SheetPart){0};
-    return count;
-}
-
 // What was computed, in two sentences.
 static void write_lead(HtmlWriter *html, const RunSource *run)
 {
@@ -79,7 +59,7 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
 
 static void write_state(HtmlWriter *html, const RunSource *run)
 {
-    char words[WORDS_SIZE + ERROR_MESSAGE_SIZE], path[40], message[ERROR_MESSAGE_SIZE] = "";
+    char words[WORDS_SIZE + ERROR_MESSAGE_SIZE], message[ERROR_MESSAGE_SIZE] = "";
     if (run->state == RUN_UNFINISHED) {
         snprintf(words, sizeof words,
                  "this run has not ended: it is under way, or was killed (there is no run.json). "
@@ -94,26 +74,16 @@ static void write_state(HtmlWriter *html, const RunSource *run)
         snprintf(words, sizeof words, "this run failed: %s", message);
         sheet_box(html, "failure", words);
     }
-    for (int32_t k = 0; k < RUN_WARNINGS_MAX; ++k) {
-        snprintf(path, sizeof path, "warnings.%d", k);
-        if (!json_find_text(run->json, path, words, sizeof words)) break;
+    for (int32_t k = 0; run_warning(run, k, words, sizeof words); ++k)
         sheet_box(html, "warning", words);
-    }
-}
-
-static bool write_scene(HtmlWriter *html, const RunSource *run, Error *err)
-{
-    sheet_part(html, &SCENE);
-    scene_summary_write(html, run);
-    return scene_text_write(html, run, err);
 }
 
 // The scene's mesh is named as seen from the result folder, so the scene is to be saved there.
-static void write_again(HtmlWriter *html, const RunSource *run)
+static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const RunSource *run = source->runs;
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
     bool is_plain = run->name[strspn(run->name, plain)] == 0;   // else: nothing for a shell
-    sheet_part(html, &AGAIN);
     html_markup(html, "<p>Save the <a href='#scene'>scene</a> as scene.json in the result folder, "
                       "where its mesh is found. The same version gives the same bits.</p>\n"
                       "<pre tabindex='0'>");
@@ -122,48 +92,37 @@ static void write_again(HtmlWriter *html, const RunSource *run)
     html_around(html, "amontons render . --format pdf", "", "      # its figures for print\n");
     html_around(html, "amontons report .", "", "                   # this page\n");
     html_markup(html, "</pre>\n");
+    return error_is_clean(err);
 }
 
-static bool write_history(HtmlWriter *html, const RunSource *run, const char *film, Error *err)
+static void list_parts(const PageSource *source, SheetPart parts[PARTS_MAX])
 {
-    RenderFrames frames = {0};
-    sheet_part(html, &FRAMES);
-    if (!frames_write(html, run, &frames, err)) return false;
-    if (film) sheet_part(html, &FILM);
-    if (film && !film_write(html, run->folder, film, err)) return false;
-    sheet_part(html, &FIGURES);
-    if (!figures_write(html, run, err)) return false;
-    sheet_part(html, &EVENTS);
-    return events_write(html, run, &frames, err);
+    bool ended = source->runs->state != RUN_UNFINISHED, history = source->runs->has_history;
+    int32_t count = 0;
+    if (ended) parts[count++] = (SheetPart){"numbers", "Key numbers", numbers_write};
+    if (history) parts[count++] = (SheetPart){"frames-part", "Frames", frames_write};
+    if (source->film[0]) parts[count++] = (SheetPart){"film", "Film", film_write};
+    if (history) parts[count++] = (SheetPart){"figures", "Figures", figures_write};
+    if (history) parts[count++] = (SheetPart){"events", "Events", events_write};
+    if (ended) parts[count++] = (SheetPart){"scene", "Scene", scene_write};
+    if (ended) parts[count++] = (SheetPart){"again", "To reproduce", write_again};
+    parts[count++] = SHEET_CITE;
+    parts[count] = (SheetPart){0};
 }
 
 bool run_page_write(HtmlWriter *html, const char *folder, Error *err)
 {
     RunSource run = {0};
+    PageSource source = {.runs = &run, .count = 1};
     SheetPart parts[PARTS_MAX];
-    char film[NAME_MAX + 1] = "", version[40] = "";
     TRY(run_source_open(folder, &run, err));
-    bool has_film = film_find(folder, film);
-    list_parts(&run, has_film, parts);
+    film_find(&source);
+    list_parts(&source, parts);
     sheet_begin(html, run.title, "Report of a run, by amontons", parts);
     write_lead(html, &run);
     write_state(html, &run);
-    if (run.state != RUN_UNFINISHED) {
-        sheet_part(html, &NUMBERS);
-        numbers_write(html, &run, 1);
-    }
-    if (run.has_history) {
-        TRY(write_history(html, &run, has_film ? film : NULL, err));
-    } else {
-        if (has_film) sheet_part(html, &FILM);
-        if (has_film) TRY(film_write(html, folder, film, err));
-    }
-    if (run.state != RUN_UNFINISHED) {
-        TRY(write_scene(html, &run, err));
-        write_again(html, &run);
-    }
-    json_find_text(run.json, "version", version, sizeof version);
-    sheet_end(html, version);
+    TRY(sheet_parts(html, parts, &source, err));
+    sheet_end(html, run.json);
 cleanup:
     run_source_close(&run);
     return error_is_clean(err);

@@ -86,6 +86,13 @@ double run_number(const RunSource *source, const char *path)
     return found ? value : (double)NAN;
 }
 
+bool run_warning(const RunSource *source, int32_t k, char *words, int32_t size)
+{
+    char path[WORD_SIZE];
+    snprintf(path, sizeof path, "warnings.%d", k);
+    return k < RUN_WARNINGS_MAX && json_find_text(source->json, path, words, size);
+}
+
 // Quotes inside of texts are escaped in JSON: the pattern is found nowhere else.
 int32_t run_events(const RunSource *source, const char *kind)
 {

@@ -25,6 +25,8 @@ void run_source_close(RunSource *source);   // zeroed is fine
 
 // The number at `path` in run.json; NaN: there is none, or the source is zeroed.
 double run_number(const RunSource *source, const char *path);
+// Its k-th warning; false: there is none.
+bool run_warning(const RunSource *source, int32_t k, char *words, int32_t size);
 // How many events of this kind, "leading rapid".
 int32_t run_events(const RunSource *source, const char *kind);
 

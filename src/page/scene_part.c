@@ -71,7 +71,7 @@ static void write_key(void *context, const char *path, const char *value)
     summary->begun = true;
 }
 
-void scene_summary_write(HtmlWriter *html, const RunSource *run)
+static void write_summary(HtmlWriter *html, const RunSource *run)
 {
     char group[KEY_SIZE], path[KEY_SIZE + 8], inner[KEY_SIZE];
     html_markup(html,
@@ -121,8 +121,10 @@ static void write_difference(void *context, const char *path, const char *value)
     html_markup(all->html, "</tr>\n");
 }
 
-void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count)
+bool scene_differences_write(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const RunSource *runs = source->runs;
+    int32_t count = source->count;
     Differences all = {.html = html, .runs = runs, .count = count};
     html_markup(html, "<div class='wide'><table><caption>Keys of the scenes that differ; all "
                       "others are the same</caption><thead><tr><th scope='col'>key</th>");
@@ -136,16 +138,18 @@ void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t co
         html_markup(html, "<tr><td colspan='%d'>none: the scenes are the same</td></tr>\n",
                     count + 1);
     html_markup(html, "</tbody></table></div>\n");
+    return error_is_clean(err);
 }
 
 // --- the scene -----------------------------------------------------------------------------------
 
 // As run.json has it, less the two spaces that it is indented by there.
-bool scene_text_write(HtmlWriter *html, const RunSource *run, Error *err)
+bool scene_write(HtmlWriter *html, PageSource *source, Error *err)
 {
     int32_t length = 0, used = 0;
-    const char *raw = json_find_raw(run->json, "scene", &length);
+    const char *raw = json_find_raw(source->runs->json, "scene", &length);
     char *scene = NULL;
+    write_summary(html, source->runs);
     if (!raw) return true;
     TRY(scene = NEW_ARRAY(char, (int64_t)length + 2, err));
     for (int32_t k = 0; k < length; ++k) {

@@ -4,16 +4,13 @@
 #ifndef AMONTONS_PAGE_SCENE_PART_H
 #define AMONTONS_PAGE_SCENE_PART_H
 
-#include "io/text/html_writer.h"
-#include "page/run_source.h"
+#include "page/sheet.h"
 
-// A table with a row a group of keys: "material | young 1, poisson 0.34, ...".
-void scene_summary_write(HtmlWriter *html, const RunSource *run);
+// A table with a row a group of keys, "material | young 1, poisson 0.34, ..."; then the whole scene
+// as text, and as a file to save. What was saved can be run.
+bool scene_write(HtmlWriter *html, PageSource *source, Error *err);
 
 // Keys whose values are not the same in all scenes, a column a run.
-void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count);
-
-// The whole scene as text, and as a file to save. What was saved can be run.
-bool scene_text_write(HtmlWriter *html, const RunSource *run, Error *err);
+bool scene_differences_write(HtmlWriter *html, PageSource *source, Error *err);
 
 #endif

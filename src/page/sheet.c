@@ -3,11 +3,14 @@
 // runs, whatever a text should smuggle in.
 #include "page/sheet.h"
 
+#include "io/text/json_reader.h"
 #include "page_resources.h"
 
 #include <string.h>
 
 enum { HASH_SIZE = 32, HASH_TEXT = 48 };
+
+const SheetPart SHEET_CITE = {"cite", "How to cite", NULL};
 
 static const char PAPER[] =
     "M. Otsuki and H. Matsukawa, <cite>Systematic breakdown of Amontons\u2019 law of friction for "
@@ -46,13 +49,20 @@ void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const Sh
     html_markup(html, "</ul></nav>\n</header>\n<main id='main' tabindex='-1'>\n<section>\n");
 }
 
-void sheet_part(HtmlWriter *html, const SheetPart *part)
+bool sheet_parts(HtmlWriter *html, const SheetPart *parts, PageSource *source, Error *err)
 {
-    html_markup(html, "</section>\n<section id='%s'>\n<h2>%s</h2>\n", part->id, part->name);
+    for (const SheetPart *part = parts; part->id; ++part) {
+        if (!part->write) continue;
+        html_markup(html, "</section>\n<section id='%s'>\n<h2>%s</h2>\n", part->id, part->name);
+        if (!part->write(html, source, err)) return false;
+    }
+    return true;
 }
 
-void sheet_end(HtmlWriter *html, const char *made_by)
+void sheet_end(HtmlWriter *html, const char *json)
 {
+    char made_by[40] = "";
+    if (json) json_find_text(json, "version", made_by, sizeof made_by);
     html_markup(html, "</section>\n</main>\n<footer>\n<h2 id='cite'>How to cite</h2>\n<p>The "
                       "program: amontons ");
     html_text(html, *made_by ? made_by : AMONTONS_VERSION);

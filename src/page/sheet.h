@@ -5,18 +5,35 @@
 #ifndef AMONTONS_PAGE_SHEET_H
 #define AMONTONS_PAGE_SHEET_H
 
-#include "io/text/html_writer.h"
+#include "page/run_source.h"
+#include "render/render.h"
+
+#include <limits.h>
+
+// What a page is about, and what one part of it has found for another.
+typedef struct PageSource {
+    const RunSource
+        *runs;   // [count] one, several side by side, or of a sweep the first that is done
+    int32_t count;
+    RenderFrames frames;   // the table of events leads to them
+    char film[NAME_MAX + 1];   // in the run's folder; "": there is none
+    const struct SweepSource *sweep;   // NULL: it is no sweep
+} PageSource;
 
 typedef struct SheetPart {
     const char *id, *name;   // of a section, for the links at the top; NULL ends a list
+    // NULL: it is part of sheet_end
+    bool (*write)(HtmlWriter *html, PageSource *source, Error *err);
 } SheetPart;
+
+extern const SheetPart SHEET_CITE;   // that part
 
 // Up to the title, below it `kind` ("A run"), and links to the parts.
 void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const SheetPart *parts);
-// A section with its heading; ends the one before.
-void sheet_part(HtmlWriter *html, const SheetPart *part);
-// made_by: version of the program that computed; empty: not known.
-void sheet_end(HtmlWriter *html, const char *made_by);
+// All of them, each below its heading.
+bool sheet_parts(HtmlWriter *html, const SheetPart *parts, PageSource *source, Error *err);
+// json: run.json of what was computed, by whichever version; NULL: not known.
+void sheet_end(HtmlWriter *html, const char *json);
 
 // A box that is seen at once: "warning" or "failure".
 void sheet_box(HtmlWriter *html, const char *kind, const char *words);

@@ -21,21 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    NAME_SIZE = 300,
-    ROWS_MAX = 500,
-    RANKED_MAX = 30,
-    VALUES_SHOWN = 14,
-    FIGURES_MAX = 20,
-    ANSWER_BYTES_MAX = 1 << 22
-};
-enum { SENTENCE_SIZE = 8 * RUN_WARNING_SIZE };
-
-static const SheetPart FIGURES = {"figures", "Figures"}, RANKING = {"ranking", "Ranking"},
-                       VARIED = {"varied", "What varies"}, POINTS = {"points", "All points"},
-                       DOUBTS = {"doubts", "Failures and warnings"}, SCENE = {"scene", "A scene"},
-                       AGAIN = {"again", "To reproduce"}, ANSWER = {"answer", "The answer"},
-                       CITE = {"cite", "How to cite"};
+enum { NAME_SIZE = 300, SENTENCE_SIZE = 8 * RUN_WARNING_SIZE, ANSWER_BYTES_MAX = 1 << 22 };
+enum { ROWS_MAX = 500, RANKED_MAX = 30, VALUES_SHOWN = 14, FIGURES_MAX = 20 };
 
 typedef struct SweepSource {
     const char *folder;
@@ -46,6 +33,8 @@ typedef struct SweepSource {
     char title[RUN_TITLE_SIZE];
     int32_t done, failed;   // of table.rows
     RunSource run;   // of the first point that is done, or none
+    struct dirent **figures;   // [figure_count] descriptions in its folder of figures
+    int figure_count;   // -1: there is no such folder
 } SweepSource;
 
 static bool varies(const CsvTable *table, int32_t column)
@@ -76,12 +65,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+static int is_description(const struct dirent *entry)
+{
+    return text_ends_with(entry->d_name, ".json");
+}
+
 static void sweep_close(SweepSource *sweep)
 {
     csv_destroy(&sweep->table);
     csv_destroy(&sweep->ranking);
     memory_free_all(sweep->is_key, sweep->varies);
     run_source_close(&sweep->run);
+    for (int k = 0; k < sweep->figure_count; ++k) free(sweep->figures[k]);
+    free(sweep->figures);
     *sweep = (SweepSource){0};
 }
 
@@ -89,6 +85,8 @@ static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
 {
     char path[PATH_MAX];
     *sweep = (SweepSource){.folder = folder};
+    snprintf(path, sizeof path, "%s/figures", folder);
+    sweep->figure_count = scandir(path, &sweep->figures, is_description, alphasort);
     snprintf(path, sizeof path, "%s/sweep.csv", folder);
     TRY(csv_read(path, &sweep->table, err));
     TRY(sweep->is_key = NEW_ARRAY(bool, sweep->table.columns, err));
@@ -135,9 +133,9 @@ static void write_values(HtmlWriter *html, const CsvTable *table, int32_t column
     }
 }
 
-static void write_varied(HtmlWriter *html, const SweepSource *sweep)
+static bool write_varied(HtmlWriter *html, PageSource *source, Error *err)
 {
-    sheet_part(html, &VARIED);
+    const SweepSource *sweep = source->sweep;
     html_markup(html, "<div class='wide'><table><caption>Keys of the scene that differ from point "
                       "to point</caption><tbody>\n");
     for (int32_t k = 0; k < sweep->table.columns; ++k) {
@@ -147,49 +145,40 @@ static void write_varied(HtmlWriter *html, const SweepSource *sweep)
         html_markup(html, "</td></tr>\n");
     }
     html_markup(html, "</tbody></table></div>\n");
+    return error_is_clean(err);
 }
 
 // --- figures -------------------------------------------------------------------------------------
 
-static int is_description(const struct dirent *entry)
+static bool write_figures(HtmlWriter *html, PageSource *source, Error *err)
 {
-    return text_ends_with(entry->d_name, ".json");
-}
-
-static bool write_figures(HtmlWriter *html, const SweepSource *sweep, Error *err)
-{
-    char folder[PATH_MAX], path[2 * PATH_MAX], caption[RUN_NAME_SIZE];
-    struct dirent **entries = NULL;
+    const SweepSource *sweep = source->sweep;
+    char path[PATH_MAX], caption[RUN_NAME_SIZE];
     RenderPlotHtmlFunction render =
         (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);
-    snprintf(folder, sizeof folder, "%s/figures", sweep->folder);
-    int count = render ? scandir(folder, &entries, is_description, alphasort) : 0;
-    if (count > 0) sheet_part(html, &FIGURES);
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; render && k < sweep->figure_count && k < FIGURES_MAX; ++k) {
         Error here = {0};
-        bool ranking = strcmp(entries[k]->d_name, "ranking.json") == 0;
-        snprintf(path, sizeof path, "%s/%s", folder, entries[k]->d_name);
+        const char *name = sweep->figures[k]->d_name;
+        bool ranking = strcmp(name, "ranking.json") == 0;
+        snprintf(path, sizeof path, "%s/figures/%s", sweep->folder, name);
         snprintf(caption, sizeof caption, "%s",
                  ranking ? "The ranking. Bars: 95 %. Open marks: see the legend."
                          : "The points of the sweep. Bars: 95 %. Open marks: see the legend.");
-        if (k < FIGURES_MAX && !render(path, caption, html, &here))
-            sheet_box(html, "failure", here.message);
-        free(entries[k]);
+        if (!render(path, caption, html, &here)) sheet_box(html, "failure", here.message);
     }
-    if (count >= 0) free(entries);
     return error_is_clean(err);
 }
 
 // --- of a search ---------------------------------------------------------------------------------
 
 // Its answer in words, and a picture of the best design's mesh.
-static bool write_answer(HtmlWriter *html, const SweepSource *sweep, Error *err)
+static bool write_answer(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const SweepSource *sweep = source->sweep;
     char path[PATH_MAX], *text = NULL, *picture = NULL;
     int32_t size = 0;
     if (!folder_holds(sweep->folder, "answer.txt", path)) return true;
     TRY(text_file_read(path, ANSWER_BYTES_MAX, &text, &size, err));
-    sheet_part(html, &ANSWER);
     html_around(html, "<pre tabindex='0'>", text, "</pre>\n");
     if (!folder_holds(sweep->folder, "figures/best.png", path)) goto cleanup;
     TRY(text_file_read(path, ANSWER_BYTES_MAX, &picture, &size, err));
@@ -271,18 +260,21 @@ static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTab
     html_markup(html, "</tbody></table></div>\n");
 }
 
-static void write_tables(HtmlWriter *html, const SweepSource *sweep)
+static bool write_ranking(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const SweepSource *sweep = source->sweep;
+    int32_t rows = sweep->ranking.rows, shown = rows < RANKED_MAX ? rows : RANKED_MAX;
     char caption[160];
-    if (sweep->ranking.columns > 0) {
-        int32_t rows = sweep->ranking.rows, shown = rows < RANKED_MAX ? rows : RANKED_MAX;
-        sheet_part(html, &RANKING);
-        snprintf(caption, sizeof caption, "%d of %d points in order; all in ranking.csv", shown,
-                 rows);
-        write_table(html, sweep, &sweep->ranking, RANKED_MAX, caption);
-    }
+    snprintf(caption, sizeof caption, "%d of %d points in order; all in ranking.csv", shown, rows);
+    write_table(html, sweep, &sweep->ranking, RANKED_MAX, caption);
+    return error_is_clean(err);
+}
+
+static bool write_points(HtmlWriter *html, PageSource *source, Error *err)
+{
+    const SweepSource *sweep = source->sweep;
     int32_t rows = sweep->table.rows, shown = rows < ROWS_MAX ? rows : ROWS_MAX;
-    sheet_part(html, &POINTS);
+    char caption[160];
     snprintf(caption, sizeof caption,
              "%d of %d points, with \u00b1 where there is an error bar; more columns in sweep.csv",
              shown, rows);
@@ -291,6 +283,7 @@ static void write_tables(HtmlWriter *html, const SweepSource *sweep)
                     "<p class='note'>mu in the digits that finer meshes keep as a rule; "
                     "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
     write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
+    return error_is_clean(err);
 }
 
 // --- failures and warnings -----------------------------------------------------------------------
@@ -331,11 +324,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool write_doubts(HtmlWriter *html, const SweepSource *sweep, Error *err)
+static bool write_doubts(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const SweepSource *sweep = source->sweep;
     const CsvTable *table = &sweep->table;
     int32_t status = csv_column(table, "status"), message = csv_column(table, "message");
-    sheet_part(html, &DOUBTS);
     if (sweep->failed > 0) {
         html_markup(html, "<div class='wide'><table><caption>Points that failed</caption><thead>"
                           "<tr><th scope='col'>point</th><th scope='col'>why</th></tr></thead>"
@@ -373,58 +366,52 @@ static void write_lead(HtmlWriter *html, const SweepSource *sweep)
     sheet_box(html, "failure", words);
 }
 
-static bool write_again(HtmlWriter *html, const SweepSource *sweep, Error *err)
+static bool write_scene(HtmlWriter *html, PageSource *source, Error *err)
 {
-    if (sweep->run.json) {
-        sheet_part(html, &SCENE);
-        html_markup(html, "<p>That of the first point that is done; the others differ in the keys "
-                          "above.</p>\n");
-        scene_summary_write(html, &sweep->run);
-        if (!scene_text_write(html, &sweep->run, err)) return false;
-    }
-    const char *command = folder_holds(sweep->folder, "fit.csv", NULL)      ? "fit"
-                          : folder_holds(sweep->folder, "answer.txt", NULL) ? "optimise"
-                                                                            : "sweep";
-    sheet_part(html, &AGAIN);
+    html_markup(html, "<p>That of the first point that is done; the others differ in the keys "
+                      "above.</p>\n");
+    return scene_write(html, source, err);
+}
+
+static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
+{
+    const char *folder = source->sweep->folder;
+    const char *command = folder_holds(folder, "fit.csv", NULL)      ? "fit"
+                          : folder_holds(folder, "answer.txt", NULL) ? "optimise"
+                                                                     : "sweep";
     html_markup(html,
                 "<p>The study\u2019s file is not kept with its results. With it, and the same "
                 "version, each point has the same bits again:</p>\n<pre tabindex='0'>amontons "
                 "%s STUDY.yaml -o again\n</pre>\n<p>The scene of each point stands in its "
                 "points/.../run.json, which sweep.csv names.</p>\n",
                 command);
-    return true;
+    return error_is_clean(err);
 }
 
 bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
 {
     SweepSource sweep = {0};
+    PageSource source = {.runs = &sweep.run, .count = 1, .sweep = &sweep};
     SheetPart parts[10] = {0};
     int32_t count = 0;
-    char version[40] = "";
+    bool search = folder_holds(folder, "answer.txt", NULL);
     TRY(sweep_open(folder, &sweep, err));
-    if (folder_holds(folder, "answer.txt", NULL)) parts[count++] = ANSWER;
-    parts[count++] = VARIED;
-    if (folder_holds(folder, "figures", NULL)) parts[count++] = FIGURES;
-    if (sweep.ranking.columns > 0) parts[count++] = RANKING;
-    parts[count++] = POINTS;
-    parts[count++] = DOUBTS;
-    if (sweep.run.json) parts[count++] = SCENE;
-    parts[count++] = AGAIN;
-    parts[count++] = CITE;
-    parts[count] = (SheetPart){0};
+    if (search) parts[count++] = (SheetPart){"answer", "The answer", write_answer};
+    parts[count++] = (SheetPart){"varied", "What varies", write_varied};
+    if (sweep.figure_count > 0) parts[count++] = (SheetPart){"figures", "Figures", write_figures};
+    if (sweep.ranking.columns > 0)
+        parts[count++] = (SheetPart){"ranking", "Ranking", write_ranking};
+    parts[count++] = (SheetPart){"points", "All points", write_points};
+    parts[count++] = (SheetPart){"doubts", "Failures and warnings", write_doubts};
+    if (sweep.run.json) parts[count++] = (SheetPart){"scene", "A scene", write_scene};
+    parts[count++] = (SheetPart){"again", "To reproduce", write_again};
+    parts[count] = SHEET_CITE;
     sheet_begin(html, sweep.title,
-                folder_holds(folder, "answer.txt", NULL) ? "Report of a search, by amontons"
-                                                         : "Report of a sweep, by amontons",
+                search ? "Report of a search, by amontons" : "Report of a sweep, by amontons",
                 parts);
     write_lead(html, &sweep);
-    TRY(write_answer(html, &sweep, err));
-    write_varied(html, &sweep);
-    TRY(write_figures(html, &sweep, err));
-    write_tables(html, &sweep);
-    TRY(write_doubts(html, &sweep, err));
-    TRY(write_again(html, &sweep, err));
-    if (sweep.run.json) json_find_text(sweep.run.json, "version", version, sizeof version);
-    sheet_end(html, version);
+    TRY(sheet_parts(html, parts, &source, err));
+    sheet_end(html, sweep.run.json);
 cleanup:
     sweep_close(&sweep);
     return error_is_clean(err);

@@ -106,11 +106,6 @@ Answers answers_of(const Drops *drops)
     return answers;
 }
 
-bool answers_are_known(const Drops *drops)
-{
-    return answers_of(drops).enough;
-}
-
 // --- run.json -----------------------------------------------------------------------------------
 
 // Of the drops of one kind that count; by the number of pads that slid, then the lowest first.
@@ -123,13 +118,8 @@ static void write_branches(const Drops *drops, DropKind kind, int32_t first, dou
     for (int32_t k = 0; k < count;) {
         SeriesBranch branch;
         k = series_branch(drops->series, count, k, tolerance, &branch);
-        json_begin_object(json, NULL);
-        json_number(json, "mu", branch.mean);
-        json_number(json, "low", branch.low);
-        json_number(json, "high", branch.high);
-        json_integer(json, "pads", branch.kind);
-        json_integer(json, "count", branch.count);
-        json_end(json);
+        json_object_of(json, NULL, {"mu", branch.mean}, {"low", branch.low}, {"high", branch.high},
+                       {"pads", branch.kind}, {"count", branch.count});
     }
     json_end(json);
 }
@@ -149,12 +139,11 @@ void answers_write_peaks(const Answers *answers, const Drops *drops, double leng
         if (!drops->list[k].bulk) continue;
         Drop peak = drops_as(drops, DROP_BULK, k);
         json_begin_object(json, NULL);
-        json_number(json, "U", peak.U);
-        json_number(json, "mu", peak.mu);
+        json_numbers_of(json, {"U", peak.U}, {"mu", peak.mu});
         json_boolean(json, "counts", k >= answers->first);
-        json_number(json, "l_sc_over_L", peak.front_uncertified / length);
-        json_number(json, "l_c_over_L", peak.critical_length / length);
-        json_number(json, "l_c_growth_over_L", peak.front_growth / length);
+        json_numbers_of(json, {"l_sc_over_L", peak.front_uncertified / length},
+                        {"l_c_over_L", peak.critical_length / length},
+                        {"l_c_growth_over_L", peak.front_growth / length});
         if (is_in_space(drops)) json_number(json, "A_c_over_A", peak.critical_part);
         json_end(json);
     }
@@ -167,12 +156,8 @@ static void write_list(const Drops *drops, DropKind kind, const char *key, JsonW
     for (int32_t k = 0; k < drops->count; k++) {
         if (!drop_is(&drops->list[k], kind)) continue;
         Drop drop = drops_as(drops, kind, k);
-        json_begin_object(json, NULL);
-        json_number(json, "U", drop.U);
-        json_number(json, "mu", drop.mu);
-        json_number(json, "mu_after", drop.mu_after);
-        json_integer(json, "pads", drop.pads);
-        json_end(json);
+        json_object_of(json, NULL, {"U", drop.U}, {"mu", drop.mu}, {"mu_after", drop.mu_after},
+                       {"pads", drop.pads});
     }
     json_end(json);
 }
@@ -181,12 +166,11 @@ static void write_list(const Drops *drops, DropKind kind, const char *key, JsonW
 static void write_drops(const Answers *answers, const Drops *drops, JsonWriter *json)
 {
     json_begin_object(json, "drops");
-    json_number(json, "least_drop", LEAST_DROP);
-    json_integer(json, "period", answers->regime.period);
-    json_integer(json, "counted", answers->regime.count);
+    json_numbers_of(json, {"least_drop", LEAST_DROP}, {"period", answers->regime.period},
+                    {"counted", answers->regime.count});
     json_boolean(json, "enough", answers->enough);
-    json_number(json, "mean", answers->mu_drops.value);
-    json_number(json, "mean_error", answers->mu_drops.error);
+    json_numbers_of(json, {"mean", answers->mu_drops.value},
+                    {"mean_error", answers->mu_drops.error});
     write_branches(drops, DROP_LOAD, answers->first,
                    answers->regime.period > 0 ? drops->tolerance : (double)INFINITY, json);
     write_list(drops, DROP_LOAD, "list", json);
@@ -198,8 +182,7 @@ static void write_run_in(const Regime *regime, JsonWriter *json)
     json_begin_object(json, "run_in");
     json_boolean(json, "over", regime->run_in == RUN_IN_OVER);
     json_text(json, "state", run_in_name(regime->run_in));
-    json_number(json, "drift", regime->drift);
-    json_number(json, "drops_left", regime->drops_left);
+    json_numbers_of(json, {"drift", regime->drift}, {"drops_left", regime->drops_left});
     json_end(json);
 }
 
@@ -215,9 +198,8 @@ static double lowest_pad_sliding(const Drops *drops)
 
 void error_parts_write(const ErrorParts *parts, JsonWriter *json)
 {
-    json_number(json, "mesh", parts->mesh);
-    json_number(json, "branches", parts->branches);
-    json_number(json, "drops", parts->drops);
+    json_numbers_of(json, {"mesh", parts->mesh}, {"branches", parts->branches},
+                    {"drops", parts->drops});
 }
 
 static void write_parts(JsonWriter *json, const char *name, const ErrorParts *parts)
@@ -229,25 +211,21 @@ static void write_parts(JsonWriter *json, const char *name, const ErrorParts *pa
 
 void answers_write_json(const Answers *answers, const Drops *drops, double length, JsonWriter *json)
 {
-    json_number(json, "mu_M", answers->mu_M.value);
-    json_number(json, "mu_M_error", answers->mu_M.error);
+    json_numbers_of(json, {"mu_M", answers->mu_M.value}, {"mu_M_error", answers->mu_M.error});
     write_parts(json, "mu_M_error_parts", &answers->mu_M_parts);
-    json_number(json, "mu_M_known_to", answers->mu_M_known_to);
-    json_number(json, "mu_M_spread", answers->mu_M_spread);
-    json_number(json, "mu_M_low", answers->mu_M_low);
-    json_number(json, "mu_M_high", answers->mu_M_high);
-    json_integer(json, "mu_M_peaks", answers->peaks_counted);
+    json_numbers_of(json, {"mu_M_known_to", answers->mu_M_known_to},
+                    {"mu_M_spread", answers->mu_M_spread}, {"mu_M_low", answers->mu_M_low},
+                    {"mu_M_high", answers->mu_M_high}, {"mu_M_peaks", answers->peaks_counted});
     json_boolean(json, "periodic", answers->period > 0);
     json_integer(json, "period", answers->period);
     write_branches(drops, DROP_BULK, answers->first, drops->tolerance, json);
-    json_number(json, "mu_hold", answers->mu_hold.value);
-    json_number(json, "mu_hold_error", answers->mu_hold.error);
+    json_numbers_of(json, {"mu_hold", answers->mu_hold.value},
+                    {"mu_hold_error", answers->mu_hold.error});
     write_parts(json, "mu_hold_error_parts", &answers->mu_hold_parts);
-    json_number(json, "mu_hold_known_to", answers->mu_hold_known_to);
-    json_number(json, "mu_max", answers->mu_max);
-    json_number(json, "mu_max_known_to", answers->mu_max_known_to);
-    json_number(json, "l_sc_over_L", answers->subcritical_length / length);
-    json_number(json, "l_c_over_L", answers->critical_length / length);
+    json_numbers_of(json, {"mu_hold_known_to", answers->mu_hold_known_to},
+                    {"mu_max", answers->mu_max}, {"mu_max_known_to", answers->mu_max_known_to},
+                    {"l_sc_over_L", answers->subcritical_length / length},
+                    {"l_c_over_L", answers->critical_length / length});
     if (is_in_space(drops)) json_number(json, "A_c_over_A", answers->critical_part);
     answers_write_peaks(answers, drops, length, json);
     write_drops(answers, drops, json);

@@ -26,7 +26,8 @@ enum { ERROR_BAR = 2 };
 typedef struct Answers {
     Regime regime;   // of the load drops
     int32_t first;   // number in drops->list of the first drop that counts
-    bool enough;   // run-in is over, and load drops repeat or 30 and more have a mean known to 2 %
+    bool enough;   // more drops would tell nothing new: run-in is over, and they repeat or 30 and
+        // more have a mean known to 2 %
     bool steady;   // mu_M is that of steady sliding (record/steady)
     Estimate mu_M;   // error: twice the standard error
     ErrorParts mu_M_parts, mu_hold_parts;   // of the errors
@@ -46,7 +47,6 @@ typedef struct Answers {
 } Answers;
 
 Answers answers_of(const Drops *drops);
-bool answers_are_known(const Drops *drops);   // more drops would tell nothing new: `enough`
 
 void error_parts_write(const ErrorParts *parts, JsonWriter *json);   // into the open object
 

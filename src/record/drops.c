@@ -55,21 +55,15 @@ void drops_destroy(Drops *drops)
 static bool push_drop(Drops *drops, Error *err)
 {
     int32_t room = drops->room, size = state_size(drops);
-    SeriesItem *series =
-        memory_grow(drops->series, drops->count, &room, sizeof *drops->series, err);
-    if (!series) return false;
-    drops->series = series;
-    if (room > drops->room) {
-        double *states = memory_resize(drops->states, (int64_t)(drops->room + 1) * size,
-                                       (int64_t)(room + 1) * size, sizeof *drops->states, err);
-        if (!states) return false;
-        drops->states = states;
-    }
-    Drop *list = memory_grow(drops->list, drops->count, &drops->room, sizeof *drops->list, err);
-    if (!list) return false;
-    drops->list = list;
+    if (!memory_grow(&drops->series, drops->count, &room, sizeof *drops->series, err)) return false;
+    if (room > drops->room &&
+        !memory_resize(&drops->states, (int64_t)(drops->room + 1) * size,
+                       (int64_t)(room + 1) * size, sizeof *drops->states, err))
+        return false;
+    if (!memory_grow(&drops->list, drops->count, &drops->room, sizeof *drops->list, err))
+        return false;
     drops->rising.state = drops->count;
-    list[drops->count++] = drops->rising;
+    drops->list[drops->count++] = drops->rising;
     drops->rising = NOTHING_SEEN;
     return true;
 }
@@ -180,14 +174,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
 
 bool drop_is(const Drop *drop, DropKind kind)
 {
-    switch (kind) {
-    case DROP_BULK:
-        return drop->bulk;
-    case DROP_LOAD:
-        return drop->load;
-    default:
-        return drop->pads > 0;
-    }
+    return kind == DROP_BULK ? drop->bulk : kind == DROP_LOAD ? drop->load : drop->pads > 0;
 }
 
 int32_t drops_count(const Drops *drops, DropKind kind)

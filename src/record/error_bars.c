@@ -108,25 +108,17 @@ static double drops_part(const Level *level, AnswerKind kind)
 
 static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 {
-    if (level < 1) return NAN;
     return fabs(level_value(&levels->list[level], kind) -
                 level_value(&levels->list[level - 1], kind));
-}
-
-// Nodes along the contact of the coarsest level that has such an answer; 0: none has.
-static double coarsest_nodes(const Levels *levels, AnswerKind kind)
-{
-    for (int32_t l = 0; l < levels->count; l++)
-        if (is_known(&levels->list[l], kind)) return levels->list[l].nodes_along;
-    return 0;
 }
 
 // The last level alone has an answer, or it is one that does not count: of the error that its mesh
 // leaves nothing is known.
 static bool is_alone(const Levels *levels, AnswerKind kind)
 {
-    const Level *last = &levels->list[levels->count - 1];
-    return !is_known(last, kind) || last->nodes_along == coarsest_nodes(levels, kind);
+    const Level *first = levels->list, *last = &first[levels->count - 1];
+    while (first < last && !is_known(first, kind)) first++;
+    return !is_known(last, kind) || first->nodes_along == last->nodes_along;
 }
 
 // Half a cell where a node went from rest to fast slip at once.

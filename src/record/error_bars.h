@@ -59,8 +59,8 @@ typedef struct Level {
 
 // A run that time or the caller ended before its answer was known. It has no part in any bar.
 typedef struct LevelCut {
-    int32_t mesh, run;   // from 1; 0: none was
-    int32_t contact_nodes;   // 0: there was no mesh yet
+    double mesh, run;   // numbers of both, from 1; 0: none was
+    double contact_nodes;   // 0: there was no mesh yet
     double U, part;   // reached, length; over the longest way that it may go; NaN: no step yet
     double mu_M, mu_hold;   // so far; NaN: none
 } LevelCut;

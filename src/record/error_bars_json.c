@@ -23,8 +23,7 @@ static void write_bars(const ErrorBar answer[ANSWER_KINDS], JsonWriter *json)
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++) {
         const ErrorBar *bar = &answer[kind];
         json_begin_object(json, ANSWER_NAMES[kind]);
-        json_number(json, "value", bar->value);
-        json_number(json, "bar", bar->bar);
+        json_numbers_of(json, {"value", bar->value}, {"bar", bar->bar});
         error_parts_write(&bar->parts, json);
         json_end(json);
     }
@@ -36,11 +35,9 @@ static void write_runs(const Level *level, JsonWriter *json)
     for (int32_t k = 0; k < level->run_count; k++) {
         const LevelRun *run = &level->runs[k];
         json_begin_object(json, NULL);
-        json_number(json, "pressure", run->pressure);
-        json_number(json, "mu_M", run->answer[ANSWER_MU_M].value);
-        json_number(json, "mu_hold", run->answer[ANSWER_MU_HOLD].value);
-        json_integer(json, "peaks", run->peaks);
-        json_integer(json, "period", run->period);
+        json_numbers_of(json, {"pressure", run->pressure}, {"mu_M", run->answer[ANSWER_MU_M].value},
+                        {"mu_hold", run->answer[ANSWER_MU_HOLD].value}, {"peaks", run->peaks},
+                        {"period", run->period});
         json_text(json, "run_in", run_in_name(run->run_in));
         json_integer(json, "steps", run->steps);
         json_end(json);
@@ -58,27 +55,19 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     json_begin_list(json, "branches");
     for (int32_t k = 0; k < count;) {
         k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
-        json_begin_object(json, NULL);
-        json_number(json, "mu", branch.mean);
-        json_number(json, "share", (double)branch.count / count);
-        json_end(json);
+        json_object_of(json, NULL, {"mu", branch.mean}, {"share", (double)branch.count / count});
     }
     json_end(json);
 }
 
-// Numbers of none are null.
+// Of none all are null.
 static void write_cut(const LevelCut *cut, JsonWriter *json)
 {
-    bool none = cut->mesh == 0;
-    json_begin_object(json, "cut");
-    json_number(json, "mesh", none ? (double)NAN : cut->mesh);
-    json_number(json, "run", none ? (double)NAN : cut->run);
-    json_number(json, "contact_nodes", none ? (double)NAN : cut->contact_nodes);
-    json_number(json, "U", none ? (double)NAN : cut->U);
-    json_number(json, "part", none ? (double)NAN : cut->part);
-    json_number(json, "mu_M", none ? (double)NAN : cut->mu_M);
-    json_number(json, "mu_hold", none ? (double)NAN : cut->mu_hold);
-    json_end(json);
+    static const LevelCut none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    if (cut->mesh == 0) cut = &none;
+    json_object_of(json, "cut", {"mesh", cut->mesh}, {"run", cut->run},
+                   {"contact_nodes", cut->contact_nodes}, {"U", cut->U}, {"part", cut->part},
+                   {"mu_M", cut->mu_M}, {"mu_hold", cut->mu_hold});
 }
 
 void levels_write_json(const Levels *levels, JsonWriter *json)
@@ -95,12 +84,10 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         json_begin_object(json, NULL);
-        json_number(json, "refine", level->refine);
-        json_integer(json, "contact_nodes", level->contact_nodes);
-        json_number(json, "seconds", level->seconds);
+        json_numbers_of(json, {"refine", level->refine}, {"contact_nodes", level->contact_nodes},
+                        {"seconds", level->seconds});
         json_boolean(json, "undamped", level->undamped);
-        json_number(json, "slip_cells", level->slip_cells);
-        json_number(json, "end_wait", level->end_wait);
+        json_numbers_of(json, {"slip_cells", level->slip_cells}, {"end_wait", level->end_wait});
         write_bars(level->answer, json);
         write_runs(level, json);
         json_end(json);

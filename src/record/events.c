@@ -20,24 +20,22 @@
 static const double RATE_START = 2, RATE_STOP = 1;
 enum { FIRST_ROOM = 64 };
 
+static const struct {
+    const char *name, *words;
+} KINDS[] = {
+#define X(symbol, name, words) {name, words},
+    EVENT_KINDS(X)
+#undef X
+};
+
 const char *event_name(EventKind kind)
 {
-    static const char *const names[] = {
-#define X(symbol, name, words) name,
-        EVENT_KINDS(X)
-#undef X
-    };
-    return names[kind];
+    return KINDS[kind].name;
 }
 
 const char *event_words(double stored)
 {
-    static const char *const words[] = {
-#define X(symbol, name, words) words,
-        EVENT_KINDS(X)
-#undef X
-    };
-    return stored >= 0 && stored < EVENT_LEADING + 1 ? words[(int32_t)stored] : "unknown";
+    return stored >= 0 && stored < EVENT_LEADING + 1 ? KINDS[(int32_t)stored].words : "unknown";
 }
 
 // rate_scale: the rod's velocity, or what stands for it (model/obtain, set_scales).
@@ -74,9 +72,7 @@ void events_destroy(Events *events)
 static bool start_event(Events *events, EventKind kind, const Observation *seen, int32_t *index,
                         Error *err)
 {
-    Event *list = memory_grow(events->list, events->count, &events->room, sizeof(Event), err);
-    if (!list) return false;
-    events->list = list;
+    if (!memory_grow(&events->list, events->count, &events->room, sizeof(Event), err)) return false;
     *index = events->count++;
     events->kinds[kind]++;
     events->list[*index] = (Event){.kind = kind,

@@ -16,98 +16,90 @@ static int32_t node_of(const FieldFiles *files, int64_t point)
     return point < nodes ? (int32_t)point : files->stress.extra_node[point - nodes];
 }
 
-// VTK's cells: offsets [cells + 1] into connectivity, and a type each. Third coordinates stay 0.
+// corners: of all cells. Third coordinates stay 0.
+static bool make_cells(int64_t points, int64_t cells, int64_t corners, FieldCells *made, Error *err)
+{
+    *made = (FieldCells){.point_count = points};
+    made->points = NEW_ARRAY(double, 3 * points, err);
+    made->offsets = NEW_ARRAY(int64_t, cells + 1, err);
+    made->connectivity = NEW_ARRAY(int64_t, corners, err);
+    made->types = NEW_ARRAY(uint8_t, cells, err);
+    return error_is_clean(err);
+}
+
 static bool fill_bulk_grid(FieldFiles *files, Error *err)
 {
     const Mesh *mesh = files->mesh;
-    int64_t cells = mesh->element_count;
-    int64_t corners = mesh->first_node[cells], points = files->stress.point_count;
-    files->points = NEW_ARRAY(double, 3 * points, err);
+    FieldCells *bulk = &files->bulk;
+    int32_t cells = mesh->element_count;
+    int64_t points = files->stress.point_count;
     files->vectors = NEW_ARRAY(double, 6 * points, err);
-    files->offsets = NEW_ARRAY(int64_t, cells + 1, err);
-    files->connectivity = NEW_ARRAY(int64_t, corners, err);
-    files->cell_types = NEW_ARRAY(uint8_t, cells, err);
-    if (!error_is_clean(err)) return false;
+    if (!make_cells(points, cells, mesh->first_node[cells], bulk, err)) return false;
     for (int64_t i = 0; i < points; i++) {
         int32_t node = node_of(files, i);
-        memcpy(files->points + 3 * i, mesh_place(mesh, node), (size_t)mesh->dim * sizeof(double));
+        memcpy(bulk->points + 3 * i, mesh_place(mesh, node), (size_t)mesh->dim * sizeof(double));
     }
     const int32_t *all = nodal_stress_points(&files->stress, mesh, 0);
-    for (int64_t e = 0; e <= cells; e++) files->offsets[e] = mesh->first_node[e];
-    for (int64_t e = 0; e < cells; e++) {
+    bulk->cell_count = cells;
+    for (int32_t e = 0; e < cells; e++) {
         ElementKind kind = (ElementKind)mesh->kind[e];
         int32_t first = mesh->first_node[e];
         for (int32_t k = 0; k < element_node_count(kind); k++)
-            files->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
-        files->cell_types[e] = element_info(kind)->vtk_type;
+            bulk->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
+        bulk->offsets[e + 1] = mesh->first_node[e + 1];
+        bulk->types[e] = ELEMENTS[kind].vtk_type;
     }
     return true;
 }
 
 enum { VTK_LINE_CELL = 3, VTK_TRIANGLE_CELL = 5, VTK_QUAD_CELL = 9, FACE_CELLS_MAX = 4 };
 
-// Room for the interface's cells.
-static bool make_line_grid(FieldFiles *files, int64_t cells, int32_t points_each, Error *err)
+// Of points by their numbers among those of a face; whole: in their order.
+static void add_cell(FieldCells *line, const int32_t *points, const uint8_t *which, int32_t count)
 {
-    int64_t count = files->line_point_count;
-    files->line_points = NEW_ARRAY(double, 3 * count, err);
-    files->line_values = NEW_ARRAY(double, 3 * FIELD_LINE_ARRAYS * count, err);
-    files->line_offsets = NEW_ARRAY(int64_t, cells + 1, err);
-    files->line_connectivity = NEW_ARRAY(int64_t, points_each * cells, err);
-    files->line_types = NEW_ARRAY(uint8_t, cells, err);
-    return error_is_clean(err);
-}
-
-static void add_face_cell(FieldFiles *files, const int32_t *points, const uint8_t *which,
-                          int32_t count)
-{
-    int32_t cell = files->line_count++;
-    int64_t first = files->line_offsets[cell];
-    for (int32_t k = 0; k < count; k++) files->line_connectivity[first + k] = points[which[k]];
-    files->line_offsets[cell + 1] = first + count;
-    files->line_types[cell] = count == 3 ? VTK_TRIANGLE_CELL : VTK_QUAD_CELL;
+    static const uint8_t types[] = {[2] = VTK_LINE_CELL, VTK_TRIANGLE_CELL, VTK_QUAD_CELL};
+    int64_t cell = line->cell_count++, first = line->offsets[cell];
+    for (int32_t k = 0; k < count; k++) line->connectivity[first + k] = points[which[k]];
+    line->offsets[cell + 1] = first + count;
+    line->types[cell] = types[count];
 }
 
 // VTK's polygons are flat and have corners only: faces with nodes between them are cut into four.
-static bool fill_face_grid(FieldFiles *files, const Interface *interface, Error *err)
+static void add_faces(const ContactFaces *faces, FieldCells *line)
 {
     static const uint8_t whole[] = {0, 1, 2, 3};
     static const uint8_t six[][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
     static const uint8_t nine[][4] = {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
-    const ContactFaces *faces = files->faces;
-    if (!make_line_grid(files, (int64_t)FACE_CELLS_MAX * faces->count, 4, err)) return false;
-    for (int32_t i = 0; i < files->line_point_count; i++) {
-        int32_t k = i - interface->contact_count;
-        files->line_points[3 * i] = k < 0 ? interface->x[i] : faces->corner[2 * k];
-        files->line_points[3 * i + 1] = k < 0 ? interface->y[i] : faces->corner[2 * k + 1];
-    }
     for (int32_t f = 0; f < faces->count; f++) {
         const int32_t *points = faces->point + (int64_t)f * faces->width;
         int32_t count = contact_face_points(faces, f);
-        if (count <= 4) add_face_cell(files, points, whole, count);
+        if (count <= 4) add_cell(line, points, whole, count);
         for (int32_t k = 0; k < FACE_CELLS_MAX && count == 6; k++)
-            add_face_cell(files, points, six[k], 3);
+            add_cell(line, points, six[k], 3);
         for (int32_t k = 0; k < FACE_CELLS_MAX && count == 9; k++)
-            add_face_cell(files, points, nine[k], 4);
+            add_cell(line, points, nine[k], 4);
     }
-    return true;
 }
 
 // In the plane one segment between neighbours of the same pad: gaps between pads stay gaps.
 static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error *err)
 {
-    int64_t count = interface->contact_count;
-    if (interface->y) return fill_face_grid(files, interface, err);
-    if (!make_line_grid(files, count, 2, err)) return false;
-    for (int32_t i = 0; i < count; i++) {
-        files->line_points[3 * i] = interface->x[i];
-        if (i == 0 || interface->pad[i] != interface->pad[i - 1]) continue;
-        int32_t line = files->line_count++;
-        files->line_connectivity[2 * line] = i - 1;
-        files->line_connectivity[2 * line + 1] = i;
-        files->line_offsets[line + 1] = 2 * (line + 1);
-        files->line_types[line] = VTK_LINE_CELL;
+    const ContactFaces *faces = files->faces;
+    FieldCells *line = &files->line;
+    int32_t count = interface->contact_count;
+    int64_t points = (int64_t)count + faces->corner_count;
+    int64_t cells = interface->y ? (int64_t)FACE_CELLS_MAX * faces->count : count;
+    files->line_values = NEW_ARRAY(double, 3 * FIELD_LINE_ARRAYS * points, err);
+    if (!make_cells(points, cells, 4 * cells, line, err)) return false;
+    for (int32_t i = 0; i < points; i++) {
+        const double *corner = i < count ? NULL : &faces->corner[2 * (i - count)];
+        line->points[3 * i] = corner ? corner[0] : interface->x[i];
+        if (interface->y) line->points[3 * i + 1] = corner ? corner[1] : interface->y[i];
     }
+    if (interface->y) add_faces(faces, line);
+    for (int32_t i = 1; i < count && !interface->y; i++)
+        if (interface->pad[i] == interface->pad[i - 1])
+            add_cell(line, (int32_t[]){i - 1, i}, (uint8_t[]){0, 1}, 2);
     return true;
 }
 
@@ -116,18 +108,36 @@ bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles
     *files = (FieldFiles){
         .mesh = mesh, .contact_count = interface->contact_count, .tangents = mesh->dim - 1};
     files->faces = &interface->faces;
-    files->line_point_count = interface->contact_count + files->faces->corner_count;
     return nodal_stress_create(mesh, &files->stress, err) && fill_bulk_grid(files, err) &&
            fill_line_grid(files, interface, err);
+}
+
+static void cells_destroy(FieldCells *cells)
+{
+    memory_free_all(cells->points, cells->offsets, cells->connectivity, cells->types);
 }
 
 void field_files_destroy(FieldFiles *files)
 {
     nodal_stress_destroy(&files->stress);
-    memory_free_all(files->points, files->vectors, files->offsets, files->connectivity,
-                    files->cell_types, files->line_points, files->line_values, files->line_offsets,
-                    files->line_connectivity, files->line_types);
+    cells_destroy(&files->bulk);
+    cells_destroy(&files->line);
+    memory_free_all(files->vectors, files->line_values);
     *files = (FieldFiles){0};
+}
+
+static FieldGrid grid_of(const FieldCells *cells, const FieldArray *arrays, int32_t count,
+                         double time)
+{
+    return (FieldGrid){.point_count = cells->point_count,
+                       .points = cells->points,
+                       .cell_count = cells->cell_count,
+                       .offsets = cells->offsets,
+                       .connectivity = cells->connectivity,
+                       .cell_types = cells->types,
+                       .time = time,
+                       .point_array_count = count,
+                       .point_arrays = arrays};
 }
 
 // state: [dim * nodes] displacement and velocity of the mesh. Three components, the last 0 in the
@@ -153,16 +163,9 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
         {.name = "stress_elastic", .components = strains, .values = files->stress.elastic},
         {.name = "stress", .components = strains, .values = files->stress.total},
         {.name = "von_mises", .components = 1, .values = files->stress.von_mises}};
-    FieldGrid grid = {.point_count = points,
-                      .points = files->points,
-                      .cell_count = mesh->element_count,
-                      .offsets = files->offsets,
-                      .connectivity = files->connectivity,
-                      .cell_types = files->cell_types,
-                      .time = state->time,
-                      .point_array_count = (int32_t)(sizeof arrays / sizeof arrays[0]),
-                      .point_arrays = arrays};
-    return field_file_write_vtu(path, &grid, err);
+    FieldGrid grid =
+        grid_of(&files->bulk, arrays, (int32_t)(sizeof arrays / sizeof arrays[0]), state->time);
+    return field_file_write(path, &grid, err);
 }
 
 // What belongs to a point: its own, and of a corner that touches nothing the mean of the points
@@ -212,20 +215,12 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
                                  {"shear", tangents},
                                  {"contact_density", 1}};
     FieldArray arrays[FIELD_LINE_ARRAYS];
-    int64_t count = files->line_point_count;
+    int64_t count = files->line.point_count;
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) {
         arrays[k] = line_array(files, rows[k].name, line, rows[k].columns,
                                files->line_values + 3 * k * count);
         line += rows[k].columns * (int64_t)files->contact_count;
     }
-    FieldGrid grid = {.point_count = count,
-                      .points = files->line_points,
-                      .cell_count = files->line_count,
-                      .offsets = files->line_offsets,
-                      .connectivity = files->line_connectivity,
-                      .cell_types = files->line_types,
-                      .time = time,
-                      .point_array_count = FIELD_LINE_ARRAYS,
-                      .point_arrays = arrays};
-    return field_file_write_vtp(path, &grid, err);
+    FieldGrid grid = grid_of(&files->line, arrays, FIELD_LINE_ARRAYS, time);
+    return field_file_write(path, &grid, err);
 }

@@ -16,23 +16,25 @@ static inline int32_t field_line_columns(int32_t tangents)
     return 3 * tangents + 3;
 }
 
+// Points and cells of a file as VTK wants them. Owned by FieldFiles.
+typedef struct FieldCells {
+    int64_t point_count, cell_count;
+    double *points;   // [point_count * 3]
+    int64_t *offsets, *connectivity;   // [cell_count + 1] into connectivity
+    uint8_t *types;   // [cell_count]
+} FieldCells;
+
 // What every time of a mesh shares, and room for one.
 typedef struct FieldFiles {
     const Mesh *mesh;   // not owned
     const Material *materials;   // not owned; the caller's to set, before the first file
     NodalStress stress;   // of the last .vtu; owned, like all that follows
-    double *points;   // [stress.point_count * 3]
-    double *vectors;   // [stress.point_count * 6] displacement, velocity
-    int64_t *offsets, *connectivity;
-    uint8_t *cell_types;
+    FieldCells bulk;   // of stress.point_count points
+    FieldCells line;   // contact nodes, and behind them corners of faces that touch nothing
+    double *vectors;   // [bulk points * 6] displacement, velocity
     const ContactFaces *faces;   // none in the plane; not owned
     int32_t contact_count, tangents;   // tangents: 1 in the plane, 2 in space
-    double *line_points;   // [line_point_count * 3] contact nodes, and behind them corners of faces
-        // that touch nothing
-    double *line_values;   // [FIELD_LINE_ARRAYS * line_point_count * 3] work
-    int64_t *line_offsets, *line_connectivity;
-    uint8_t *line_types;
-    int32_t line_point_count, line_count;
+    double *line_values;   // [FIELD_LINE_ARRAYS * line points * 3] work
 } FieldFiles;
 
 // Of the whole mesh. Nothing is owned.

@@ -20,33 +20,10 @@
 enum {
     PATH_SIZE = 1200,
     FIRST_ROOM = 64,
-    NAME_SIZE = 40,
     LIST_EVERY = 16   // times, where the writer never catches up
 };
 
 // --- the writer's thread -------------------------------------------------------------------------
-
-static void name_files(int32_t number, char bulk[NAME_SIZE - 8], char line[NAME_SIZE - 8])
-{
-    snprintf(bulk, NAME_SIZE - 8, "bulk_%06d.vtu", number);
-    snprintf(line, NAME_SIZE - 8, "interface_%06d.vtp", number);
-}
-
-static void add_entry(Fields *fields, double time, const char *part, const char *name)
-{
-    int32_t k = fields->entry_count++;
-    snprintf(fields->names[k], NAME_SIZE, "fields/%s", name);
-    fields->entries[k] = (FieldSeriesEntry){.time = time, .part = part, .file = fields->names[k]};
-}
-
-// Room is there already: a record that fails half way leaves the list as it was.
-static void add_time(Fields *fields, double time)
-{
-    char bulk[NAME_SIZE - 8], line[NAME_SIZE - 8];
-    name_files(fields->entry_count / 2, bulk, line);
-    add_entry(fields, time, "bulk", bulk);
-    add_entry(fields, time, "interface", line);
-}
 
 // The mesh in all times that wait: its modes, tens of megabytes, come from memory once for them.
 static bool recover_waiting(Fields *fields, int32_t slot, int32_t waiting, Error *err)
@@ -68,21 +45,21 @@ static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
 {
     Fields *fields = self;
     const FieldTimeCopy *copy = &fields->slots[slot];
-    char bulk[NAME_SIZE - 8], line[NAME_SIZE - 8], path[PATH_SIZE];
+    char path[PATH_SIZE];
     FieldState state = {
         .displacement = copy->whole[0], .velocity = copy->whole[1], .time = copy->time};
     double started = clock_seconds();
     if (fields->recovered == 0) TRY(recover_waiting(fields, slot, waiting, err));
     fields->recovered--;
-    name_files(fields->entry_count / 2, bulk, line);
-    snprintf(path, sizeof path, "%s/fields/%s", fields->folder, bulk);
+    int32_t number = fields->listed;
+    snprintf(path, sizeof path, "%s/fields/" FIELD_BULK_NAME, fields->folder, number);
     TRY(field_files_write_bulk(&fields->files, &state, path, err));
-    snprintf(path, sizeof path, "%s/fields/%s", fields->folder, line);
+    snprintf(path, sizeof path, "%s/fields/" FIELD_LINE_NAME, fields->folder, number);
     TRY(field_files_write_line(&fields->files, copy->line, copy->time, path, err));
-    add_time(fields, copy->time);
+    fields->times[fields->listed++] = copy->time;
     snprintf(path, sizeof path, "%s/fields.pvd", fields->folder);
-    if (waiting == 1 || fields->entry_count / 2 % LIST_EVERY == 0)
-        TRY(field_file_write_pvd(path, fields->entries, fields->entry_count, err));
+    if (waiting == 1 || fields->listed % LIST_EVERY == 0)
+        TRY(field_file_write_pvd(path, fields->times, fields->listed, err));
 cleanup:
     fields->seconds_beside += clock_seconds() - started;
     return error_is_clean(err);
@@ -99,9 +76,7 @@ bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
     *fields = (Fields){.def = *def, .folder = folder, .room = FIRST_ROOM};
     fields->next_U = fields->next_t = -INFINITY;   // the start is written in any case
     if (!field_files_create(mesh, interface, &fields->files, err)) return false;
-    fields->entries = NEW_ARRAY(FieldSeriesEntry, 2 * FIRST_ROOM, err);
-    fields->names = memory_array(2 * FIRST_ROOM, NAME_SIZE, err);
-    if (!fields->entries || !fields->names) return false;
+    if (!(fields->times = NEW_ARRAY(double, FIRST_ROOM, err))) return false;
     snprintf(path, sizeof path, "%s/fields", folder);
     return folder_make(path, err);
 }
@@ -111,7 +86,7 @@ void fields_destroy(Fields *fields)
     worker_destroy(fields->writer);
     for (int32_t k = 0; k < FIELD_SLOTS; k++) memory_free(fields->slots[k].storage);
     field_files_destroy(&fields->files);
-    memory_free_all(fields->entries, fields->names);
+    memory_free(fields->times);
     *fields = (Fields){0};
 }
 
@@ -144,23 +119,12 @@ static bool start_writer(Fields *fields, const Observation *seen, Error *err)
     return worker_create(&def, &fields->writer, err);
 }
 
-// Room for two more entries; their names stay where they are pointed to. The writer must be idle
-// where there is none.
+// For one more time. The writer must be idle where there is none.
 static bool make_room(Fields *fields, Error *err)
 {
-    if (fields->written + 1 <= fields->room) return true;
-    int64_t old = 2 * (int64_t)fields->room;
+    if (fields->written < fields->room) return true;
     if (!fields_flush(fields, err)) return false;
-    FieldSeriesEntry *entries =
-        memory_resize(fields->entries, old, 2 * old, sizeof(FieldSeriesEntry), err);
-    if (!entries) return false;
-    fields->entries = entries;
-    void *names = memory_resize(fields->names, old, 2 * old, NAME_SIZE, err);
-    if (!names) return false;
-    fields->names = names;
-    fields->room *= 2;
-    for (int32_t k = 0; k < fields->entry_count; k++) fields->entries[k].file = fields->names[k];
-    return error_is_clean(err);
+    return memory_grow(&fields->times, fields->written, &fields->room, sizeof(double), err);
 }
 
 // line: [field_line_columns][contact_count]; the law is asked here: a plug-in need not be safe
@@ -260,13 +224,13 @@ bool fields_archive(Fields *fields, Archive *archive, Error *err)
     archive_section(archive, "fields");
     archive_integer(archive, &written);
     archive_numbers_of(archive, &fields->next_U, &fields->next_t, &fields->slipped);
-    if (archive_reads(archive)) fields->written = fields->entry_count = 0;
+    if (archive_reads(archive)) fields->written = fields->listed = 0;
     for (int32_t k = 0; k < written && !archive->failed; k++) {
-        double time = archive_reads(archive) ? NAN : fields->entries[2 * k].time;
+        double time = archive_reads(archive) ? NAN : fields->times[k];
         archive_number(archive, &time);
         if (!archive_reads(archive) || !fields->folder) continue;
         if (!make_room(fields, err)) return false;
-        add_time(fields, time);
+        fields->times[fields->listed++] = time;
         fields->written++;
     }
     return true;

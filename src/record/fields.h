@@ -38,10 +38,8 @@ typedef struct Fields {
     FieldTimeCopy slots[FIELD_SLOTS];
     const BulkOperator *system;   // not owned; set with the writer
     int32_t recovered;   // the writer's: slots from the next on whose mesh is recovered
-    FieldSeriesEntry *entries;   // [entry_count]
-    char (*names)[40];   // [entry_count] file names the entries point to
-    int32_t entry_count;
-    int32_t room;   // times there is room for in the list
+    double *times;   // [listed] of the files that are written
+    int32_t listed, room;   // room: times there is room for
     int32_t written;   // times written or handed to the writer
     double seconds;   // wall time the run spent on them
     double seconds_beside;   // and the writer

@@ -13,9 +13,9 @@ typedef struct Place {
 
 static Place point_place(const Interface *interface, int32_t point)
 {
-    const double *corner = interface->faces.corner +
-                           2 * (int64_t)(point - interface->contact_count);
-    if (point < interface->contact_count) return (Place){interface->x[point], interface->y[point]};
+    int32_t touch = interface->contact_count;
+    if (point < touch) return (Place){interface->x[point], interface->y[point]};
+    const double *corner = interface->faces.corner + 2 * (int64_t)(point - touch);
     return (Place){corner[0], corner[1]};
 }
 

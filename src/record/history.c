@@ -20,17 +20,16 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     int32_t count = interface->contact_count;
     *history = (History){
         .contact = contact, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
-    history->row = NEW_ARRAY(double, count, err);
+    history->status = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     if (interface->line) history->line = NEW_ARRAY(double, count, err);
     history->pad_sums = NEW_ARRAY(PadSum, interface->pad_count, err);
-    history->pad_row = NEW_ARRAY(double, interface->pad_count, err);
+    history->pad_rows = NEW_ARRAY(double, RESULT_SERIES_COUNT * interface->pad_count, err);
     history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
-    for (int32_t i = 0; i < count; i++) {
-        history->pad[i] = interface->pad[i];
-        history->pad_length[interface->pad[i]] += interface->weight[i];
-    }
+    for (int32_t i = 0; i < count; i++) history->pad[i] = interface->pad[i];
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        history->pad_length[p] = pad_size(interface, p).weight;
     for (int32_t k = 0; interface->line && k < interface->line_count; k++)
         history->line[interface->line[k]] = 1;
     head->contact_count = count;
@@ -51,100 +50,84 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
 // A file that was not finished stays as history.h5.part, which render and info can read.
 void history_destroy(History *history)
 {
-    memory_free_all(history->row, history->pad, history->line, history->pad_sums, history->pad_row,
-                    history->pad_length);
+    memory_free_all(history->status, history->pad, history->line, history->pad_sums,
+                    history->pad_rows, history->pad_length);
     array_file_abandon(history->file);
     *history = (History){0};
 }
 
-// Of the whole block.
-static double series_value(const Observation *seen, ResultSeries series)
+// Numbers of the whole block; that of SERIES_ROD_WAY is there though it may not be written.
+static void fill_numbers(const Observation *seen, double *number)
 {
-    const double values[RESULT_SERIES_COUNT] = {[SERIES_TIME] = seen->t,
-                                                [SERIES_ROD] = seen->U,
-                                                [SERIES_ROD_WAY] = seen->rod_way,
-                                                [SERIES_MU] = seen->mu,
-                                                [SERIES_ROD_FORCE] = seen->rod_force,
-                                                [SERIES_NORMAL_FORCE] = seen->normal_force,
-                                                [SERIES_STEP] = seen->step_size,
-                                                [SERIES_FRONT] = seen->front,
-                                                [SERIES_MAX_SLIP_RATE] = seen->max_slip_rate,
-                                                [SERIES_CERTIFIED] = seen->certified,
-                                                [SERIES_ENERGY_ERROR] = seen->energy_imbalance};
-    return values[series];
+    number[SERIES_TIME] = seen->t;
+    number[SERIES_ROD] = seen->U;
+    number[SERIES_ROD_WAY] = seen->rod_way;
+    number[SERIES_MU] = seen->mu;
+    number[SERIES_ROD_FORCE] = seen->rod_force;
+    number[SERIES_NORMAL_FORCE] = seen->normal_force;
+    number[SERIES_STEP] = seen->step_size;
+    number[SERIES_FRONT] = seen->front;
+    number[SERIES_MAX_SLIP_RATE] = seen->max_slip_rate;
+    number[SERIES_CERTIFIED] = seen->certified;
+    number[SERIES_ENERGY_ERROR] = seen->energy_imbalance;
 }
 
-// Of all contact nodes; status as numbers, in history->row.
-static const double *node_values(const History *history, ResultSeries series)
+// row[s]: [pad_count] of each series of pads; their slip is the mean over nodes by weight.
+static void fill_pads(const History *history, const Observation *seen, double *const *row)
 {
+    const Interface *interface = seen->interface;
     const ContactArrays *contact = history->contact;
-    const double *const values[RESULT_SERIES_COUNT] = {[SERIES_SLIP_RATE] = contact->slip_rate,
-                                                       [SERIES_SLIP] = contact->slip,
-                                                       [SERIES_PRESSURE] = contact->pressure,
-                                                       [SERIES_SHEAR] = contact->shear,
-                                                       [SERIES_STATE] = contact->state};
-    if (values[series]) return values[series];
-    for (int32_t i = 0; i < contact->count; i++) history->row[i] = contact->status[i];
-    return history->row;
-}
-
-// Mean slip of pad p along the drive, 0, or across it, 1: of its nodes by weight.
-static double pad_slip(const History *history, const Interface *interface, int32_t p, int32_t c)
-{
-    const ContactArrays *contact = history->contact;
-    double slip = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        if (interface->pad[i] == p)
-            slip += interface->weight[i] / history->pad_length[p] *
-                    contact->slip[i * contact->tangents + c];
-    return slip;
-}
-
-static double pad_value(const History *history, const Observation *seen, ResultSeries series,
-                        int32_t p)
-{
-    const PadSum *sum = &history->pad_sums[p];
-    const double sums[RESULT_SERIES_COUNT] = {[SERIES_PAD_NORMAL] = sum->normal_force,
-                                              [SERIES_PAD_SHEAR] = sum->shear,
-                                              [SERIES_PAD_SHEAR_ACROSS] = sum->shear_across,
-                                              [SERIES_PAD_SLIPPING] = sum->slipping};
-    bool across = series == SERIES_PAD_SLIP_ACROSS;
-    return across || series == SERIES_PAD_SLIP ? pad_slip(history, seen->interface, p, across)
-                                               : sums[series];
-}
-
-// One series of one step.
-// `row` has as many entries as the series has columns: 1, the contact nodes (or their tangents) or
-// the pads.
-static bool append(History *history, const Observation *seen, ResultSeries series, Error *err)
-{
-    const double *row = history->row;
-    switch (result_series_columns(series)) {
-    case COLUMNS_ONE:
-        history->row[0] = history->end.last[series] = series_value(seen, series);
-        break;
-    case COLUMNS_NODES:
-        row = node_values(history, series);
-        break;
-    case COLUMNS_PADS:
-        for (int32_t p = 0; p < history->pad_count; p++)
-            history->pad_row[p] = pad_value(history, seen, series, p);
-        row = history->pad_row;
-        break;
+    pad_sums(seen, history->pad_sums);
+    for (int32_t p = 0; p < history->pad_count; p++) {
+        const PadSum *sum = &history->pad_sums[p];
+        row[SERIES_PAD_NORMAL][p] = sum->normal_force;
+        row[SERIES_PAD_SHEAR][p] = sum->shear;
+        row[SERIES_PAD_SHEAR_ACROSS][p] = sum->shear_across;
+        row[SERIES_PAD_SLIP][p] = row[SERIES_PAD_SLIP_ACROSS][p] = 0;
+        row[SERIES_PAD_SLIPPING][p] = sum->slipping;
     }
-    return array_file_append(history->file, result_series_name(series), row, 1, err);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t p = interface->pad[i];
+        double part = interface->weight[i] / history->pad_length[p];
+        const double *slip = &contact->slip[i * contact->tangents];
+        row[SERIES_PAD_SLIP][p] += part * slip[0];
+        if (contact->tangents > 1) row[SERIES_PAD_SLIP_ACROSS][p] += part * slip[1];
+    }
+}
+
+// row[s]: of each series, as many entries as it has columns: 1, the contact nodes (or their
+// tangents) or the pads.
+static void fill_rows(History *history, const Observation *seen, double *row[RESULT_SERIES_COUNT])
+{
+    const ContactArrays *contact = history->contact;
+    double *pads = history->pad_rows;
+    for (ResultSeries s = 0; s < RESULT_SERIES_COUNT; s++) {
+        row[s] = &history->end.last[s];
+        if (result_series_columns(s) != COLUMNS_PADS) continue;
+        row[s] = pads;
+        pads += history->pad_count;
+    }
+    fill_numbers(seen, history->end.last);
+    fill_pads(history, seen, row);
+    row[SERIES_SLIP_RATE] = contact->slip_rate;
+    row[SERIES_SLIP] = contact->slip;
+    row[SERIES_PRESSURE] = contact->pressure;
+    row[SERIES_SHEAR] = contact->shear;
+    row[SERIES_STATE] = contact->state;
+    row[SERIES_STATUS] = history->status;
+    for (int32_t i = 0; i < contact->count; i++) history->status[i] = contact->status[i];
 }
 
 // The time of a flush is not counted in `seconds`: it is the disk's.
 bool history_record(void *self, const Observation *seen, Error *err)
 {
     History *history = self;
-    double started = clock_seconds();
-    pad_sums(seen, history->pad_sums);
-    for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
-        if (!history->written[series]) continue;
-        if (!append(history, seen, series, err)) return false;
-    }
+    double started = clock_seconds(), *row[RESULT_SERIES_COUNT];
+    fill_rows(history, seen, row);
+    for (ResultSeries s = 0; s < RESULT_SERIES_COUNT; s++)
+        if (history->written[s] &&
+            !array_file_append(history->file, result_series_name(s), row[s], 1, err))
+            return false;
     history->end.rows++;
     double now = clock_seconds();
     history->seconds += now - started;
@@ -210,25 +193,18 @@ bool history_sync(History *history, Error *err)
     return !history->file || array_file_sync(history->file, err);
 }
 
-// A table is stored a column at a time. Peaks are the bulk slidings among the drops; how many.
-static int32_t peak_column(const Drops *drops, const Answers *answers, ResultTable table,
-                           double *column)
+// Entry number k of a table, of peaks or of events. false: that drop is no peak, a bulk sliding.
+static bool table_entry(const Drops *drops, const Answers *answers, int32_t k, ResultTable table,
+                        double *value)
 {
-    int32_t count = 0;
-    for (int32_t k = 0; k < drops->count; k++) {
-        if (!drop_is(&drops->list[k], DROP_BULK)) continue;
-        Drop peak = drops_as(drops, DROP_BULK, k);
-        column[count++] = table == PEAKS_U    ? peak.U
-                          : table == PEAKS_MU ? peak.mu
-                                              : k >= answers->first;
-    }
-    return count;
-}
-
-// Entry `table` of one event.
-static double event_column(const Event *event, ResultTable table)
-{
-    const double entries[RESULT_TABLES_COUNT] = {[EVENTS_KIND] = event->kind,
+    const Event *event = &drops->events->list[k];
+    bool of_peaks = table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
+    if (of_peaks && (k >= drops->count || !drop_is(&drops->list[k], DROP_BULK))) return false;
+    Drop peak = of_peaks ? drops_as(drops, DROP_BULK, k) : (Drop){0};
+    *value = (const double[RESULT_TABLES_COUNT]){[PEAKS_U] = peak.U,
+                                                 [PEAKS_MU] = peak.mu,
+                                                 [PEAKS_COUNTS] = k >= answers->first,
+                                                 [EVENTS_KIND] = event->kind,
                                                  [EVENTS_U_START] = event->U_start,
                                                  [EVENTS_U_STOP] = event->U_stop,
                                                  [EVENTS_T_START] = event->t_start,
@@ -236,13 +212,8 @@ static double event_column(const Event *event, ResultTable table)
                                                  [EVENTS_REACH] = event->reach,
                                                  [EVENTS_SLIPPED] = event->slipped,
                                                  [EVENTS_PEAK_RATE] = event->peak_slip_rate,
-                                                 [EVENTS_FRONT_SPEED] = event->front_speed};
-    return entries[table];
-}
-
-static bool is_peak_table(ResultTable table)
-{
-    return table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
+                                                 [EVENTS_FRONT_SPEED] = event->front_speed}[table];
+    return true;
 }
 
 // Tables of peaks and events, mu_M and l_c where there are any, then the file gets its final name.
@@ -253,12 +224,10 @@ bool history_finish(History *history, const Drops *drops, const Answers *answers
     double *column = NEW_ARRAY(double, events->count, err);
     if (!column) goto cleanup;
     for (ResultTable table = 0; table < RESULT_TABLES_COUNT; table++) {
-        int32_t count = events->count;
+        int32_t count = 0;
         if (table == EVENTS_SLIPPED && !events->in_space) continue;
-        if (is_peak_table(table))
-            count = peak_column(drops, answers, table, column);
-        else
-            for (int32_t k = 0; k < count; k++) column[k] = event_column(&events->list[k], table);
+        for (int32_t k = 0; k < events->count; k++)
+            count += table_entry(drops, answers, k, table, &column[count]);
         TRY(result_file_write_table(history->file, table, column, count, err));
     }
     if (!isnan(answers->mu_M.value))

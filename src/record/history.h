@@ -21,12 +21,12 @@ typedef struct History {
     bool written[RESULT_SERIES_COUNT];   // which series there are
     double seconds;   // wall time spent
     double flushed_at;   // wall time of the last flush, s
-    double *row;   // [contact_count] work; owned
+    double *status;   // [contact_count] as numbers, of the step under way; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned
     double *line;   // [contact_count] 1: of the contact's line; NULL in the plane; owned
     int32_t pad_count;
     PadSum *pad_sums;   // [pad_count] of the step under way; owned
-    double *pad_row;   // [pad_count] work; owned
+    double *pad_rows;   // [series of pads][pad_count] of it; owned
     double *pad_length;   // [pad_count] sum of the nodes' weights; owned
     const ContactArrays *contact;   // of the step under way; not owned
 } History;

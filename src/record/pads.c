@@ -148,25 +148,18 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
         const PadCycle *last = &pad->last;
         json_begin_object(json, NULL);
         json_text(json, "name", pad->name);
-        json_number(json, "x_from", pad->size.x_from);
-        json_number(json, "x_to", pad->size.x_to);
+        json_numbers_of(json, {"x_from", pad->size.x_from}, {"x_to", pad->size.x_to});
         if (pads->in_space) {
-            json_number(json, "y_from", pad->size.y_from);
-            json_number(json, "y_to", pad->size.y_to);
-            json_number(json, "area", pad->size.weight);
+            json_numbers_of(json, {"y_from", pad->size.y_from}, {"y_to", pad->size.y_to},
+                            {"area", pad->size.weight});
         }
-        json_integer(json, "nodes", pad->size.nodes);
-        json_number(json, "normal_force_start", pad->normal_force_start);
-        json_number(json, "normal_force_peak", last->normal_force);
-        json_number(json, "shear_peak", last->shear);
-        json_number(json, "U_first_slip", last->U_first_slip);
-        json_number(json, "U_detached", last->U_detached);
-        json_integer(json, "detachment_order", last->order);
-        json_number(json, "U_rapid", last->U_rapid);
-        json_number(json, "t_rapid", last->t_rapid);
-        json_number(json, "l_c", last->slow_length);
-        json_number(json, "l_c_over_length", last->slow_length / pad->length);
-        json_integer(json, "slidings", pad->slidings);
+        json_numbers_of(
+            json, {"nodes", pad->size.nodes}, {"normal_force_start", pad->normal_force_start},
+            {"normal_force_peak", last->normal_force}, {"shear_peak", last->shear},
+            {"U_first_slip", last->U_first_slip}, {"U_detached", last->U_detached},
+            {"detachment_order", last->order}, {"U_rapid", last->U_rapid},
+            {"t_rapid", last->t_rapid}, {"l_c", last->slow_length},
+            {"l_c_over_length", last->slow_length / pad->length}, {"slidings", pad->slidings});
         json_end(json);
     }
     json_end(json);

@@ -18,11 +18,6 @@ bool program_jumps(const RodCourse *course)
     return over->repeats && over->factor[over->count - 1] != over->factor[0];
 }
 
-ProgramReadings program_readings_of(const RodCourse *course)
-{
-    return (ProgramReadings){.course = course};
-}
-
 // --- what a stretch shows -----------------------------------------------------------------------
 
 // Of mu in the bins where slip is from `from` to `to`, and in the one before, as steps may be long.
@@ -226,6 +221,7 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
     (void)err;
     ProgramReadings *readings = self;
     ProgramStretch *now = &readings->now;
+    if (!readings->course) return true;
     while (readings->started && now->ends < seen->t * (1 - REACHED))
         begin_stretch(readings, now->ends);
     see_contact(readings, seen);

@@ -14,8 +14,8 @@
 //     slip distance   from there on until 1/e of what mu still has to go to the new level is left
 //     healing         the first peak of mu after a hold, less the level before the hold
 //
-// Errors add up what levels, velocities, slip so far and bins leave open. Made by run/ only where a
-// program has jumps (program_jumps); record/program_results says what they come to.
+// Errors add up what levels, velocities, slip so far and bins leave open. Only of a
+// program that jumps (program_jumps); record/program_results says what they come to.
 #ifndef AMONTONS_RECORD_PROGRAM_READINGS_H
 #define AMONTONS_RECORD_PROGRAM_READINGS_H
 
@@ -59,7 +59,7 @@ typedef struct ProgramStretch {
 } ProgramStretch;
 
 typedef struct ProgramReadings {
-    const RodCourse *course;   // not owned; NULL: nothing is read
+    const RodCourse *course;   // not owned; NULL: nothing is read. Set at the start, all else 0
     bool started;   // the first step was seen
     double mu, slip, U, off;   // of the step seen last; off: as in ProgramTop
     ProgramStretch now;
@@ -68,7 +68,6 @@ typedef struct ProgramReadings {
 } ProgramReadings;
 
 bool program_jumps(const RodCourse *course);   // its velocity does, somewhere
-ProgramReadings program_readings_of(const RodCourse *course);   // after start of its programs
 bool program_readings_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
 // Number k of those that are over, and of the one under way. false: there are no more.

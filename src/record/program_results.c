@@ -95,10 +95,8 @@ static void write_estimate(JsonWriter *json, const char *name, const char *error
 
 static void write_step(JsonWriter *json, const ProgramReading *reading)
 {
-    json_number(json, "t", reading->t);
-    json_number(json, "U", reading->U);
-    json_number(json, "velocity_before", reading->velocity_before);
-    json_number(json, "velocity", reading->velocity);
+    json_numbers_of(json, {"t", reading->t}, {"U", reading->U},
+                    {"velocity_before", reading->velocity_before}, {"velocity", reading->velocity});
     write_estimate(json, "mu_before", "mu_before_error", reading->before);
     write_estimate(json, "direct", "direct_error", reading->peak);
     write_estimate(json, "direct_per_ln", "direct_per_ln_error", direct_of(reading));
@@ -109,9 +107,7 @@ static void write_step(JsonWriter *json, const ProgramReading *reading)
 
 static void write_hold(JsonWriter *json, const ProgramReading *reading)
 {
-    json_number(json, "t", reading->t);
-    json_number(json, "U", reading->U);
-    json_number(json, "duration", reading->duration);
+    json_numbers_of(json, {"t", reading->t}, {"U", reading->U}, {"duration", reading->duration});
     write_estimate(json, "mu_before", "mu_before_error", reading->before);
     write_estimate(json, "healing", "healing_error", reading->peak);
 }

@@ -86,9 +86,8 @@ void steady_write_json(const Steady *steady, const Answers *answers, JsonWriter 
 {
     Estimate mu = steady_mu(steady);
     json_text(json, "mu_M_is", steady_words(steady, answers));
-    json_number(json, "mu_steady", mu.value);
-    json_number(json, "mu_steady_error", mu.error);
-    json_number(json, "mu_steady_from_U", isnan(mu.value) ? NAN : steady->from);
+    json_numbers_of(json, {"mu_steady", mu.value}, {"mu_steady_error", mu.error},
+                    {"mu_steady_from_U", isnan(mu.value) ? NAN : steady->from});
 }
 
 void steady_archive(Steady *steady, Archive *archive)

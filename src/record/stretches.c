@@ -2,6 +2,7 @@
 #include "record/stretches.h"
 
 #include "base/memory.h"
+#include "record/pad_sums.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,8 +25,7 @@ bool stretches_create(const Interface *interface, Stretches *stretches, Error *e
     stretches->nodes = NEW_ARRAY(double, nodes, err);
     if (!error_is_clean(err)) return false;
     for (int32_t p = 0; p < interface->pad_count; p++) {
-        int32_t own = 0, seen = 0;
-        for (int32_t i = 0; i < nodes; i++) own += interface->pad[i] == p;
+        int32_t own = pad_size(interface, p).nodes, seen = 0;
         if (own == 0) continue;
         int32_t parts = parts_of(own, nodes);
         for (int32_t i = 0; i < nodes; i++) {

@@ -7,11 +7,6 @@
 
 static const double ROUNDING = 1e-12;   // of the contact's breadth: what went no farther is held
 
-Turning turning_of(const ContactArrays *contact)
-{
-    return (Turning){.contact = contact};
-}
-
 static void keep_largest(double *largest, double value)
 {
     if (fabs(value) > fabs(*largest)) *largest = value;
@@ -71,12 +66,8 @@ double turning_share(const Turning *turning)
 
 void turning_write_json(const Turning *turning, JsonWriter *json)
 {
-    json_begin_object(json, "turning");
-    json_number(json, "angle", turning->angle);
-    json_number(json, "drift", turning->drift);
-    json_number(json, "across", turning->across);
-    json_number(json, "way", turning->way);
-    json_end(json);
+    json_object_of(json, "turning", {"angle", turning->angle}, {"drift", turning->drift},
+                   {"across", turning->across}, {"way", turning->way});
 }
 
 void turning_archive(Turning *turning, Archive *archive)

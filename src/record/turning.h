@@ -9,7 +9,7 @@
 #include "record/contact_arrays.h"
 
 typedef struct Turning {
-    const ContactArrays *contact;   // not owned
+    const ContactArrays *contact;   // not owned; set before the first step, all else 0
     // Since the start, each when it was largest in size:
     double angle;   // counter-clockwise seen from above, rad
     double drift;   // mean slip across the drive, length
@@ -18,7 +18,6 @@ typedef struct Turning {
     double breadth;   // of the contact, length
 } Turning;
 
-Turning turning_of(const ContactArrays *contact);
 bool turning_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
 // How far it took the block's sides along the drive, and the block across it, over the way along

@@ -42,7 +42,7 @@ bool basis_condense(const Basis *basis, const double *factor, double *schur, dou
                     bool *definite, Error *err);
 
 // Fills matrices, load and sizes of `part`, its modes where they are wanted. Turns Phi so that
-// its K is the unit matrix and its M tridiagonal; `basis` is of no use any more.
+// its K is the unit matrix and its M diagonal; `basis` is of no use any more.
 bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err);
 
 #endif

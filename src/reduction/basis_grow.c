@@ -227,10 +227,8 @@ static bool grow(double **a, int64_t size, int64_t new_size, Error *err)
 static bool append(double **a, int64_t rows, int64_t count, const double *columns, int64_t added,
                    Error *err)
 {
-    double *grown = memory_resize(*a, rows * count, rows * (count + added), sizeof *grown, err);
-    if (!grown) return false;
-    *a = grown;
-    memcpy(grown + rows * count, columns, (size_t)(rows * added) * sizeof *grown);
+    if (!memory_resize(a, rows * count, rows * (count + added), sizeof **a, err)) return false;
+    memcpy(*a + rows * count, columns, (size_t)(rows * added) * sizeof **a);
     return true;
 }
 

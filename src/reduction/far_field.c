@@ -16,24 +16,12 @@ void far_field_destroy(FarField *far)
     *far = (FarField){0};
 }
 
-// Modes z, in the place of M, with which M is diagonal and K/E is 1: eigenvectors y of
-// (L^-1 M L^-T) y = mass y, K/E = L L', and L^-T y.
-static bool rotate(double *stiffness, double *mass, int32_t q, Error *err)
-{
-    double *work = NEW_ARRAY(double, dense_eigen_work(q), err), *values = NEW_ARRAY(double, q, err);
-    if (!work || !values) goto cleanup;
-    if (!dense_cholesky(stiffness, q)) FAIL(err, ERROR_COMPUTE, "modes are not independent");
-    dense_divide_both_sides(stiffness, q, mass);
-    if (!dense_eigen(mass, q, values, work)) FAIL(err, ERROR_LIBRARY, "LAPACK: no modes");
-    dense_lower_divide_transposed(stiffness, q, q, mass);
-cleanup:
-    memory_free_all(work, values);
-    return error_is_clean(err);
-}
-
+// As modes with which K/E is 1 and M diagonal.
 static bool append_patch(const Bulk *mesh, const PatchModes *modes, Transform *by, Error *err)
 {
     int64_t q = modes->count, size = modes->size;
+    double *work = NEW_ARRAY(double, dense_eigen_work(modes->count), err);
+    double *values = NEW_ARRAY(double, q, err);
     double *stiffness = NEW_ARRAY(double, q *q, err), *mass = NEW_ARRAY(double, q *q, err);
     double *turned = NEW_ARRAY(double, size *q, err);
     if (!error_is_clean(err)) goto cleanup;
@@ -43,11 +31,12 @@ static bool append_patch(const Bulk *mesh, const PatchModes *modes, Transform *b
         for (int64_t i = 0; i < size; i++)
             turned[j * size + i] = mesh->mass[modes->dofs[i]] * modes->field[j * size + i];
     dense_multiply_transposed(field, whole, 1, 0, mass);
-    TRY(rotate(stiffness, mass, (int32_t)q, err));
+    if (!dense_eigen_pair(mass, stiffness, modes->count, values, work))
+        FAIL(err, ERROR_COMPUTE, "modes are not independent");
     dense_multiply(field, dense_view(mass, q, q), 1, 0, turned);
     dense_transpose(whole, transform_append(by, modes->dofs, modes->size, modes->count), q);
 cleanup:
-    memory_free_all(stiffness, mass, turned);
+    memory_free_all(work, values, stiffness, mass, turned);
     return error_is_clean(err);
 }
 

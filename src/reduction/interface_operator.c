@@ -113,19 +113,6 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
     }
 }
 
-void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const double *x,
-                              int64_t columns, double *y, double *work)
-{
-    const Bulk *bulk = system->bulk;
-    if (term == BULK_MASS) {
-        for (int64_t j = 0; j < columns; j++)
-            bulk_operator_apply(system, term, x + j * system->dof_count, y + j * system->dof_count);
-    } else {
-        sparse_apply_many(&bulk->pattern, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping,
-                          x, columns, y, work);
-    }
-}
-
 // Interior coordinates are orthonormal in K/E, so their length is a displacement's elastic size.
 double bulk_operator_size(const BulkOperator *system, const double *x)
 {
@@ -303,7 +290,9 @@ static void hash_numbers(Hash *hash, const double *numbers, int64_t count)
 static void hash_part(Hash *hash, const ReducedPart *part)
 {
     int64_t m = part->border_count, all = part->count;
-    hash_numbers(hash, part->mass, all * all);
+    hash_numbers(hash, part->mass, m * m);
+    hash_numbers(hash, part->coupling, (all - m) * m);
+    hash_numbers(hash, part->masses, all - m);
     hash_numbers(hash, part->damping, all * all);
     hash_numbers(hash, part->stiffness, m * m);
 }

@@ -48,10 +48,6 @@ void bulk_operator_destroy(BulkOperator *system);
 
 // y = K x, C x or M x; [dof_count]
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y);
-// Of many columns, [dof_count * columns]; full only. work: [dof_count * SPARSE_WIDE].
-void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const double *x,
-                              int64_t columns, double *y, double *work);
-
 // The size of a displacement, length, or of a velocity: the largest component on the full mesh; on
 // a reduced one the largest on the border or, if larger, sqrt(2 elastic energy / E) of the
 // interior.

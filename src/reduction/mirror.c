@@ -4,14 +4,14 @@
 #include "reduction/mirror.h"
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "reduction/mirror_nodes.h"
 
 #include <math.h>
 #include <string.h>
 
-// Of the diagonal entries of row and column, for rounding; where nodes have not been put together
-// yet, for what lies between them in the smallest cells.
-static const double ALIKE = 1e-9, NEARLY_ALIKE = 1e-3;
+// Of the diagonal entries of row and column, for rounding.
+static const double ALIKE = 1e-9;
 
 // More mirrored unknowns than this part of the interface: it lies on one side, and two parts gain
 // little.
@@ -66,8 +66,8 @@ static bool find_roots(Finder *find, Error *err)
     return error_is_clean(err);
 }
 
-// K, C and M are their own images across the last axis, but for `tolerance`.
-static bool is_alike(const Finder *find, double tolerance)
+// K, C and M are their own images across the last axis.
+static bool is_alike(const Finder *find)
 {
     int32_t last = find->axes - 1;
     const int32_t *image = find->image[last];
@@ -77,7 +77,7 @@ static bool is_alike(const Finder *find, double tolerance)
         int32_t across = image[j], first = pattern->start[across];
         int32_t end = pattern->start[across + 1];
         if (pattern->start[j + 1] - pattern->start[j] != end - first) return false;
-        if (!(fabs(bulk->mass[j] - bulk->mass[across]) <= tolerance * bulk->mass[j])) return false;
+        if (!(fabs(bulk->mass[j] - bulk->mass[across]) <= ALIKE * bulk->mass[j])) return false;
         for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
             int32_t row = pattern->index[k], at = first;
             while (at < end && pattern->index[at] != image[row]) at++;
@@ -85,8 +85,8 @@ static bool is_alike(const Finder *find, double tolerance)
             double sign = sign_of(find, last, row) * sign_of(find, last, j);
             double stiffness = fabs(bulk->stiffness[k] - sign * bulk->stiffness[at]);
             double damping = fabs(bulk->damping[k] - sign * bulk->damping[at]);
-            if (!(stiffness <= tolerance * find->root[0][row] * find->root[0][j] &&
-                  damping <= tolerance * find->root[1][row] * find->root[1][j]))
+            if (!(stiffness <= ALIKE * find->root[0][row] * find->root[0][j] &&
+                  damping <= ALIKE * find->root[1][row] * find->root[1][j]))
                 return false;
         }
     }
@@ -174,10 +174,9 @@ static void list_border(Finder *find, const int32_t *interface_dofs, int32_t m)
     }
 }
 
-// Finds the axes across which the bulk is its own image but for `tolerance`, and the interface not
-// on one side.
-static bool look(int32_t *const *node_image, const int32_t *interface_dofs, int32_t m,
-                 double tolerance, Finder *find, Error *err)
+// Finds the axes across which the bulk is its own image, and the interface not on one side.
+static bool look(int32_t *const *node_image, const int32_t *interface_dofs, int32_t m, Finder *find,
+                 Error *err)
 {
     int32_t dofs = find->bulk->dof_count, dim = find->bulk->dim;
     find->border = NEW_ARRAY(int32_t, (int64_t)REDUCED_PARTS_MAX * m, err);
@@ -192,30 +191,37 @@ static bool look(int32_t *const *node_image, const int32_t *interface_dofs, int3
         for (int32_t dof = 0; dof < dofs; dof++)
             image[dof] = node_dof(dim, node_image[axis][dof_node(dim, dof)], dof_axis(dim, dof));
         list_border(find, interface_dofs, m);
-        if (find->border_count - m > MIRRORED_MAX * m || !is_alike(find, tolerance)) find->axes--;
+        if (find->border_count - m > MIRRORED_MAX * m || !is_alike(find)) find->axes--;
     }
     list_border(find, interface_dofs, m);
     return true;
 }
 
-bool mirror_likely_parts(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
-                         int32_t m, int32_t *parts, Error *err)
+bool mirror_count_parts(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
+                        int32_t m, int32_t *parts, Error *err)
 {
     Finder find = {.bulk = bulk};
-    int32_t dim = bulk->dim, *image[AXES_MAX] = {0};
-    double *places = NEW_ARRAY(double, bulk->dof_count, err);
-    if (!places) goto cleanup;
-    for (int32_t axis = 0; axis < dim - 1; axis++) {
-        memcpy(places, position, (size_t)bulk->dof_count * sizeof *places);
-        TRY(mirror_nodes_find(dim, axis, places, bulk->dof_count / dim, &image[axis], err));
-    }
-    TRY(look(image, interface_dofs, m, NEARLY_ALIKE, &find, err));
+    bool done = look(node_image, interface_dofs, m, &find, err);
     *parts = 1 << find.axes;
-cleanup:
     finder_destroy(&find);
-    memory_free(places);
-    for (int32_t axis = 0; axis < AXES_MAX; axis++) memory_free(image[axis]);
-    return error_is_clean(err);
+    return done;
+}
+
+typedef struct Parts {
+    const Finder *find;
+    MirrorPart *part;
+    Error error[REDUCED_PARTS_MAX];
+} Parts;
+
+static void make_part(void *context, int32_t p, int32_t worker)
+{
+    Parts *parts = context;
+    MirrorPart *part = &parts->part[p];
+    Error *err = &parts->error[p];
+    (void)worker;
+    if (list_unknowns(parts->find, p, &part->unknowns, err) &&
+        list_border_unknowns(parts->find, p, part, err))
+        bulk_transform(parts->find->bulk, &part->unknowns, &part->bulk, err);
 }
 
 bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
@@ -223,16 +229,13 @@ bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *in
 {
     Finder find = {.bulk = bulk};
     *mirror = (Mirror){0};
-    TRY(look(node_image, interface_dofs, m, ALIKE, &find, err));
+    TRY(look(node_image, interface_dofs, m, &find, err));
     if (find.axes == 0) goto cleanup;
     mirror->part_count = 1 << find.axes;
     mirror->mirrored = find.border_count - m;
-    for (int p = 0; p < mirror->part_count; p++) {
-        MirrorPart *part = &mirror->part[p];
-        TRY(list_unknowns(&find, p, &part->unknowns, err));
-        TRY(list_border_unknowns(&find, p, part, err));
-        TRY(bulk_transform(bulk, &part->unknowns, &part->bulk, err));
-    }
+    Parts parts = {.find = &find, .part = mirror->part};
+    parallel_for(mirror->part_count, make_part, &parts);
+    for (int p = 0; p < mirror->part_count && error_is_clean(err); p++) *err = parts.error[p];
     mirror->border = find.border;
     find.border = NULL;
 cleanup:

@@ -30,10 +30,9 @@ typedef struct Mirror {
 // of `bulk`. No error if it is none.
 bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
                  int32_t m, Mirror *mirror, Error *err);
-// *parts: how many there will be once nodes and images have been put together, about. position:
-// [dof_count] of the nodes, length.
-bool mirror_likely_parts(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
-                         int32_t m, int32_t *parts, Error *err);
+// *parts: how many there would be.
+bool mirror_count_parts(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
+                        int32_t m, int32_t *parts, Error *err);
 void mirror_destroy(Mirror *mirror);   // zeroed and half-built too
 
 #endif

@@ -6,58 +6,31 @@
 
 #include <string.h>
 
-// M_qq where it is tridiagonal, close together.
-bool part_operator_create(const ReducedPart *part, PartOperator *system, Error *err)
+void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double *y)
 {
-    int64_t r = part->interior_count, stride = part->count;
-    const double *mass = part->mass + part->border_count * (stride + 1);
-    *system = (PartOperator){.part = part};
-    for (int64_t j = 0; j < r; j++)
-        for (int64_t i = j + 2; i < r; i++)
-            if (mass[j * stride + i] != 0) return true;
-    system->interior_mass = NEW_ARRAY(double, 2 * r, err);
-    if (!system->interior_mass) return false;
-    for (int64_t j = 0; j < r; j++) {
-        system->interior_mass[j] = mass[j * stride + j];
-        if (j + 1 < r) system->interior_mass[r + j] = mass[j * stride + j + 1];
-    }
-    return true;
-}
-
-void part_operator_destroy(PartOperator *system)
-{
-    memory_free(system->interior_mass);
-    *system = (PartOperator){0};
-}
-
-void part_operator_apply(const PartOperator *system, BulkTerm term, const double *x, double *y)
-{
-    const ReducedPart *part = system->part;
     int32_t m = part->border_count, r = part->interior_count;
-    if (term == BULK_STIFFNESS) {
-        memset(y, 0, (size_t)m * sizeof(double));
-        dense_add_nonzero((DenseView){part->stiffness, m, m}, x, 1, y);
-        memcpy(y + m, x + m, (size_t)r * sizeof(double));
-    } else if (term == BULK_MASS && system->interior_mass) {
-        dense_bordered_apply((DenseBordered){.values = part->mass,
-                                             .size = part->count,
-                                             .border = m,
-                                             .diagonal = system->interior_mass,
-                                             .beside = system->interior_mass + r},
-                             x, y);
-    } else {
-        dense_symmetric_apply(term == BULK_MASS ? part->mass : part->damping, part->count, x, y);
+    DenseView border = {term == BULK_MASS ? part->mass : part->stiffness, m, m};
+    DenseView coupling = {part->coupling, r, m};
+    if (term == BULK_DAMPING) {
+        dense_symmetric_apply(part->damping, part->count, x, y);
+        return;
     }
+    memset(y, 0, (size_t)m * sizeof *y);
+    dense_add_nonzero(border, x, 1, y);
+    memcpy(y + m, x + m, (size_t)r * sizeof *y);
+    if (term == BULK_STIFFNESS) return;
+    for (int32_t k = 0; k < r; k++) y[m + k] *= part->masses[k];
+    dense_add_nonzero(coupling, x, 1, y + m);
+    if (r > 0) dense_apply_transposed(coupling, x + m, 1, 1, y);
 }
 
-// Rows `first` to `first + rows` of a column of A, but for its part in K.
-static void combine_column(const ReducedPart *part, OperatorTerms terms, int64_t column,
-                           int64_t first, int64_t rows, double *out)
+// A but for its part in K: mass [rows], and of C's column those from `first` on.
+static void combine_column(const ReducedPart *part, OperatorTerms terms, const double *mass,
+                           int64_t column, int64_t first, int64_t rows, double *out)
 {
-    int64_t at = column * part->count + first;
-    const double *mass = part->mass + at, *damping = part->damping + at;
+    const double *damping = part->damping + column * part->count + first;
     for (int64_t row = 0; row < rows; row++)
-        out[row] = terms.mass * mass[row] + terms.damping * damping[row];
+        out[row] = terms.mass * (mass ? mass[row] : 0) + terms.damping * damping[row];
 }
 
 // The formulas at the head. The inverse itself, not a factor: a product with it is one pass over
@@ -73,13 +46,14 @@ bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, Condens
     condensed->half = NEW_ARRAY(double, r, err);
     if (!error_is_clean(err)) goto cleanup;
     for (int64_t column = 0; column < r; column++) {
-        combine_column(part, terms, m + column, m, r, condensed->inverse + column * r);
-        condensed->inverse[column * r + column] += terms.stiffness;
+        combine_column(part, terms, NULL, m + column, m, r, condensed->inverse + column * r);
+        condensed->inverse[column * (r + 1)] += terms.mass * part->masses[column] + terms.stiffness;
     }
     for (int64_t column = 0; column < m; column++) {
         const double *stiffness = part->stiffness + column * m;
-        combine_column(part, terms, column, m, r, coupling + column * r);
-        combine_column(part, terms, column, 0, m, schur + column * m);
+        const double *mass = part->mass + column * m, *beside = part->coupling + column * r;
+        combine_column(part, terms, beside, column, m, r, coupling + column * r);
+        combine_column(part, terms, mass, column, 0, m, schur + column * m);
         for (int64_t row = 0; row < m; row++)
             schur[column * m + row] += terms.stiffness * stiffness[row];
     }

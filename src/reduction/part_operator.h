@@ -12,16 +12,8 @@
 #include "reduction/operator_terms.h"
 #include "reduction/reduced_bulk.h"
 
-typedef struct PartOperator {
-    const ReducedPart *part;   // not owned
-    double *interior_mass;   // [2, interior] diagonal of M_qq, what is beside it; owned; NULL: M_qq
-        // has more than that
-} PartOperator;
-
-bool part_operator_create(const ReducedPart *part, PartOperator *system, Error *err);
-void part_operator_destroy(PartOperator *system);
 // y = K x, C x or M x, [count] each.
-void part_operator_apply(const PartOperator *system, BulkTerm term, const double *x, double *y);
+void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double *y);
 
 typedef struct CondensedPart {
     double *inverse;   // [interior^2] A_qq^-1; owned

@@ -27,7 +27,6 @@ bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err)
     *room = (FarRoom){.rows = NEW_ARRAY(double, size *columns, err),
                       .next = NEW_ARRAY(double, size *columns, err),
                       .parts = NEW_ARRAY(double, (size + columns) * columns, err),
-                      .sparse = NEW_ARRAY(double, size *SPARSE_WIDE, err),
                       .energies = NEW_ARRAY(double, columns *columns, err),
                       .values = NEW_ARRAY(double, columns, err),
                       .eigen = NEW_ARRAY(double, dense_eigen_work((int32_t)columns), err)};
@@ -36,9 +35,7 @@ bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err)
 
 void far_room_destroy(FarRoom *room)
 {
-    double *const owned[] = {room->rows,   room->next,     room->parts, room->sparse,
-                             room->values, room->energies, room->eigen};
-    for (size_t k = 0; k < sizeof owned / sizeof *owned; k++) memory_free(owned[k]);
+    memory_free_all(room->rows, room->next, room->parts, room->values, room->energies, room->eigen);
     *room = (FarRoom){0};
 }
 
@@ -87,8 +84,7 @@ static void take_out(const PatchModes *modes, int64_t columns, FarRoom *room)
         double after = square_sum(room->rows, size * columns);
         again = after > 0 && after < LITTLE * before;
     }
-    sparse_apply_many(&modes->pattern, modes->stiffness, room->rows, columns, room->next,
-                      room->sparse);
+    sparse_apply_many(&modes->pattern, modes->stiffness, room->rows, columns, room->next);
 }
 
 // New columns of F and its image: those of the rows times eigenvectors of their energies; how many,

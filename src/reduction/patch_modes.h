@@ -22,7 +22,6 @@ typedef struct PatchModes {
 typedef struct FarRoom {
     double *rows, *next;   // [size * columns] rows of the fields, their image
     double *parts;   // [(size + columns) * columns]
-    double *sparse;   // [size * SPARSE_WIDE]
     double *energies, *values, *eigen;   // [columns^2], [columns], [dense_eigen_work(columns)]
 } FarRoom;
 

@@ -23,7 +23,8 @@ double rigid_motion(int32_t dim, int32_t which, const double *place, int32_t axi
 
 void reduced_part_destroy(ReducedPart *part)
 {
-    memory_free_all(part->mass, part->damping, part->stiffness, part->load, part->modes);
+    memory_free_all(part->stiffness, part->mass, part->coupling, part->masses, part->damping,
+                    part->load, part->modes);
     transform_destroy(&part->border);
     transform_destroy(&part->mesh);
     *part = (ReducedPart){0};
@@ -33,7 +34,9 @@ void reduced_bulk_destroy(ReducedBulk *reduced)
 {
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
         ReducedPart *part = &reduced->part[p];
-        if (reduced->storage) part->mass = part->damping = part->stiffness = part->load = NULL;
+        if (reduced->storage)
+            part->stiffness = part->mass = part->coupling = part->masses = part->damping =
+                part->load = NULL;
         reduced_part_destroy(part);
     }
     if (!reduced->storage) memory_free(reduced->load);

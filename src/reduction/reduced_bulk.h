@@ -4,9 +4,9 @@
 // unknowns z on the border first, then the coordinates q of an interior basis,
 //
 //     u = [ I   0   ] [ z ]      K = [ S_K 0 ]      M = [ M_bb M_bq ]    C full,
-//         [ Psi Phi ] [ q ]          [ 0   I ]          [ M_qb T    ],
+//         [ Psi Phi ] [ q ]          [ 0   I ]          [ M_qb D    ],
 //
-// T tridiagonal: a product with M or K costs m r, not (m + r)^2. The border is the interface u_b
+// D diagonal: a product with M or K costs m r, not (m + r)^2. The border is the interface u_b
 // and the mirrored unknowns u_R: images of those of its unknowns, as of rod nodes, that are not on
 // it. A state is x = [ u_b; u_R; q_0; q_1 ], z_p = T_p' [u_b; u_R]: all T_p side by side turn the
 // border, so that forces are split and joined as motions are.
@@ -45,10 +45,12 @@ typedef struct ReducedPart {
     int32_t border_count;   // m
     int32_t interior_count;   // r
     int32_t count;   // m + r
-    double *mass, *damping;   // [count^2] symmetric, both triangles, normalised; owned
-    double *stiffness;   // [m^2] S_K; the interior block is the unit matrix; owned
-    double *load;   // [count] of the unit load; owned
-    double *modes;   // [full_dofs * count] u = modes [z; q]; owned; NULL: not at hand
+    double *stiffness, *mass;   // [m^2] S_K and M_bb, symmetric, normalised; owned, like all below
+    double *coupling;   // [r * m] M_qb; K has none
+    double *masses;   // [r] D; of K 1 each
+    double *damping;   // [count^2] C, both triangles
+    double *load;   // [count] of the unit load
+    double *modes;   // [full_dofs * count] u = modes [z; q]; NULL: not at hand
     ReductionErrors errors;
     Transform border;   // T_p, of the whole's border
     Transform mesh;   // of the whole mesh's unknowns; where the modes are at hand
@@ -59,6 +61,7 @@ enum { REDUCED_PARTS_MAX = 1 << (DIM_MAX - 1) };   // two for each axis of the f
 typedef struct ReducedBulk {
     int32_t dim;
     int32_t full_dofs;
+    double area;   // of the block over L^2; in space its volume over L^3
     int32_t interface_count;
     int32_t mirrored;   // unknowns of u_R
     int32_t count;   // of x

@@ -13,7 +13,6 @@
 
 struct ReducedOperator {
     const ReducedBulk *reduced;   // not owned
-    PartOperator part[REDUCED_PARTS_MAX];
     double *local[REDUCED_PARTS_MAX], *image[REDUCED_PARTS_MAX];   // [count] of each, work; owned
     double *border;   // [interface + mirrored] work; owned
 };
@@ -35,7 +34,6 @@ void reduced_operator_destroy(ReducedOperator *system)
 {
     if (!system) return;
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
-        part_operator_destroy(&system->part[p]);
         memory_free_all(system->local[p], system->image[p]);
     }
     memory_free_all(system->border, system);
@@ -49,7 +47,6 @@ ReducedOperator *reduced_operator_create(const ReducedBulk *reduced, Error *err)
     system->border = NEW_ARRAY(double, reduced->interface_count + reduced->mirrored, err);
     for (int p = 0; p < reduced->part_count; p++) {
         const ReducedPart *part = &reduced->part[p];
-        TRY(part_operator_create(part, &system->part[p], err));
         system->local[p] = NEW_ARRAY(double, part->count, err);
         system->image[p] = NEW_ARRAY(double, part->count, err);
     }
@@ -69,7 +66,7 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
                             [BULK_MASS] = reduced->scales.mass};
     reduced_bulk_split(reduced, x, system->local);
     for (int p = 0; p < reduced->part_count; p++)
-        part_operator_apply(&system->part[p], term, system->local[p], system->image[p]);
+        part_apply(&reduced->part[p], term, system->local[p], system->image[p]);
     reduced_bulk_join(reduced, (const double *const *)system->image, y);
     for (int32_t k = 0; k < reduced->count; k++) y[k] *= scale[term];
 }

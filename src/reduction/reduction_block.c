@@ -57,9 +57,7 @@ void reduction_block_destroy(ReductionBlock *block)
     *block = (ReductionBlock){0};
 }
 
-// Assembled from the rounded positions and viscosities: M, C and K are exactly those of one block,
-// in which a rigid motion has no energy. The load is the scene's nodal load over its largest,
-// rounded.
+// The load is the scene's nodal load over its largest, rounded.
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err)
 {
@@ -76,14 +74,21 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
         if (!mirror_nodes_find(mesh->dim, axis, block->position, mesh->node_count,
                                &block->image[axis], err))
             return false;
-    Mesh scaled = *mesh;   // borrows all but the positions
-    scaled.position = block->position;
-    if (!bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err)) return false;
+    if (!bulk_create(mesh, &block->bulk, err)) return false;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
-        if (bulk->held[dof]) bulk_hold(dof, &block->bulk);
+        block->bulk.held[dof] = bulk->held[dof];
         block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;
     }
     return true;
+}
+
+// From the rounded positions and viscosities: M, C and K are exactly those of one block, in which a
+// rigid motion has no energy.
+bool reduction_block_assemble(const Mesh *mesh, ReductionBlock *block, Error *err)
+{
+    Mesh scaled = *mesh;   // borrows all but the positions
+    scaled.position = block->position;
+    return bulk_assemble(&scaled, block->materials.list, &block->bulk, err);
 }
 
 // Of several materials all numbers, and where each is.

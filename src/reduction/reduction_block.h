@@ -19,10 +19,11 @@ typedef struct ReductionBlock {
     Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
 } ReductionBlock;
 
-// bulk: assembled on `mesh` with `materials`; its load and held unknowns are taken over.
-// load_size: its largest nodal load.
+// bulk: of `mesh`; its load and held unknowns are taken over. load_size: its largest nodal load.
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err);
+// M, C and K of it. mesh: the same.
+bool reduction_block_assemble(const Mesh *mesh, ReductionBlock *block, Error *err);
 void reduction_block_destroy(ReductionBlock *block);
 
 // Adds all that a basis of the block depends on. dofs: [dof_count] the interface.

@@ -32,9 +32,7 @@ void responses_destroy(Responses *responses)
     for (int32_t k = 0; k <= responses->block_count; k++) block_destroy(&responses->blocks[k]);
     for (int32_t k = 0; k < responses->shelf_count; k++) memory_free(responses->shelves[k].field);
     memory_free(responses->unit_load);
-    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) {
-        memory_free_all(responses->room[k].image, responses->room[k].work);
-    }
+    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) memory_free(responses->room[k].image);
     *responses = (Responses){0};
 }
 
@@ -44,11 +42,9 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
     const Bulk *bulk = full->bulk;
     *responses = (Responses){.full = full, .scales = *scales, .shelf_count = 2, .shelf_of = {0, 1}};
     responses->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
-    for (int32_t k = 0; k < parallel_workers(); k++) {
-        int64_t dofs = bulk->dof_count;
-        responses->room[k].image = NEW_ARRAY(double, dofs *RESPONSES_TOGETHER, err);
-        responses->room[k].work = NEW_ARRAY(double, dofs *SPARSE_WIDE, err);
-    }
+    for (int32_t k = 0; k < parallel_workers(); k++)
+        responses->room[k].image =
+            NEW_ARRAY(double, (int64_t)bulk->dof_count *RESPONSES_TOGETHER, err);
     if (!error_is_clean(err)) return false;
     // Without a load every response to it is 0, in any unit.
     double scale = scales->load > 0 ? scales->load : 1;
@@ -121,14 +117,20 @@ void responses_drop(Responses *responses)
     block_destroy(&responses->blocks[responses->block_count]);
 }
 
-// y = K x / E, C x / eta or M x / (rho L^2) on the full mesh, of `columns` columns.
-static void apply(const Responses *responses, BulkTerm term, DenseView x, double *work, double *y)
+// y = K x / E, C x / eta or M x / (rho L^2) on the full mesh, of several columns.
+static void apply(const Responses *responses, BulkTerm term, DenseView x, double *y)
 {
+    const Bulk *bulk = responses->full->bulk;
     double scale = term == BULK_STIFFNESS ? responses->scales.stiffness
                    : term == BULK_DAMPING ? responses->scales.damping
                                           : responses->scales.mass;
-    bulk_operator_apply_many(responses->full, term, x.values, x.columns, y, work);
-    for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
+    int64_t count = (int64_t)x.rows * x.columns;
+    if (term != BULK_MASS)
+        sparse_apply_many(&bulk->pattern, term == BULK_DAMPING ? bulk->damping : bulk->stiffness,
+                          x.values, x.columns, y);
+    for (int64_t k = 0; term == BULK_MASS && k < count; k++)
+        y[k] = bulk->mass[k % x.rows] * x.values[k];
+    for (int64_t k = 0; scale != 1 && k < count; k++) y[k] /= scale;
 }
 
 // The products by the mesh that two points need, as bits of their terms. M costs next to nothing
@@ -224,7 +226,7 @@ static void multiply_piece(void *context, int32_t piece, int32_t worker)
     for (int term = 0; term < BULK_TERMS; term++) {
         if (!(needed & 1u << term)) continue;
         apply(responses, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
-              room->work, room->image);
+              room->image);
         for (int kind = 0; kind < 2; kind++)
             multiply_kind(all, kind, (BulkTerm)term, room, from, columns);
     }

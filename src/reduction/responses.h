@@ -34,7 +34,6 @@ typedef struct ResponseShelf {
 // What one thread multiplies in; owned.
 typedef struct ResponseRoom {
     double *image;   // [dofs * RESPONSES_TOGETHER]
-    double *work;   // [dofs * SPARSE_WIDE]
     double *product;   // [rows * RESPONSES_TOGETHER] while responses are multiplied
 } ResponseRoom;
 

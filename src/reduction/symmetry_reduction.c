@@ -2,6 +2,7 @@
 #include "reduction/symmetry_reduction.h"
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "reduction/mirror.h"
 
 // What of the whole follows from its parts.
@@ -33,12 +34,39 @@ static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const Re
     return next != NULL;
 }
 
+typedef struct Parts {
+    Mirror *mirror;
+    const ReductionDef *def;
+    ReducedBulk *reduced;
+    Error error[REDUCED_PARTS_MAX];
+} Parts;
+
+static void build_part(void *context, int32_t p, int32_t worker)
+{
+    Parts *parts = context;
+    MirrorPart *from = &parts->mirror->part[p];
+    ReducedPart *part = &parts->reduced->part[p];
+    (void)worker;
+    if (!reduction_build(&from->bulk, from->border_dofs, from->border.count, parts->def, part,
+                         &parts->error[p]))
+        return;
+    part->border = from->border;
+    from->border = (Transform){0};
+    if (!parts->def->modes) return;
+    part->mesh = from->unknowns;
+    from->unknowns = (Transform){0};
+}
+
 bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
                               const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
     Mirror mirror = {0};
-    *reduced = (ReducedBulk){
-        .dim = bulk->dim, .interface_count = m, .part_count = 1, .scales = def->scales};
+    Parts parts = {.mirror = &mirror, .def = def, .reduced = reduced};
+    *reduced = (ReducedBulk){.dim = bulk->dim,
+                             .area = bulk->area,
+                             .interface_count = m,
+                             .part_count = 1,
+                             .scales = def->scales};
     if (def->node_image) TRY(mirror_find(bulk, def->node_image, interface_dofs, m, &mirror, err));
     if (mirror.part_count > 0) {
         reduced->part_count = mirror.part_count;
@@ -46,17 +74,9 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     } else {
         TRY(reduction_build(bulk, interface_dofs, m, def, &reduced->part[0], err));
     }
-    for (int p = 0; p < mirror.part_count; p++) {
-        MirrorPart *from = &mirror.part[p];
-        ReducedPart *part = &reduced->part[p];
-        TRY(reduction_build(&from->bulk, from->border_dofs, from->border.count, def, part, err));
-        part->border = from->border;
-        from->border = (Transform){0};
-        if (!def->modes) continue;
-        part->mesh = from->unknowns;
-        from->unknowns = (Transform){0};
-    }
-    TRY(join(reduced, err));
+    parallel_for(mirror.part_count, build_part, &parts);
+    for (int p = 0; p < mirror.part_count && error_is_clean(err); p++) *err = parts.error[p];
+    TRY(error_is_clean(err) && join(reduced, err));
     if (def->position)
         TRY(list_rigid_motions(bulk, mirror.border ? mirror.border : interface_dofs, def, reduced,
                                err));

@@ -280,7 +280,6 @@ cleanup:
 bool bulk_transform(const Bulk *from, const Transform *by, Bulk *to, Error *err)
 {
     *to = (Bulk){.dof_count = by->count,
-                 .area = from->area,
                  .mass = NEW_ARRAY(double, by->count, err),
                  .load = NEW_ARRAY(double, by->count, err),
                  .held = NEW_ARRAY(uint8_t, by->count, err)};

@@ -276,10 +276,11 @@ static bool report_cut(Accuracy *accuracy, ResultFolder *folder, RunSummary *sum
     simulation->started = accuracy->started;
     simulation->levels = &accuracy->levels;
     accuracy->levels.count = 0;
-    warnings_add(&simulation->warnings,
-                 "error bar not met: its first run was cut short (%d contact nodes, %.0f %% of its "
-                 "way): time was up (--within, accuracy.within)",
-                 cut->contact_nodes, isnan(cut->part) ? 0 : 100 * cut->part);
+    warnings_add(
+        &simulation->warnings,
+        "error bar not met: its first run was cut short (%.0f contact nodes, %.0f %% of its "
+        "way): time was up (--within, accuracy.within)",
+        cut->contact_nodes, isnan(cut->part) ? 0 : 100 * cut->part);
     return simulation_finish(simulation, NULL, summary, err);
 }
 

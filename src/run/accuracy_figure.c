@@ -16,61 +16,37 @@ static const ErrorBar *answer_of(const Levels *levels, int32_t level)
     return &levels->list[level].answer[levels->asked];
 }
 
-static void write_axes(const Levels *levels, JsonWriter *json)
+// The points of each run, `means` false, or the estimate after each level with its bar: a level
+// without a mesh part has none, its ends are the value.
+static void write_points(const Levels *levels, bool means, JsonWriter *json)
 {
-    json_begin_object(json, "x");
-    json_text(json, "label", "contact nodes");
-    json_text(json, "scale", "log");
-    json_end(json);
-    json_begin_object(json, "y");
-    json_text(json, "label", levels->asked == ANSWER_MU_M ? "~{\u03bc}_{M}" : "~{\u03bc}_{hold}");
-    json_end(json);
-}
-
-// Each run, x and y in two passes as the format has them.
-static void write_runs(const Levels *levels, JsonWriter *json)
-{
-    json_begin_object(json, NULL);
-    json_text(json, "label", "a run");
-    for (int32_t values = 0; values < 2; values++) {
-        json_begin_list(json, values ? "y" : "x");
-        for (int32_t l = 0; l < levels->count; l++) {
-            const Level *level = &levels->list[l];
-            for (int32_t k = 0; k < level->run_count; k++)
-                json_number(json, NULL,
-                            values ? level->runs[k].answer[levels->asked].value
-                                   : level->contact_nodes);
+    enum { POINTS_MAX = LEVELS_MAX * LEVEL_RUNS_MAX };
+    double x[POINTS_MAX], y[POINTS_MAX], low[LEVELS_MAX], high[LEVELS_MAX];
+    int32_t count = 0;
+    for (int32_t l = 0; l < levels->count; l++) {
+        const Level *level = &levels->list[l];
+        const ErrorBar *answer = answer_of(levels, l);
+        for (int32_t k = 0; !means && k < level->run_count; k++) {
+            x[count] = level->contact_nodes;
+            y[count++] = level->runs[k].answer[levels->asked].value;
         }
-        json_end(json);
+        if (!means) continue;
+        double bar = answer->parts.mesh >= 0 ? answer->bar : 0;
+        x[count] = level->contact_nodes;
+        y[count] = answer->value;
+        low[count] = answer->value - bar;
+        high[count++] = answer->value + bar;
     }
-    json_integer(json, "color", 0);
-    json_text(json, "marker", "circle");
-    json_boolean(json, "filled", false);
-    json_text(json, "line", "none");
-    json_end(json);
-}
-
-// A level without a mesh part has no bar: its ends are the value.
-static void write_means(const Levels *levels, JsonWriter *json)
-{
-    static const char *const names[] = {"x", "y", "low", "high"};
-    static const double sides[] = {0, 0, -1, 1};
     json_begin_object(json, NULL);
-    json_text(json, "label", "estimate so far, error bar");
-    for (int32_t list = 0; list < 4; list++) {
-        json_begin_list(json, names[list]);
-        for (int32_t l = 0; l < levels->count; l++) {
-            const ErrorBar *answer = answer_of(levels, l);
-            double bar = answer->parts.mesh >= 0 ? answer->bar : 0;
-            json_number(json, NULL,
-                        list == 0 ? levels->list[l].contact_nodes
-                                  : answer->value + sides[list] * bar);
-        }
-        json_end(json);
-    }
-    json_integer(json, "color", 1);
-    json_text(json, "marker", "square");
-    json_text(json, "line", "thin");
+    json_text(json, "label", means ? "estimate so far, error bar" : "a run");
+    json_number_list(json, "x", x, count);
+    json_number_list(json, "y", y, count);
+    if (means) json_number_list(json, "low", low, count);
+    if (means) json_number_list(json, "high", high, count);
+    json_integer(json, "color", means);
+    json_text(json, "marker", means ? "square" : "circle");
+    if (!means) json_boolean(json, "filled", false);
+    json_text(json, "line", means ? "thin" : "none");
     json_end(json);
 }
 
@@ -88,10 +64,16 @@ bool accuracy_figure(const Levels *levels, const char *title, const char *folder
     json_begin_object(json, "page");
     json_text(json, "title", "none");
     json_end(json);
-    write_axes(levels, json);
+    json_begin_object(json, "x");
+    json_text(json, "label", "contact nodes");
+    json_text(json, "scale", "log");
+    json_end(json);
+    json_begin_object(json, "y");
+    json_text(json, "label", levels->asked == ANSWER_MU_M ? "~{\u03bc}_{M}" : "~{\u03bc}_{hold}");
+    json_end(json);
     json_begin_list(json, "series");
-    write_means(levels, json);
-    write_runs(levels, json);
+    write_points(levels, true, json);
+    write_points(levels, false, json);
     json_end(json);
     json_end(json);
     return json_finish(json, err) && amontons_render_plot_file(path, png, NULL, err);

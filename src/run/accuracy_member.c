@@ -4,10 +4,8 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/step_rule.h"
-#include "run/end_wait.h"
 #include "run/level_scene.h"
 #include "run/one_mesh.h"
-#include "run/stop_request.h"
 #include "scene/programs.h"
 
 #include <math.h>
@@ -138,11 +136,9 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait
 static bool contact_has_nodes(const Interface *interface)
 {
     bool space = interface->dim > 2;
-    for (int32_t pad = 0; pad < interface->pad_count; pad++) {
-        int32_t nodes = 0;
-        for (int32_t i = 0; i < interface->contact_count; i++) nodes += interface->pad[i] == pad;
-        if (nodes < (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN)) return false;
-    }
+    for (int32_t pad = 0; pad < interface->pad_count; pad++)
+        if (pad_size(interface, pad).nodes < (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN))
+            return false;
     return interface->contact_count >= (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
 }
 
@@ -210,7 +206,7 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
     *err = (Error){0};
     accuracy->out_of_time = !(stop && *stop);
     if (!accuracy->out_of_time)
-        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar", cut->mesh);
+        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
 cleanup:
     return;
 }

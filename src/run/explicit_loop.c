@@ -38,10 +38,3 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
     step_control_use_explicit(control, &simulation->explicit_reference);
     return true;
 }
-
-// One record: explicit_steps steps.
-bool explicit_loop_advance(Simulation *simulation, Error *err)
-{
-    return step_control_advance_explicit(&simulation->control, &simulation->explicit_reference,
-                                         simulation->explicit_steps, err);
-}

@@ -15,6 +15,5 @@
 // After relaxation: chooses the step (the stable one, or time.step_max where that is shorter).
 // Does nothing under another scheme.
 bool explicit_loop_prepare(Simulation *simulation, Error *err);
-bool explicit_loop_advance(Simulation *simulation, Error *err);   // one recording interval
 
 #endif

@@ -5,6 +5,9 @@
 
 #include <math.h>
 
+enum { END_NODES = 2 };   // with so few left to slip, they decide when the block slides
+static const double ROUNDING = 1e-6;   // of positions, in cells
+
 // On most nodes friction weakens faster than viscosity can damp.
 static bool is_undamped(const Simulation *simulation)
 {
@@ -22,10 +25,50 @@ void one_mesh_read(const Simulation *simulation, Level *level)
     level->undamped = is_undamped(simulation);
 }
 
-void one_mesh_answer(const Simulation *simulation, const Event *least, Answers *answers)
+void one_mesh_answer(const Simulation *simulation, Answers *answers)
 {
-    Level level = {.slip_cells = least ? least->slip_cells : (double)NAN};
+    Level level = {0};
     if (simulation->model.interface.contact_count == 0) return;   // it failed before it had a mesh
     one_mesh_read(simulation, &level);
     level_answer_for(&level, answers);
+}
+
+// --- its last nodes -----------------------------------------------------------------------------
+
+// Cells from the front to the leading end.
+static double cells_left(const Interface *interface, double front)
+{
+    int32_t last = interface->contact_count - 1;
+    double end = interface->x[last];
+    return (end - front) / (end - interface->x[last - 1]);
+}
+
+static bool has_end(const Interface *interface)
+{
+    return interface->dim == 2 && interface->pad_count == 1 && interface->contact_count > END_NODES;
+}
+
+void end_wait_watch(EndWait *wait, const Simulation *simulation)
+{
+    const Interface *interface = &simulation->model.interface;
+    const Events *events = &simulation->events;
+    const Drops *drops = &simulation->drops;
+    if (!has_end(interface)) return;
+    bool in_event = events->rapid >= 0 || events->ended;
+    if (!in_event && isnan(wait->mu) &&
+        cells_left(interface, simulation->seen.front) < END_NODES - ROUNDING)
+        wait->mu = simulation->seen.mu;
+    if (events->crossed && drops->count > 1) {
+        wait->slidings++;
+        if (!isnan(wait->mu)) wait->rise += drops->list[drops->count - 1].mu - wait->mu;
+    }
+    if (in_event) wait->mu = NAN;
+}
+
+double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length)
+{
+    if (!has_end(interface) || isnan(critical_length) || wait->slidings == 0) return 0;
+    double left = cells_left(interface, critical_length);
+    bool waits = left > ROUNDING && left < END_NODES - ROUNDING;
+    return waits ? wait->rise / wait->slidings : 0;
 }

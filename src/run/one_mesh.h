@@ -9,8 +9,27 @@
 
 // Contact nodes, and whether cells are too long for slip.
 void one_mesh_read(const Simulation *simulation, Level *level);
-// How far the answers of this run alone are known, from its mesh and from `least`, the load drop
-// before which the fewest cells slipped (NULL: none).
-void one_mesh_answer(const Simulation *simulation, const Event *least, Answers *answers);
+// How far the answers of this run alone are known.
+void one_mesh_answer(const Simulation *simulation, Answers *answers);
+
+// What the last nodes of the contact add to mu. Slow slip grows from the trailing end; where its
+// front comes to the last nodes of the leading end before the block slides, these hold the block on
+// while mu rises, and by how much depends on their size: shorter cells let go sooner
+// (validation/paper/README.md). The rise from when the front comes to them until the block slides
+// is an error of the mesh. In space a row of nodes lets go one by one, and bars hold without this
+// (validation/space/priors.md). Watched after each step.
+//
+// Zeroed before the first step, but for mu: NaN.
+typedef struct EndWait {
+    double mu;   // when the front came to the last nodes, since the last fall; NaN: it has not
+    double rise;   // sum over bulk slidings
+    int32_t slidings;   // all but the first
+} EndWait;
+
+void end_wait_watch(EndWait *wait, const Simulation *simulation);
+
+// Mean rise of mu, where the front of slip comes to the last nodes and not past them before the
+// block slides (critical_length: the mean l_c, length). 0: it does not; several pads; in space.
+double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length);
 
 #endif

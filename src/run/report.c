@@ -61,57 +61,36 @@ static void write_rungs(JsonWriter *json, const Ladder *ladder)
 // relaxing.
 static void write_timing(JsonWriter *json, const Model *model, const RunTiming *timing)
 {
-    json_begin_object(json, "timing_s");
-    json_number(json, "mesh", model->seconds_mesh);
-    json_number(json, "reduce", model->seconds_reduce);
-    json_number(json, "relax", timing->relax);
-    json_number(json, "solve", timing->solve);
-    json_number(json, "output", timing->output);
-    json_number(json, "total", timing->total);
-    json_number(json, "outside_loop_cpu", timing->outside);
-    json_end(json);
+    json_object_of(json, "timing_s", {"mesh", model->seconds_mesh},
+                   {"reduce", model->seconds_reduce}, {"relax", timing->relax},
+                   {"solve", timing->solve}, {"output", timing->output}, {"total", timing->total},
+                   {"outside_loop_cpu", timing->outside});
 }
 
 // What `reduction.use: auto` chose by, processor seconds.
 static void write_expected(JsonWriter *json, const Model *model)
 {
     const ExpectedCost *expected = &model->expected;
-    json_begin_object(json, "expected_s");
-    json_number(json, "reduction", expected->reduction);
-    json_number(json, "reduced", expected->reduced);
-    json_number(json, "full", expected->full);
-    json_integer(json, "stages", (int64_t)model->choice.stages);
-    json_integer(json, "runs", (int64_t)model->choice.runs);
-    json_end(json);
-}
-
-// NULL: nobody, since the shape is in the cache.
-static const char *mesh_maker(const Model *model)
-{
-    static const char *const makers[] = {[MESH_OF_GMSH] = "gmsh", [MESH_OF_CACHE] = "cache"};
-    return model->mesh.element_count > 0 ? makers[model->mesh_origin] : NULL;
+    json_object_of(json, "expected_s", {"reduction", expected->reduction},
+                   {"reduced", expected->reduced}, {"full", expected->full},
+                   {"stages", trunc(model->choice.stages)}, {"runs", trunc(model->choice.runs)});
 }
 
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
     json_begin_object(json, "model");
-    json_integer(json, "contact_nodes", model->interface.contact_count);
-    json_integer(json, "rod_nodes", model->interface.rod_count);
-    json_integer(json, "elements", model->elements);
-    json_integer(json, "full_dofs", model->full_dofs);
+    json_numbers_of(json, {"contact_nodes", model->interface.contact_count},
+                    {"rod_nodes", model->interface.rod_count},
+                    {"elements", model->mesh.element_count}, {"full_dofs", model->bulk.dof_count});
     json_integer(json, "reduced_dofs", model->system.dof_count);
     json_boolean(json, "by_halves", model->reduced.part_count > 1);
-    json_text(json, "mesh_by", mesh_maker(model));
+    json_text(json, "mesh_by", model->mesh_origin == MESH_OF_CACHE ? "cache" : "gmsh");
     json_boolean(json, "from_cache", model->from_cache);
     write_expected(json, model);
-    json_number(json, "length", model->length);
-    json_number(json, "height", model->height);
-    json_begin_object(json, "wave_speeds");
-    json_number(json, "longitudinal", speeds.longitudinal);
-    json_number(json, "shear", speeds.shear);
-    json_number(json, "rayleigh", speeds.rayleigh);
-    json_end(json);
+    json_numbers_of(json, {"length", model->length}, {"height", model->height});
+    json_object_of(json, "wave_speeds", {"longitudinal", speeds.longitudinal},
+                   {"shear", speeds.shear}, {"rayleigh", speeds.rayleigh});
     json_integer(json, "relaxation_steps", relaxation_steps);
     json_text(json, "cache_note", model->cache_note[0] ? model->cache_note : NULL);
     json_end(json);
@@ -120,13 +99,11 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
 // When the front of a rapid event came to each station, and how fast it went in between.
 static void write_front(JsonWriter *json, const Event *event, const FrontPath *path)
 {
-    json_begin_list(json, "front_times");
-    for (int32_t k = 0; k < FRONT_STATIONS; k++) json_number(json, NULL, event->front_times[k]);
-    json_end(json);
-    json_begin_list(json, "front_speeds");
+    double speeds[FRONT_STATIONS - 1];
     for (int32_t k = 0; k < FRONT_STATIONS - 1; k++)
-        json_number(json, NULL, front_path_speed(path, event->front_times, k));
-    json_end(json);
+        speeds[k] = front_path_speed(path, event->front_times, k);
+    json_number_list(json, "front_times", event->front_times, FRONT_STATIONS);
+    json_number_list(json, "front_speeds", speeds, FRONT_STATIONS - 1);
 }
 
 static const char *pad_name(const Pads *pads, int32_t p)
@@ -138,8 +115,8 @@ static const char *pad_name(const Pads *pads, int32_t p)
 static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
 {
     json_text(json, "slip_pad", event ? pad_name(pads, event->pad) : NULL);
-    json_number(json, "slip_length", event ? event->slip_length : NAN);
-    json_number(json, "slip_cells", event ? event->slip_cells : NAN);
+    json_numbers_of(json, {"slip_length", event ? event->slip_length : NAN},
+                    {"slip_cells", event ? event->slip_cells : NAN});
 }
 
 // In order of time, slow ones too; only rapid ones have a front to follow.
@@ -150,18 +127,15 @@ static void write_events(JsonWriter *json, const Events *events, const Pads *pad
         const Event *event = &events->list[k];
         json_begin_object(json, NULL);
         json_text(json, "kind", event_name(event->kind));
-        json_number(json, "U_start", event->U_start);
-        json_number(json, "U_stop", event->U_stop);
-        json_number(json, "t_start", event->t_start);
-        json_number(json, "t_stop", event->t_stop);
-        json_number(json, "front_start", event->front_start);
-        json_number(json, "reach", event->reach);
+        json_numbers_of(json, {"U_start", event->U_start}, {"U_stop", event->U_stop},
+                        {"t_start", event->t_start}, {"t_stop", event->t_stop},
+                        {"front_start", event->front_start}, {"reach", event->reach});
         if (events->in_space) {
-            json_number(json, "slipped_over_A", event->slipped / events->size);
-            json_number(json, "slip_before_over_A", event->slip_before / events->size);
+            json_numbers_of(json, {"slipped_over_A", event->slipped / events->size},
+                            {"slip_before_over_A", event->slip_before / events->size});
         }
-        json_number(json, "peak_slip_rate", event->peak_slip_rate);
-        json_number(json, "front_speed", event->front_speed);
+        json_numbers_of(json, {"peak_slip_rate", event->peak_slip_rate},
+                        {"front_speed", event->front_speed});
         if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, pads);
@@ -195,15 +169,11 @@ static void write_results(JsonWriter *json, const RunReport *report)
 
 static void write_errors(JsonWriter *json, const RunErrors *errors)
 {
-    json_begin_object(json, "errors");
-    json_number(json, "energy", errors->energy);
-    json_number(json, "complementarity", errors->complementarity);
-    json_number(json, "penetration", errors->penetration);
-    json_number(json, "moment", errors->moment);
-    json_number(json, "moment_quasi_static", errors->moment_quasi_static);
-    json_number(json, "equation", errors->equation);
-    json_number(json, "reduction", errors->reduction);
-    json_end(json);
+    json_object_of(json, "errors", {"energy", errors->energy},
+                   {"complementarity", errors->complementarity},
+                   {"penetration", errors->penetration}, {"moment", errors->moment},
+                   {"moment_quasi_static", errors->moment_quasi_static},
+                   {"equation", errors->equation}, {"reduction", errors->reduction});
 }
 
 // report->failure NULL: the run ended as it should.

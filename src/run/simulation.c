@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // mesh -> bulk and interface -> steps prepared -> relaxed -> recorders -> steps -> results.
-#include "run/stop_request.h"
 #include "run/simulation_state.h"
 
 #include "base/clock.h"
@@ -40,43 +39,34 @@ static bool report_step(void *self, const Observation *seen, Error *err)
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
-    if (!events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
-                       &simulation->events, err))
-        return false;
-    recorders_add(&simulation->recorders, &simulation->events, events_record);
-    if (!drops_create(&simulation->model.interface, &simulation->events,
-                      simulation->scene.time.periodic_tolerance, &simulation->drops, err))
+    const Model *model = &simulation->model;
+    const Recorder recorders[] = {{&simulation->events, events_record},
+                                  {&simulation->drops, drops_record},
+                                  {&simulation->steady, steady_record},
+                                  {&simulation->pads, pads_record},
+                                  {&simulation->contact, contact_arrays_record},
+                                  {&simulation->readings, program_readings_record},
+                                  {&simulation->turning, turning_record}};
+    Events *events = &simulation->events;
+    if (!events_create(&model->interface, model->scales.slip_velocity, events, err) ||
+        !drops_create(&model->interface, events, simulation->scene.time.periodic_tolerance,
+                      &simulation->drops, err) ||
+        !pads_create(&model->interface, events, &simulation->pads, err) ||
+        !contact_arrays_create(&model->interface, &model->law, &simulation->contact, err))
         return false;
     bool remembers = simulation->control.scheme.memory.laws != NULL;
-    simulation->drops.mu_static = remembers ? NAN : simulation->model.law.mu_static;
-    recorders_add(&simulation->recorders, &simulation->drops, drops_record);
-    simulation->steady =
-        steady_of(&simulation->events, model_friction_slip(&simulation->model) +
-                                           model_machine_yield(&simulation->model));
-    recorders_add(&simulation->recorders, &simulation->steady, steady_record);
-    if (!pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err))
-        return false;
-    recorders_add(&simulation->recorders, &simulation->pads, pads_record);
-    if (!contact_arrays_create(&simulation->model.interface, &simulation->model.law,
-                               &simulation->contact, err))
-        return false;
-    recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
-    if (program_jumps(&simulation->rod_course)) {
-        simulation->readings = program_readings_of(&simulation->rod_course);
-        recorders_add(&simulation->recorders, &simulation->readings, program_readings_record);
-    }
-    simulation->turning = turning_of(&simulation->contact);
-    recorders_add(&simulation->recorders, &simulation->turning, turning_record);
+    simulation->drops.mu_static = remembers ? NAN : model->law.mu_static;
+    simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model));
+    if (program_jumps(&simulation->rod_course))
+        simulation->readings.course = &simulation->rod_course;
+    simulation->turning.contact = &simulation->contact;
+    for (size_t k = 0; k < sizeof recorders / sizeof *recorders; k++)
+        recorders_add(&simulation->recorders, recorders[k].self, recorders[k].record);
     if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
     bool in_part = simulation->window.def.given;
     recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
                   report_step);
     return true;
-}
-
-static bool scene_supports_nothing(const Simulation *simulation)
-{
-    return simulation->scene.load.support_count == 0;
 }
 
 // For time.until.mu_below.
@@ -101,7 +91,7 @@ static bool record_step(Simulation *simulation, Error *err)
     errors->penetration = fmax(errors->penetration, seen.penetration);
     errors->equation = fmax(errors->equation, seen.equation_error);
     // What supports take up is not known here: no balance of moments with them.
-    bool balances = scene_supports_nothing(simulation);
+    bool balances = simulation->scene.load.support_count == 0;
     if (balances && control->counters.accepted > 0)
         errors->moment = fmax(errors->moment, seen.moment_error);
     TRY(recorders_record(&simulation->recorders, &seen, err));
@@ -166,7 +156,7 @@ static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
              "(--extend U=...)",
              simulation->t_end, head.time);
     if (simulation->scene.output.history)
-        TRY(checkpoint_try_history(simulation->folder.path, &head.history, err));
+        TRY(checkpoint_fits_history(simulation->folder.path, &head.history, err));
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
     start_programs(simulation);
@@ -271,7 +261,7 @@ bool simulation_is_finished(const Simulation *simulation)
                     (remaining <= 1e-9 * simulation->t_end ||
                      (implicit && !step_control_fits(control, remaining)));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
-        finished = finished || answers_are_known(&simulation->drops);
+        finished = finished || answers_of(&simulation->drops).enough;
     return finished || simulation_has_event(simulation);
 }
 
@@ -298,8 +288,10 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     StepControl *control = &simulation->control;
     double started = clock_seconds();
     if (!steering_is_open(simulation, err)) return false;
-    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT ? explicit_loop_advance(simulation, err)
-                                                           : advance_implicit(simulation, err)))
+    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT
+              ? step_control_advance_explicit(control, &simulation->explicit_reference,
+                                              simulation->explicit_steps, err)
+              : advance_implicit(simulation, err)))
         return false;
     simulation->timing.solve += clock_seconds() - started;
     if (!record_step(simulation, err)) return false;
@@ -327,7 +319,7 @@ static Answers answers_to_report(const Simulation *simulation, const Event **lea
 {
     Answers answers = simulation_answers(simulation);
     *least = drops_least_resolved(&simulation->drops, answers.first);
-    one_mesh_answer(simulation, *least, &answers);
+    one_mesh_answer(simulation, &answers);
     if (simulation->levels) levels_answer_for(simulation->levels, &answers);
     return answers;
 }

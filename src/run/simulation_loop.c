@@ -4,7 +4,6 @@
 
 #include "run/checkpoint.h"
 #include "run/rewind.h"
-#include "run/stop_request.h"
 
 #include <math.h>
 

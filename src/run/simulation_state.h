@@ -98,6 +98,8 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                           Simulation **simulation, Error *err);
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
 
+// ERROR_INTERRUPT: the caller wants a stop, or the time is up. Asked between phases and steps.
+bool simulation_may_go_on(const Simulation *simulation, Error *err);
 bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
 bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
 Answers simulation_answers(const Simulation *simulation);   // of this run so far, at its end

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lengths here are the block's; slip is measured by what the drop of friction can drive
 // (model_friction_slip).
-#include "run/stop_request.h"
 #include "run/start.h"
 
 #include "base/clock.h"

@@ -2,6 +2,7 @@
 // What a caller of amontons.h may change between two steps. The energy ledger needs nothing of it:
 // work is summed over the stages with the velocity and the load that act in them.
 #include "run/simulation_state.h"
+#include "base/clock.h"
 #include "run/warnings.h"
 #include "scene/keys.h"
 #include "scene/programs.h"
@@ -15,6 +16,14 @@ bool steering_is_open(const Simulation *simulation, Error *err)
         return REFUSE(err,
                       "%s: this simulation is finished, nothing can follow: save its state before",
                       simulation->scene.path);
+    return true;
+}
+
+bool simulation_may_go_on(const Simulation *simulation, Error *err)
+{
+    const volatile sig_atomic_t *stop = simulation->options.stop;
+    if (stop && *stop) return FAULT(err, ERROR_INTERRUPT, "stopped");
+    if (clock_seconds() > simulation->deadline) return FAULT(err, ERROR_INTERRUPT, "time is up");
     return true;
 }
 

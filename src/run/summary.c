@@ -54,15 +54,6 @@ static void add_phase(RunSummary *summary, const char *name, double seconds, int
     snprintf(phase->note, sizeof phase->note, "%s", note);
 }
 
-static const char *mesh_note(const Model *model, bool fields)
-{
-    static const char *const origins[] = {[MESH_OF_GMSH] = "elements, read through gmsh",
-                                          [MESH_OF_CACHE] = "elements, from the cache"};
-    if (model->mesh.element_count == 0) return "skipped: the shape is in the cache";
-    return fields && model->from_cache ? "elements: fields need the mesh"
-                                       : origins[model->mesh_origin];
-}
-
 // Where the time went, in the order of a run, and for what was skipped the reason.
 // `bulk` is what of relaxing and solving no part accounts for: products and substitutions.
 static void list_phases(const Simulation *simulation, RunSummary *summary)
@@ -76,8 +67,10 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     bool fields = simulation->fields.written > 0;
     double inside = solver->seconds + certificate->seconds + control->ladder.seconds;
     char note[96], written[96];
-    add_phase(summary, "mesh", model->seconds_mesh, model->elements, mesh_note(model, fields));
-    snprintf(note, sizeof note, "unknowns for %d%s%s", model->full_dofs,
+    add_phase(summary, "mesh", model->seconds_mesh, model->mesh.element_count,
+              model->mesh_origin == MESH_OF_CACHE ? "elements, from the cache"
+                                                  : "elements, read through gmsh");
+    snprintf(note, sizeof note, "unknowns for %d%s%s", model->bulk.dof_count,
              model->reduced.part_count > 1 ? ", by halves" : "",
              cached    ? ", from the cache"
              : reduced ? ""

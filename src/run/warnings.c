@@ -158,6 +158,13 @@ void warnings_of_turning(const Turning *turning, RunWarnings *warnings)
                  turning->angle, turning->drift, turning->way, 100 * share);
 }
 
+static bool gives_parameter(const Scene *scene, const char *name)
+{
+    for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
+        if (strcmp(scene->mesh.parameters[k].name, name) == 0) return true;
+    return false;
+}
+
 // How to get a mesh with contact cells of half the size, from the parameters that the scene gives.
 static const char *finer_mesh(const Scene *scene)
 {
@@ -167,9 +174,7 @@ static const char *finer_mesh(const Scene *scene)
                 {"cells_pad", "double mesh.set.cells_pad and cells_gap"},
                 {"nx", "double mesh.set.nx"}};
     for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++)
-        for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
-            if (strcmp(scene->mesh.parameters[k].name, ways[w].parameter) == 0)
-                return ways[w].words;
+        if (gives_parameter(scene, ways[w].parameter)) return ways[w].words;
     return "make the cells of the contact half as long (mesh.set.refine: 2 in the shipped meshes)";
 }
 
@@ -233,13 +238,6 @@ void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
                          isnan(last->answer[kind].bar)
                              ? ""
                              : ", so the error bar is as long as they are apart");
-}
-
-static bool gives_parameter(const Scene *scene, const char *name)
-{
-    for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
-        if (strcmp(scene->mesh.parameters[k].name, name) == 0) return true;
-    return false;
 }
 
 void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings)

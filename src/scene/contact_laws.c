@@ -1,51 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An item's values are set, by their keys of the map `friction`, in a copy of the scene: units,
-// ranges and messages are those of these keys.
 #include "scene/contact_laws.h"
 
-#include "base/memory.h"
 #include "friction/friction_look.h"
 #include "friction/friction_make.h"
 #include "friction/friction_state.h"
 #include "scene/own_law.h"
 
-#include <stdio.h>
 #include <string.h>
-
-// Of the item at `node`.
-static bool copy_word(const SceneValue *value, char *out, size_t size, Error *err)
-{
-    const char *text = yaml_text(value->document, value->node);
-    if (!*text || strlen(text) >= size)
-        return yaml_refuse(value->document, value->node, "friction.contacts", "a text", err);
-    memcpy(memset(out, 0, size), text, strlen(text) + 1);
-    return true;
-}
-
-static bool set_part(const SceneValue *value, Scene *own, SceneContactLaw *item, Error *err)
-{
-    static const char *const words[] = {"law", "mu_static", "mu_kinetic", "critical_velocity",
-                                        "formula"};
-    const char *name = yaml_key(value->document, value->node);
-    bool *given[] = {&item->has_law, &item->has_static, &item->has_kinetic, &item->has_critical,
-                     NULL};
-    int32_t count = 0;
-    const SceneKey *keys = scene_keys(&count);
-    char key[40];
-    if (strcmp(name, "group") == 0) return copy_word(value, item->group, GROUP_NAME_SIZE, err);
-    if (strcmp(name, "along") == 0) return copy_word(value, item->along, SCENE_TEXT_SIZE, err);
-    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
-        if (strcmp(name, words[k]) != 0) continue;
-        if (!given[k] && !copy_word(value, item->formula, SCENE_TEXT_SIZE, err)) return false;
-        if (given[k]) *given[k] = true;
-        snprintf(key, sizeof key, "friction.%s", name);
-        return scene_value_set(&keys[scene_key_index(key)], value, own, err);
-    }
-    return yaml_key_error(value->document, value->node, err,
-                          "friction.contacts: unknown key `%.60s`; allowed: group, law, mu_static, "
-                          "mu_kinetic, critical_velocity, formula, along",
-                          name);
-}
 
 // What is not the scene's law must be one of the built-in laws, or a formula of its own.
 static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law,
@@ -101,66 +62,34 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, Friction
            scene_remember(scene, law, &key, err);
 }
 
-static bool read_item(const SceneValue *value, const Scene *scene, Scene *own,
-                      SceneContactLaw *item, Error *err)
+// What it does not give is as in the scene; numbers of another formula are not those of its law.
+static void complete(const FrictionLaw *law, SceneContactLaw *item)
 {
-    const YamlDocument *document = value->document;
-    if (yaml_kind(document, value->node) != YAML_MAP)
-        return yaml_refuse(document, value->node, "friction.contacts", "a map {group: NAME, ...}",
-                           err);
-    *own = *scene;
-    YAML_EACH (part, document, value->node) {
-        // Numbers of another formula are not those of the scene's law.
-        if (strcmp(yaml_key(document, part), "formula") == 0)
-            own->friction.mu_static = own->friction.mu_kinetic = own->friction.critical_velocity =
-                0;
-    }
-    YAML_EACH (part, document, value->node) {
-        SceneValue one = {.document = document, .node = part};
-        if (!set_part(&one, own, item, err)) return false;
-    }
-    FrictionLaw law;
-    item->kind = own->friction.kind;
-    item->mu_static = own->friction.mu_static;
-    item->mu_kinetic = own->friction.mu_kinetic;
-    item->critical_velocity = own->friction.critical_velocity;
-    Error found = {0};
-    if (!*item->group)
-        return yaml_error(document, value->node, err,
-                          "friction.contacts: an item needs its `group`");
-    return scene_contact_law(scene, item, &law, &found) ||
-           yaml_error(document, value->node, err, "friction.contacts: %s: %s", item->group,
-                      found.message);
+    bool formula = *item->formula != 0;
+    if (!item->has_law) item->kind = law->kind;
+    if (!item->has_static) item->mu_static = formula ? 0 : law->mu_static;
+    if (!item->has_kinetic) item->mu_kinetic = formula ? 0 : law->mu_kinetic;
+    if (!item->has_critical) item->critical_velocity = formula ? 0 : law->critical_velocity;
 }
 
 bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
 {
-    SceneContactLaws *laws = &scene->contact_laws;
-    Scene *own = NULL;
-    laws->count = 0;
+    SceneContactLaw *item = scene->contact_laws.item, *first = item;
     if (!value->document) return true;
-    TRY((own = NEW_ARRAY(Scene, 1, err)));
     YAML_EACH (node, value->document, value->node) {
-        SceneValue one = {.document = value->document, .node = node};
-        SceneContactLaw *item = &laws->item[laws->count];
-        if (laws->count == SCENE_CONTACT_LAWS_MAX) {
-            yaml_error(value->document, node, err, "friction.contacts: at most %d items",
-                       SCENE_CONTACT_LAWS_MAX);
-            goto cleanup;
-        }
-        *item = (SceneContactLaw){0};
-        TRY(read_item(&one, scene, own, item, err));
-        for (int32_t k = 0; k < laws->count; k++) {
-            if (strcmp(laws->item[k].group, item->group) != 0) continue;
-            yaml_error(
-                value->document, node, err,
-                "friction.contacts: the group `%s` is named twice: by item %d and by item %d",
-                item->group, k + 1, laws->count + 1);
-            goto cleanup;
-        }
-        laws->count++;
+        FrictionLaw law;
+        Error found = {0};
+        complete(&scene->friction, item);
+        if (!scene_contact_law(scene, item, &law, &found))
+            return yaml_error(value->document, node, err, "friction.contacts: %s: %s", item->group,
+                              found.message);
+        for (const SceneContactLaw *other = first; other < item; other++)
+            if (strcmp(other->group, item->group) == 0)
+                return yaml_error(
+                    value->document, node, err,
+                    "friction.contacts: the group `%s` is named twice: by item %d and by item %d",
+                    item->group, (int)(other - first) + 1, (int)(item - first) + 1);
+        item++;
     }
-cleanup:
-    memory_free(own);
-    return error_is_clean(err);
+    return true;
 }

@@ -5,7 +5,7 @@
 #include "scene/keys.h"
 
 #include "io/files/folder.h"
-#include "scene/materials.h"
+#include "scene/items.h"
 
 #include <string.h>
 
@@ -24,86 +24,10 @@ static void write_parameters(const Scene *scene, JsonWriter *json, const char *n
     json_end(json);
 }
 
-static void write_tractions(const Scene *scene, JsonWriter *json, const char *name)
-{
-    json_begin_list(json, name);
-    for (int32_t i = 0; i < scene->load.traction_count; i++) {
-        json_begin_object(json, NULL);
-        json_text(json, "group", scene->load.tractions[i].group);
-        json_number(json, "x", scene->load.tractions[i].x);
-        if (scene->load.tractions[i].y != 0) json_number(json, "y", scene->load.tractions[i].y);
-        json_number(json, "z", scene->load.tractions[i].z);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// The word of the scene.
-static const char *support_direction(const SceneSupport *support)
-{
-    if (support->x && support->z) return support->y ? "all" : "both";
-    return support->x ? "x" : support->y ? "y" : "z";
-}
-
-static void write_supports(const Scene *scene, JsonWriter *json, const char *name)
-{
-    json_begin_list(json, name);
-    for (int32_t i = 0; i < scene->load.support_count; i++) {
-        json_begin_object(json, NULL);
-        json_text(json, "group", scene->load.supports[i].group);
-        json_text(json, "direction", support_direction(&scene->load.supports[i]));
-        json_end(json);
-    }
-    json_end(json);
-}
-
 static void write_numbers(const SceneNumbers *numbers, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
     for (int32_t i = 0; i < numbers->count; i++) json_number(json, NULL, numbers->value[i]);
-    json_end(json);
-}
-
-static void write_contact_laws(const SceneContactLaws *laws, JsonWriter *json, const char *name)
-{
-    json_begin_list(json, name);
-    for (int32_t i = 0; i < laws->count; i++) {
-        const SceneContactLaw *item = &laws->item[i];
-        json_begin_object(json, NULL);
-        json_text(json, "group", item->group);
-        if (item->has_law) json_text(json, "law", friction_kind_name(item->kind));
-        if (item->has_static) json_number(json, "mu_static", item->mu_static);
-        if (item->has_kinetic) json_number(json, "mu_kinetic", item->mu_kinetic);
-        if (item->has_critical) json_number(json, "critical_velocity", item->critical_velocity);
-        if (*item->formula) json_text(json, "formula", item->formula);
-        if (*item->along) json_text(json, "along", item->along);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-static void write_states(const SceneStates *states, JsonWriter *json, const char *name)
-{
-    json_begin_object(json, name);
-    for (int32_t i = 0; i < states->count; i++) {
-        json_begin_object(json, states->state[i].name);
-        json_text(json, "rate", states->state[i].rate);
-        if (*states->state[i].start) json_text(json, "start", states->state[i].start);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-static void write_materials(const SceneMaterials *materials, JsonWriter *json, const char *name)
-{
-    json_begin_object(json, name);
-    for (int32_t i = 0; i < materials->count; i++) {
-        const SceneMaterial *region = &materials->region[i];
-        json_begin_object(json, region->group);
-        for (int32_t k = 0; k < SCENE_MATERIAL_NUMBERS; k++)
-            if (region->given[k]) json_number(json, scene_material_word(k), region->number[k]);
-        json_end(json);
-    }
     json_end(json);
 }
 
@@ -129,6 +53,23 @@ static bool is_file(const char *key)
     for (size_t k = 0; k < sizeof files / sizeof *files; k++)
         if (strcmp(key, files[k]) == 0) return true;
     return false;
+}
+
+static void write_items(const SceneItems *items, const Scene *scene, JsonWriter *json,
+                        const char *name)
+{
+    (items->named ? json_begin_object : json_begin_list)(json, name);
+    for (int32_t k = 0; k < scene_items_count(items, scene); k++) {
+        json_begin_object(json, items->named ? scene_item(items, scene, k) : NULL);
+        if (!items->named) json_text(json, "group", scene_item(items, scene, k));
+        for (const ScenePart *part = items->parts; part->word; part++) {
+            SceneKey key = scene_part_key(items, part, k, part->word);
+            if (part->shown || scene_part_is_there(items, part, scene, k))
+                scene_write_value(&key, scene, json, part->word);
+        }
+        json_end(json);
+    }
+    json_end(json);
 }
 
 // Of an output.fields that is a map the keys follow by themselves.
@@ -158,20 +99,8 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
     case KEY_PARAMETERS:
         write_parameters(scene, json, name);
         return;
-    case KEY_TRACTIONS:
-        write_tractions(scene, json, name);
-        return;
-    case KEY_SUPPORTS:
-        write_supports(scene, json, name);
-        return;
-    case KEY_CONTACT_LAWS:
-        write_contact_laws(field, json, name);
-        return;
-    case KEY_STATES:
-        write_states(field, json, name);
-        return;
-    case KEY_MATERIALS:
-        write_materials(field, json, name);
+    case KEY_ITEMS:
+        write_items(key->items, scene, json, name);
         return;
     case KEY_FIELDS:
         json_text(json, name, scene->output.fields ? "as below" : "none");

@@ -50,14 +50,11 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_NUMBERS] = "a list of at most 64 numbers, each ",
         [KEY_NAMES] = "a name or a list of at most 32 names",
         [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
-        [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
-        [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
-        [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
-        [KEY_STATES] = "a map of at most 8 maps, as in {theta: {rate: 1 - v*theta/D_c, start: 10}}",
-        [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
         [KEY_FIELDS] = "none, film, or a map of every_U, every_t, every_step, at_events, film",
     };
-    const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
+    const char *text = key->type == KEY_NUMBER  ? ranges[key->range].words
+                       : key->type == KEY_ITEMS ? key->items->allowed
+                                                : by_type[key->type];
     bool names = key->type == KEY_NAMES && key->choices, none = scene_key_may_be_none(key);
     snprintf(words, (size_t)size, "%s%s%s", none ? "none, or " : "", names ? "a list of: " : text,
              key->type == KEY_NUMBERS ? ranges[key->range].words : "");

@@ -67,9 +67,10 @@ static const SceneKey keys[] = {
     CHOICE(material.plane, "stress",
            "Plane stress (a thin plate) or plane strain (a wide block); in space neither.",
            "stress", "strain"),
-    WORDS(KEY_MATERIALS, materials, NULL,
-          "Materials of regions, by the names of physical surfaces (volumes): those of young, "
-          "poisson, density, eta1, eta2 that differ there from `material`."),
+    KEY("materials", KEY_ITEMS, materials.count, "1", RANGE_ANY, NULL,
+        "Materials of regions, by the names of physical surfaces (volumes): those of young, "
+        "poisson, density, eta1, eta2 that differ there from `material`.",
+        .items = &scene_material_items),
     KEY("friction.law", KEY_CHOICE, friction.kind, "1", RANGE_ANY, "linear-weakening",
         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` are "
         "one's own; `ageing`, `slip-weakening` and `rate-and-state` remember.",
@@ -93,9 +94,10 @@ static const SceneKey keys[] = {
         "Law `formula`: mu of the slip rate v >= 0, the pressure p and the states, with + - * / ^, "
         "brackets, sqrt, exp, log, tanh, asinh, abs, round, min, max, points, and numbers of this "
         "map where they are given: mu_static, slip_distance or D_c, ..."),
-    KEY("friction.state", KEY_STATES, own_friction.states, "1", RANGE_ANY, NULL,
+    KEY("friction.state", KEY_ITEMS, own_friction.states.count, "1", RANGE_ANY, NULL,
         "Law `formula`: what a contact remembers, each state by the formula of its rate and what "
-        "it is at first (if not given, as in steady slip at rod.velocity)."),
+        "it is at first (if not given, as in steady slip at rod.velocity).",
+        .items = &scene_state_items),
     KEY("friction.file", KEY_TEXT, own_friction.file, "1", RANGE_ANY, NULL,
         "Law `plugin`: a shared object with the functions of amontons_friction.h, relative to the "
         "scene's folder; needs --trust."),
@@ -134,9 +136,10 @@ static const SceneKey keys[] = {
     KEY("friction.along", KEY_TEXT, own_friction.along, "1", RANGE_ANY, NULL,
         "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, 1, 0.45, "
         "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."),
-    KEY("friction.contacts", KEY_CONTACT_LAWS, contact_laws, "1", RANGE_ANY, NULL,
+    KEY("friction.contacts", KEY_ITEMS, contact_laws.count, "1", RANGE_ANY, NULL,
         "Friction of single contact groups, a list of {group: NAME, ...} with those of law, "
-        "mu_static, mu_kinetic, critical_velocity, formula and along that differ there."),
+        "mu_static, mu_kinetic, critical_velocity, formula and along that differ there.",
+        .items = &scene_contact_items),
     NUMBER(contact.radius, "length", RANGE_NOT_NEGATIVE, "0",
            "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it is "
            "flat."),
@@ -151,11 +154,13 @@ static const SceneKey keys[] = {
           "give units, `x [mm], gap [um]`."),
     NUMBER(load.pressure, "stress", RANGE_NOT_NEGATIVE, NULL,
            "Uniform pressure P_ext on groups.top.", .must_be_given = true),
-    KEY("load.tractions", KEY_TRACTIONS, load, "stress", RANGE_ANY, "[]",
-        "Further tractions, a list of {group, x, z} (and y): a stress on a group."),
-    WORDS(KEY_SUPPORTS, load.supports, "[]",
-          "Where the block is held, a list of {group, direction}: nodes of a group that do not "
-          "move along `x`, `z` or `both`, in space also `y` or `all`."),
+    KEY("load.tractions", KEY_ITEMS, load.traction_count, "stress", RANGE_ANY, "[]",
+        "Further tractions, a list of {group, x, z} (and y): a stress on a group.",
+        .items = &scene_traction_items),
+    KEY("load.supports", KEY_ITEMS, load.support_count, "1", RANGE_ANY, "[]",
+        "Where the block is held, a list of {group, direction}: nodes of a group that do not "
+        "move along `x`, `z` or `both`, in space also `y` or `all`.",
+        .items = &scene_support_items),
     KEY("load.program.t", KEY_NUMBERS, load.program.t, "time", RANGE_NOT_NEGATIVE, NULL,
         "Times of the program, ascending from 0; the same twice: a jump."),
     KEY("load.program.U", KEY_NUMBERS, load.program.U, "length", RANGE_NOT_NEGATIVE, NULL,
@@ -339,7 +344,7 @@ int32_t scene_key_above(const char *name, const char **part)
 {
     for (int32_t k = 0; k < KEY_COUNT; k++) {
         size_t length = strlen(keys[k].name);
-        bool open = keys[k].type == KEY_PARAMETERS || keys[k].type == KEY_MATERIALS;
+        bool open = keys[k].type == KEY_PARAMETERS || (keys[k].items && keys[k].items->named);
         if (!open || strncmp(name, keys[k].name, length) != 0 || name[length] != '.') continue;
         *part = name + length + 1;
         return k;

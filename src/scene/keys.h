@@ -21,11 +21,7 @@ typedef enum SceneKeyType {
     KEY_NUMBERS,   // SceneNumbers: a list of numbers
     KEY_NAMES,   // SceneNames: one name or a list of them; of `choices` where there are any
     KEY_PARAMETERS,   // mesh.set: keys of any name, each a number or a word
-    KEY_TRACTIONS,   // load.tractions: a list of {group, x, z}
-    KEY_SUPPORTS,   // load.supports: a list of {group, direction}
-    KEY_CONTACT_LAWS,   // friction.contacts: a list of {group, and keys of friction that differ}
-    KEY_STATES,   // friction.state: a map of states, each {rate, start}
-    KEY_MATERIALS,   // materials: a map of regions, each a map of keys of material that differ
+    KEY_ITEMS,   // a list or map of maps, as its `items` say (scene/item_kinds)
     KEY_FIELDS,   // output.fields: none, or a map of the keys below it
 } SceneKeyType;
 
@@ -44,6 +40,8 @@ typedef enum SceneRange {
 #undef X
 } SceneRange;
 
+typedef struct SceneItems SceneItems;
+
 typedef struct SceneKey {
     const char *name;   // "material.young"
     SceneKeyType type;
@@ -53,9 +51,33 @@ typedef struct SceneKey {
     const char *standard;   // default, as it would be written in YAML; NULL: none
     const char *sentence;   // what it means, for the reference
     const char *const *choices;   // NULL-terminated, in the order of the enum; NULL otherwise
+    const SceneItems *items;   // of KEY_ITEMS
     bool must_be_given;   // of those without a default; friction.law says which of its keys must
     bool given_in_si;   // the default suits normalised scenes: with SI it must be given
 } SceneKey;
+
+// One word of an item: {group: a, mu_static: 0.5} has mu_static beside its group.
+typedef struct ScenePart {
+    const char *word;
+    size_t offset;   // in the item
+    size_t given;   // there: a bool, whether it is given; 0: where it is not 0 or empty
+    const SceneKey *key;   // type, unit, range, choices; NULL: those of the key `like`.word
+    bool must, shown;   // be given; also where it is not
+} ScenePart;
+
+// ONE table says what the items of each such key have: they are read by it (scene/items) and
+// written (scene/json).
+struct SceneItems {
+    bool named;   // a map, whose keys name the items; else a list, where each has its `group`
+    int32_t most;
+    size_t count, first, size;   // in Scene: how many, and the first of them; bytes of each
+    size_t name_size;   // of its name, with which it begins
+    const char *like;   // the map of keys that an item gives otherwise; NULL: none
+    const char *noun, *allowed, *item;   // "a traction"; what the value may be; what one may be
+    const ScenePart *parts;   // ended by one without a word
+};
+extern const SceneItems scene_traction_items, scene_support_items, scene_contact_items,
+    scene_state_items, scene_material_items;
 
 static inline bool scene_key_may_lack(const SceneKey *key)
 {

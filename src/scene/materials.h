@@ -4,21 +4,13 @@
 #ifndef AMONTONS_SCENE_MATERIALS_H
 #define AMONTONS_SCENE_MATERIALS_H
 
-#include "scene/value.h"
-
-// The word of number k of a region, "young"; its range and unit are those of `material`.
-const char *scene_material_word(int32_t k);
+#include "scene/keys.h"
 
 // Number k of a region: its own, or else that of `material`.
 double scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k);
 
 // What material k of a model is called: 0 `material`, then the regions in their order.
 const char *scene_region_name(const Scene *scene, int32_t k);
-
-// Fills scene->materials from the map `value`; or, where value->part is the rest of the path of a
-// --set ("pads", "pads.young"), the one region or number that it names. ERROR_INPUT shows the
-// place.
-bool scene_materials_set(const SceneValue *value, Scene *scene, Error *err);
 
 // The number at a path of keys ("materials.pads.young"). false: none is given there.
 bool scene_materials_find(const Scene *scene, const char *path, double *number);

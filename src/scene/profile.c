@@ -14,7 +14,6 @@
 #include <strings.h>
 
 static const char BLANKS[] = " \t\r", BETWEEN[] = " \t,;", AROUND[] = " \t\r\"'";
-static const char BYTE_ORDER_MARK[] = "\xEF\xBB\xBF";   // before the first line, by some programs
 enum { COLUMNS_MAX = 3, HEAD_SIZE = 80 };
 
 typedef struct ProfilePoint {
@@ -126,9 +125,7 @@ static bool add_point(Table *table, const double *column, Error *err)
     if (!(gap >= 0 && finite))
         return REFUSE(err, "%s:%d: at x = %g the gap is %g; a number >= 0 is needed", table->path,
                       table->number, x, gap);
-    ProfilePoint *list = memory_grow(table->points, table->count, &table->room, sizeof point, err);
-    if (!list) return false;
-    table->points = list;
+    if (!memory_grow(&table->points, table->count, &table->room, sizeof point, err)) return false;
     table->points[table->count++] = point;
     return error_is_clean(err);
 }
@@ -238,10 +235,7 @@ bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
     if (!*table.path) return true;
     TRY(text_file_read(table.path, SCENE_PROFILE_BYTES_MAX, &bytes, &size, err));
     if (memchr(bytes, 0, (size_t)size)) FAIL(err, ERROR_INPUT, "%s is no text", table.path);
-    char *first = bytes;
-    if (strncmp(first, BYTE_ORDER_MARK, strlen(BYTE_ORDER_MARK)) == 0)
-        first += strlen(BYTE_ORDER_MARK);
-    for (char *next = first; next;) {
+    for (char *next = bytes; next;) {
         table.line = next;
         table.number++;
         next = strchr(next, '\n');

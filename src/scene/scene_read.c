@@ -11,11 +11,10 @@
 #include "scene/check.h"
 #include "scene/contact_laws.h"
 #include "scene/formulas.h"
+#include "scene/items.h"
 #include "scene/keys.h"
-#include "scene/materials.h"
 #include "scene/own_law.h"
 #include "scene/profile.h"
-#include "scene/states.h"
 #include "scene/value.h"
 
 #include <stdio.h>
@@ -145,6 +144,11 @@ static bool read_defaults(Reader *reader, Error *err)
     return yaml_parse("defaults", text, 0, &reader->defaults, err);
 }
 
+static bool store_value(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    return (key->items ? scene_items_set : scene_value_set)(key, value, scene, err);
+}
+
 // Gives `group` and every key below it ("": all) its default; a key without one becomes zero.
 static bool store_defaults(Reader *reader, const char *group, Scene *scene, Error *err)
 {
@@ -161,7 +165,7 @@ static bool store_defaults(Reader *reader, const char *group, Scene *scene, Erro
         scene->line[k] = 0;
         reader->sources[k] = (SceneValue){0};
         if (!key->standard) scene_value_clear(key, scene);
-        if (key->standard && !scene_value_set(key, &value, scene, err)) return false;
+        if (key->standard && !store_value(key, &value, scene, err)) return false;
     }
     return true;
 }
@@ -181,10 +185,7 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     if (value.part) value.part = setting->group;
     if (is_none(key, &value)) return store_defaults(reader, key->name, scene, err);
     if (key->type == KEY_FIELDS && !store_defaults(reader, fields, scene, err)) return false;
-    bool stored = key->type == KEY_MATERIALS ? scene_materials_set(&value, scene, err)
-                  : key->type == KEY_STATES  ? scene_states_set(key, &value, scene, err)
-                                             : scene_value_set(key, &value, scene, err);
-    if (!stored) return false;
+    if (!store_value(key, &value, scene, err)) return false;
     bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&
                              key->type != KEY_FIELDS;
     if (is_part_of_fields) {

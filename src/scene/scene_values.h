@@ -48,7 +48,9 @@ typedef struct SceneTraction {
 // Nodes of a group that do not move along some of the axes; y: in space only.
 typedef struct SceneSupport {
     char group[GROUP_NAME_SIZE];
-    bool x, y, z;
+    bool has_direction;
+    int32_t direction;   // the word that the scene has: x, y, z, both, all
+    bool x, y, z;   // what it stands for
 } SceneSupport;
 
 // The numbers of a material, in the order of scene/materials.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// friction.state: what contacts remember by one's own formulas. Called by scene/scene_read.
+// friction.state: what contacts remember by one's own formulas. Called by scene/items.
 #ifndef AMONTONS_SCENE_STATES_H
 #define AMONTONS_SCENE_STATES_H
 
-#include "scene/value.h"
+#include <stdbool.h>
 
-// {theta: {rate: "1 - v * theta / D_c", start: 10}}; names that no formula has already.
-bool scene_states_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
+// Letters, digits and _, of which no formula has another meaning.
+bool scene_state_may_be(const char *name);
 
 #endif

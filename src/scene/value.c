@@ -253,85 +253,6 @@ static bool set_parameters(const SceneKey *key, const SceneValue *value, Scene *
     return set_items(key, value, YAML_MAP, set_parameter, scene, err);
 }
 
-// Into the traction after those that are complete; add_traction counts it when it is.
-static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scene *scene,
-                              Error *err)
-{
-    SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
-    const char *name = yaml_key(value->document, value->node);
-    static const char *const components[] = {"load.tractions.x", "load.tractions.y",
-                                             "load.tractions.z"};
-    double *const places[] = {&traction->x, &traction->y, &traction->z};
-    if (strcmp(name, "group") == 0)
-        return copy_text(key, value, GROUP_NAME_SIZE, traction->group, err);
-    for (int32_t d = 0; d < 3; d++) {
-        SceneKey component = {
-            .name = components[d], .type = KEY_NUMBER, .unit = key->unit, .must_be_given = true};
-        if (strcmp(name, strrchr(components[d], '.') + 1) == 0)
-            return read_number(&component, value, scene->units, places[d], err);
-    }
-    return yaml_key_error(value->document, value->node, err,
-                          "%s: unknown key `%.60s`; allowed: group, x, y, z", key->name, name);
-}
-
-// Counted only after its parts were read: set_traction_part writes into the place behind the last.
-static bool add_traction(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
-    *traction = (SceneTraction){0};
-    if (!set_items(key, value, YAML_MAP, set_traction_part, scene, err)) return false;
-    scene->load.traction_count++;
-    return *traction->group || yaml_error(value->document, value->node, err,
-                                          "%s: a traction needs its `group`", key->name);
-}
-
-static bool support_holds(const SceneSupport *support)
-{
-    return support->x || support->y || support->z;
-}
-
-static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    SceneSupport *support = &scene->load.supports[scene->load.support_count];
-    const char *name = yaml_key(value->document, value->node);
-    const char *text = yaml_text(value->document, value->node);
-    if (strcmp(name, "group") == 0)
-        return copy_text(key, value, GROUP_NAME_SIZE, support->group, err);
-    if (strcmp(name, "direction") != 0)
-        return yaml_key_error(value->document, value->node, err,
-                              "%s: unknown key `%.60s`; allowed: group, direction", key->name,
-                              name);
-    bool all = strcmp(text, "all") == 0, both = all || strcmp(text, "both") == 0;
-    support->x = both || strcmp(text, "x") == 0;
-    support->y = all || strcmp(text, "y") == 0;
-    support->z = both || strcmp(text, "z") == 0;
-    return support_holds(support) ||
-           yaml_error(value->document, value->node, err,
-                      "%s.direction: found `%.60s`; allowed: one of x, y, z, both, all", key->name,
-                      text);
-}
-
-// Likewise.
-static bool add_support(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    SceneSupport *support = &scene->load.supports[scene->load.support_count];
-    *support = (SceneSupport){0};
-    if (!set_items(key, value, YAML_MAP, set_support_part, scene, err)) return false;
-    scene->load.support_count++;
-    return (*support->group && support_holds(support)) ||
-           yaml_error(value->document, value->node, err,
-                      "%s: a support needs its `group` and its `direction`", key->name);
-}
-
-// load.tractions and load.supports; nothing is an empty list.
-static bool set_list(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    bool tractions = key->type == KEY_TRACTIONS;
-    *(tractions ? &scene->load.traction_count : &scene->load.support_count) = 0;
-    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
-    return set_items(key, value, YAML_LIST, tractions ? add_traction : add_support, scene, err);
-}
-
 // `none`, or a map whose keys follow as settings of their own; these were given their defaults
 // before.
 static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -349,14 +270,12 @@ static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scen
 
 void scene_value_clear(const SceneKey *key, Scene *scene)
 {
-    size_t size = key->type == KEY_NUMBER         ? sizeof(double)
-                  : key->type == KEY_NUMBERS      ? sizeof(SceneNumbers)
-                  : key->type == KEY_CONTACT_LAWS ? sizeof(SceneContactLaws)
-                  : key->type == KEY_STATES       ? sizeof(SceneStates)
-                  : key->type == KEY_MATERIALS    ? sizeof(SceneMaterials)
-                  : key->type == KEY_CHOICE       ? sizeof(int32_t)
-                  : key->type == KEY_FLAG         ? sizeof(bool)
-                                                  : SCENE_TEXT_SIZE;
+    size_t size = key->type == KEY_NUMBER    ? sizeof(double)
+                  : key->type == KEY_NUMBERS ? sizeof(SceneNumbers)
+                  : key->type == KEY_CHOICE  ? sizeof(int32_t)
+                  : key->type == KEY_FLAG    ? sizeof(bool)
+                  : key->type == KEY_ITEMS   ? sizeof(int32_t)   // how many there are
+                                             : SCENE_TEXT_SIZE;
     memset(field_of(key, scene), 0, size);
 }
 
@@ -379,14 +298,7 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
         return set_names(key, value, scene, err);
     case KEY_PARAMETERS:
         return set_parameters(key, value, scene, err);
-    case KEY_TRACTIONS:
-    case KEY_SUPPORTS:
-        return set_list(key, value, scene, err);
-    case KEY_CONTACT_LAWS:   // read when all that they may leave out is (scene/contact_laws)
-        return yaml_kind(value->document, value->node) == YAML_LIST ||
-               report_wrong(key, value, err);
-    case KEY_STATES:   // scene/states
-    case KEY_MATERIALS:   // scene/materials
+    case KEY_ITEMS:   // scene/items
         return true;
     case KEY_FIELDS:
         return set_fields(key, value, scene, err);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The shape on disk: a second run gives the same bits without a mesh or a factorisation, and
+"""Mesh and basis on disk: a second run gives the same bits without gmsh or a factorisation, and
 whatever stands in the cache, a run never fails for it."""
 import json
 import os
@@ -79,7 +79,7 @@ class SameBits(Cached):
         none, uncached = self.run_scene(*PLAIN, cache="")
         self.assertFalse(self.cache.exists())
         first, made = self.run_scene(*PLAIN)
-        self.assertEqual(self.endings(), [".basis", ".mesh", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".mesh"])
         second, read = self.run_scene(*PLAIN)
         self.assertEqual([run["model"]["from_cache"] for run in (uncached, made, read)],
                          [False, False, True])
@@ -89,8 +89,7 @@ class SameBits(Cached):
             self.assertEqual(read[key], made[key], key)
         for key in made["model"].keys() - {"from_cache", "mesh_by"}:
             self.assertEqual(read["model"][key], made["model"][key], key)
-        self.assertEqual(read["timing_s"]["mesh"], 0)
-        self.assertEqual([run["model"]["mesh_by"] for run in (made, read)], ["gmsh", None])
+        self.assertEqual([run["model"]["mesh_by"] for run in (made, read)], ["gmsh", "cache"])
         outside = [run["timing_s"]["outside_loop_cpu"] for run in (made, read)]
         self.assertLess(0, outside[1])
         self.assertLess(2 * outside[1], outside[0])   # gmsh alone takes several times that
@@ -121,12 +120,12 @@ class SameBits(Cached):
             cached, report = self.run_scene(*FIELDS)
             self.assertEqual(report["model"]["from_cache"], known)
             self.assertIsNone(report["model"]["cache_note"])
-            self.assertEqual(self.endings(), [".basis", ".mesh", ".modes", ".shape"])
+            self.assertEqual(self.endings(), [".basis", ".mesh", ".modes"])
             self.assert_same_fields(without, cached)
             self.assert_same_history(without, cached)
 
     def test_no_gmsh_and_no_vtk(self):
-        """Where gmsh and VTK are missing a shape that is new fails, one in the cache does not."""
+        """Where gmsh and VTK are missing a mesh that is new fails, one in the cache does not."""
         bare = self.folder / "modules"
         bare.mkdir()
         for module in MODULES.glob("amontons_*.so"):
@@ -152,10 +151,10 @@ class SameBits(Cached):
                         "friction.law=exponential-weakening", "start.friction=off",
                         "rod.kind=bonded", "material.density=120"):
             self.assertTrue(self.model(*PLAIN, setting)["from_cache"], setting)
-        self.assertEqual(len(self.files()), 3)
+        self.assertEqual(len(self.files()), 2)
         self.assertFalse(self.model(*PLAIN, "mesh.set.nz=12")["from_cache"])
         self.assertFalse(self.model(*PLAIN, "reduction.tolerance=1e-3")["from_cache"])
-        self.assertEqual(len(self.files()), 8)   # the tolerance asks for no new mesh
+        self.assertEqual(len(self.files()), 5)   # the tolerance asks for no new mesh
 
     def test_what_has_no_shape(self):
         for setting in ("reduction.cache=false", "reduction.use=never"):
@@ -173,12 +172,12 @@ class SameBits(Cached):
         self.assert_same_history(none, cached)
 
     def test_moving_start(self):
-        """It moves the interface, which the cache has: no mesh, and the same bits."""
+        """It moves the interface: the same bits from the cache."""
         moves = [*PLAIN, "start.velocity_x=1e-5"]
         none, _ = self.run_scene(*moves, cache="")
         self.run_scene(*PLAIN)
         cached, report = self.run_scene(*moves)
-        self.assertEqual(report["timing_s"]["mesh"], 0)
+        self.assertTrue(report["model"]["from_cache"])
         self.assert_same_history(none, cached)
 
     def test_blocks_that_fly_at_other_speeds(self):
@@ -193,11 +192,11 @@ class SameBits(Cached):
         self.assertTrue(cached["model"]["from_cache"])
 
     def test_rod_on_the_leading_face(self):
-        """It may pull there, and a shape so stored does not let it push."""
+        """It may pull there, and a basis so stored does not let it push."""
         leads = [*PLAIN, "groups.rod=leading"]
         for again in (False, True):
             _, report = self.run_scene(*leads, "rod.kind=bonded")
-            self.assertEqual(report["timing_s"]["mesh"] == 0, again)
+            self.assertEqual(report["model"]["mesh_by"], "cache" if again else "gmsh")
             done = subprocess.run([BIN / "amontons", "run", SCENE, "-o", self.folder / f"push-{again}",
                                    "--quiet", "--set", *SHORT, *leads], capture_output=True, text=True,
                                   env=dict(os.environ, AMONTONS_CACHE=str(self.cache)), timeout=60)
@@ -216,7 +215,7 @@ class SameBits(Cached):
                            check=True, capture_output=True)
             for again in (False, True):   # read once each; both hold the same nodes: one basis
                 _, report = self.run_scene(*PLAIN, scene=scene, settings=SHORT[3:])
-                self.assertEqual(report["timing_s"]["mesh"] == 0, again)
+                self.assertEqual(report["model"]["mesh_by"], "cache" if again else "gmsh")
                 self.assertEqual(report["model"]["from_cache"], again or bool(binary))
                 self.assertEqual(report["model"]["elements"], 64)
         (self.folder / "all.geo").write_text(f'Include "{SOURCE}/meshes/block.geo";\n')
@@ -226,7 +225,7 @@ class SameBits(Cached):
         for _ in range(2):
             _, report = self.run_scene(*PLAIN, scene=scene, settings=SHORT[:2] + SHORT[3:])
             self.assertTrue(report["model"]["from_cache"])
-            self.assertGreater(report["timing_s"]["mesh"], 0)
+            self.assertEqual(report["model"]["mesh_by"], "gmsh")
             self.assertIn("draws on more than its own text", json.dumps(report))
         self.assertEqual(len(self.files()), count)
 
@@ -352,13 +351,13 @@ class OneBasis(Cached):
             self.assertEqual(report["model"]["from_cache"], k > 0)
             self.assertEqual(report["model"]["length"], length)
             again, read = self.run_length(length)
-            self.assertEqual(read["timing_s"]["mesh"], 0)
+            self.assertEqual(read["model"]["mesh_by"], "cache")
             self.assert_same_history(folder, again)
             alone, made = self.run_length(length, cache="")
             self.assertFalse(made["model"]["from_cache"])
             self.assert_same_history(folder, alone)   # to the last bit, whoever made the basis
             peaks[length] = [peak["mu"] for peak in report["results"]["peaks"]]
-        self.assertEqual(self.endings(), [".basis"] + 3 * [".mesh"] + 3 * [".shape"])
+        self.assertEqual(self.endings(), [".basis"] + 3 * [".mesh"])
         self.assertGreater(peaks[0.25][0], 1.02 * peaks[4][0])   # they are not the same block
 
     def test_against_the_full_mesh(self):
@@ -417,17 +416,14 @@ class NotTrusted(Cached):
             self.spoil(".basis", change)
             self.assert_rebuilt(reason, *PLAIN)
 
-    def test_spoilt_shape(self):
-        """The mesh is read again, its basis is not made again."""
+    def test_spoilt_mesh(self):
+        """It is made again, its basis is not."""
         first, _ = self.run_scene(*PLAIN)
-        self.spoil(".shape", lambda data: data[:-1])
-        folder, report = self.run_scene(*PLAIN)
-        self.assertIn("a cached shape is not used", report["model"]["cache_note"])
-        self.assertTrue(report["model"]["from_cache"])
-        self.assertGreater(report["timing_s"]["mesh"], 0)
-        self.assert_same_history(first, folder)
-        _, again = self.run_scene(*PLAIN)   # and put right
-        self.assertEqual((again["timing_s"]["mesh"], again["model"]["cache_note"]), (0, None))
+        self.spoil(".mesh", lambda data: data[:-1])
+        for mesh_by in ("gmsh", "cache"):   # and put right
+            folder, report = self.run_scene(*PLAIN)
+            self.assertEqual((report["model"]["mesh_by"], report["model"]["from_cache"]), (mesh_by, True))
+            self.assert_same_history(first, folder)
 
     def test_spoilt_modes(self):
         self.run_scene(*FIELDS)
@@ -464,13 +460,13 @@ class NotTrusted(Cached):
 
     def test_side_by_side(self):
         """Four first runs at once: all go well, one builds the basis and the others read it, one
-        shape is left and no lock."""
+        basis is left and no lock."""
         environment = dict(os.environ, AMONTONS_CACHE=str(self.cache))
         runs = [subprocess.Popen([BIN / "amontons", "run", SCENE, "-o", self.folder / f"side-{k}",
                                   "--quiet", "--set", *SHORT, *PLAIN], env=environment)
                 for k in range(4)]
         self.assertEqual([run.wait(60) for run in runs], [0] * 4)
-        self.assertEqual(self.endings(), [".basis", ".mesh", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".mesh"])
         self.assertTrue(self.model(*PLAIN)["from_cache"])
         reports = [json.loads((self.folder / f"side-{k}" / "run.json").read_text())
                    for k in range(4)]

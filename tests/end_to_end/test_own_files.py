@@ -53,7 +53,7 @@ COMMANDS = {
     "webm": ["film", "out", "-o", "film.webm", *FILM],
     "gif": ["film", "out", "-o", "film.gif", "--fps", "20", *FILM],
 }
-NOT_HERE = ("array-", "share-", "running")   # of Slurm: end_to_end.slurm
+NOT_HERE = ("array.sh", "slurm/designs", "share-", "running")   # of Slurm: end_to_end.slurm
 READERS = [["info", "out"], ["render", "out"], ["report", "out"], ["film", "out", *FILM], [*COMMANDS["run"], "--resume"],
            [*COMMANDS["run"], "--overwrite"], ["info", "many"], COMMANDS["sweep"], ["render", "many"], ["report", "many"]]
 STANDARD = b"somebody's, and long enough to be worth something\n"

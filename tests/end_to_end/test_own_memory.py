@@ -195,7 +195,7 @@ class OwnMemory(Driven):
     def test_refusals(self):
         for words, setting in (
                 ("the law `linear-weakening` does not read it", "friction.state={theta: {rate: 1 - v}}"),
-                ("`theta` needs its `rate`", "friction={law: formula, formula: 0.3, state: {theta: {start: 1}}}"),
+                ("friction.state.theta: a state needs its `rate`", "friction={law: formula, formula: 0.3, state: {theta: {start: 1}}}"),
                 ("`min` cannot be the name of a state", "friction={law: formula, formula: 0.3, state: {min: {rate: v}}}"),
                 ("or a number of friction", "friction={law: formula, formula: 0.3 + D_c, slip_distance: 1, state: {D_c: {rate: -D_c}}}"),
                 ("x, its rate: `/ 2`", "friction={law: formula, formula: 0.3 + x, state: {x: {rate: -x +/ 2}}}"),

@@ -37,7 +37,7 @@ class Sweep(unittest.TestCase):
         reason = Slurm.missing()
         if reason:
             raise unittest.SkipTest(f"no Slurm: {reason}")
-        cls.slurm = Slurm(array_size=5)   # four elements an array: six points want two
+        cls.slurm = Slurm(array_size=9)   # eight elements an array: of twelve points four compute two
         cls.addClassCleanup(cls.slurm.stop)
         reason = cls.slurm.start()
         if reason:
@@ -122,8 +122,8 @@ class Sweep(unittest.TestCase):
         self.assertIn("has no group 'roof'", self.table()[6]["message"])
         self.assertRegex(slurm[1], r"(?m)^12/12  groups.top=\w+ load.pressure=0.00\d rod.kind=\w+ +(mu_M|FAILED)")
         self.assertEqual(pool[0].split("mu_M, highest")[1], slurm[0].split("mu_M, highest")[1])
-        scripts = sorted(path.name for path in (self.folder / "out/slurm").glob("*.sh"))
-        self.assertEqual(scripts, ["array-0.sh", "array-1.sh", "array-2.sh"])   # of 4 elements each
+        shares = [len(path.read_text().splitlines()) for path in (self.folder / "out/slurm").glob("share-*.points")]
+        self.assertEqual(sorted(shares), [1] * 4 + [2] * 4)
         self.assertIn("12 points: 0 computed", self.sweep("--slurm", "--set", "rod.velocity=9e-6", status=1)[0])
         self.assertFalse((self.folder / "out/slurm/running").exists())
 

@@ -195,6 +195,46 @@ class SpacePictures(unittest.TestCase):
         self.assertAlmostEqual(1 - (y.mean() + 3) / (bottom - top), 0.25, delta=0.01)
         self.assertAlmostEqual(len(x) / fast.size, 1 / 20, delta=0.003)   # a cell's area around an inner node
 
+    def odd_share(self, name, quantity, at, values):
+        """Of the maps that `render` draws, how much has the colour of the odd node; the rest has one colour, too."""
+        target = self.folder / "odd"
+        subprocess.run(["cp", "-r", self.folder / name, target], check=True)
+        with h5py.File(target / "history.h5", "r+") as file:
+            times = file["series/rod_displacement"][:][list(at)]
+            for array, value in values.items():
+                file[array][...] = value
+        self.render("odd", "--figure", "contact-plane", "--of", quantity, "--at", ",".join(f"U={U}" for U in times), "--dpi", "150",
+                    "--warnings", "none")
+        pixels = picture(target / f"figures/contact-plane-{quantity}.png").reshape(-1, 3)
+        subprocess.run(["rm", "-r", target], check=True)
+        colors, counts = numpy.unique(pixels, axis=0, return_counts=True)
+        drawn = counts[(colors != BACKGROUND).any(axis=1)]
+        most, odd = numpy.sort(drawn)[:-3:-1]
+        return odd / (most + odd)
+
+    def test_each_quantity(self):
+        """One node differs from all others; it has its weight of the contact, also on faces of tetrahedra."""
+        for name, sizes in (("cube", HEXAHEDRA), ("triangles", "nx: 3, ny: 2, nz: 2, shape: tet"),
+                            ("triangles 2", "nx: 2, ny: 2, nz: 2, shape: tet, order: 2")):
+            if name != "cube":
+                self.run_scene(name, sizes, 3e-4)
+            arrays = self.history(name)
+            weight, rows = arrays["nodes/weight"], len(arrays["series/time"])
+            for k, quantity in enumerate(("contact_density", "shear", "shear_over_pressure", "slip")):
+                odd, other = numpy.argsort(weight)[[-1 - k, 0]]
+                one = numpy.zeros((rows, len(weight)))
+                one[:, odd] = 1
+                if quantity == "slip":      # the other one has slipped as far from the first moment on
+                    one[0, odd], one[:, other] = 0, 1
+                vector = numpy.stack([one, 0 * one], axis=-1)
+                values = {"contact_density": {"interface/slip_rate": 1e-3 * vector, "interface/status": 1},
+                          "shear": {"interface/shear": 1 + vector},
+                          "shear_over_pressure": {"interface/shear": 1 + vector, "interface/pressure": 5},
+                          "slip": {"interface/slip": vector}}[quantity]
+                at = (0, -1) if quantity == "slip" else (-1,)
+                share = self.odd_share(name, quantity, at, values)
+                self.assertAlmostEqual(share * len(at), weight[odd] / weight.sum(), delta=0.01, msg=f"{name} {quantity}")
+
     def test_lines(self):
         """Of a history in which nodes are as fast as their y says, each line has its own colour: that of its nodes alone."""
         target = self.folder / "lines"

@@ -94,12 +94,12 @@ class Words(unittest.TestCase):
 
     def test_element_of_an_array(self):
         for number in (None, "", "x", "-1", "3x", "99999999999"):
-            done = self.call("sweep", "--element", "list.json",
+            done = self.call("sweep", "--element", "-o", "out", "study.yaml",
                              **({} if number is None else {"SLURM_ARRAY_TASK_ID": number}))
             self.assertEqual(done.returncode, 2)
             self.assertIn("--element is for jobs that `amontons sweep --slurm` submits", done.stderr)
-        done = self.call("sweep", "--element", "list.json", SLURM_ARRAY_TASK_ID="0")
-        self.assertIn("cannot read list.json", done.stderr)
+        done = self.call("sweep", "--element", "-o", "out", "study.yaml", SLURM_ARRAY_TASK_ID="0")
+        self.assertIn("cannot read study.yaml", done.stderr)
 
     def test_static(self):
         """With and without a rod, a title, a folder, words."""

@@ -98,9 +98,10 @@ static bool sweep_by_slurm(Error *err)
 
 static bool element(Error *err)
 {
-    char list[PLACE_SIZE + 60];
-    snprintf(list, sizeof list, "%s/slurm/array-0.json", result);
-    return amontons_sweep_element(list, 0, err);
+    char study[PLACE_SIZE + 20];
+    SweepOptions options = {.folder = result};
+    snprintf(study, sizeof study, "%s/study.yaml", place);
+    return amontons_sweep_element(study, &options, 0, err);
 }
 
 static bool look(Error *err)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A cache file whose checksum holds, whatever else it is: what no mesh, shape or basis consists of.
+// A cache file whose checksum holds, whatever else it is: what no mesh or basis consists of.
 // The bytes are those between head and checksum, which are put on here.
 #include "base/hash.h"
 #include "io/mesh/mesh_cache.h"
 #include "model/basis_cache.h"
-#include "model/shape_cache.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <string.h>
@@ -45,7 +44,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char bytes[ROOM], note[CACHE_NOTE_SIZE];
     Error err = {0};
     MeshFile mesh;
-    Shape shape;
     ReducedBulk reduced;
     bool found = false;
     if (!begun && mkdtemp(folder)) atexit(remove_folder);
@@ -57,9 +55,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     put("mesh", bytes, (int64_t)size);
     mesh_cache_load(KEY, &mesh, &found, &err);
     mesh_file_destroy(&mesh);
-    put("shape", bytes, (int64_t)size);
-    shape_cache_load(KEY, &shape, &found, note, &err);
-    shape_destroy(&shape);
     put("basis", bytes, (int64_t)size);
     basis_cache_load(KEY, false, &reduced, &found, note, &err);
     reduced_bulk_destroy(&reduced);

@@ -9,7 +9,6 @@ Says how long it took, into how many elements it was cut, and how long each was 
 that waits in the queue the first element is computed here, and its processor time told beside that of the sweep's own process:
 before (planning, twenty points tried, shares and arrays written) and after (what the element left is gathered, the table written).
 """
-import glob
 import os
 import resource
 import signal
@@ -38,10 +37,9 @@ def parts(slurm, words):
     sweep = subprocess.Popen([*call, "--slurm=--hold"], env=slurm.environment)
     while not slurm.call("squeue", "-h").stdout.strip():
         time.sleep(0.5)
-    list_of = max(glob.glob(f"{folder}/slurm/array-*.json"))
     points = len(open(f"{folder}/slurm/share-0.points").readlines())
     before = spent()
-    subprocess.run([PROGRAM, "sweep", "--element", list_of], env=os.environ | {"SLURM_ARRAY_TASK_ID": "0"}, check=True)
+    subprocess.run(["sh", f"{folder}/slurm/array.sh"], env=os.environ | {"SLURM_ARRAY_TASK_ID": "0"}, check=True)
     print(f"an element of {points} points: {spent() - before:.2f} s, {1e3 * (spent() - before) / points:.2f} ms a point")
     before = spent()
     sweep.send_signal(signal.SIGINT)

@@ -304,6 +304,7 @@ int main(int argc, char **argv)
     TRY(mesh_file_read(argv[1], parameters, count, &file, &err));
     TRY(mesh_build(&file, argv[1], &problem.mesh, &err));
     problem.material.plane_strain = problem.mesh.dim > 2;   // moduli in space are its
+    TRY(bulk_create(&problem.mesh, &problem.bulk, &err));
     TRY(bulk_assemble(&problem.mesh, &problem.material, &problem.bulk, &err));
     problem.u = NEW_ARRAY(double, problem.bulk.dof_count, &err);
     if (!problem.u) goto cleanup;

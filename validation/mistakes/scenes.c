@@ -4,13 +4,13 @@
 #include "mistake.h"
 
 #include "reduction/machine.h"
+#include "reduction/reduction_block.h"
 #include "fem/mesh.h"
 #include "friction/friction_pace.h"
 #include "friction/friction_start.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
-#include "model/shape_cache.h"
 #include "run/kept_states.h"
 #include "run/saved_state.h"
 #include "scene/keys.h"
@@ -23,7 +23,7 @@
 #include <string.h>
 
 REPLACED(scene_material_number);
-REPLACED(shape_key);
+REPLACED(reduction_block_hash);
 REPLACED(model_lay_laws);
 REPLACED(model_lay_gaps);
 REPLACED(mesh_gap);
@@ -65,13 +65,12 @@ double __wrap_scene_material_number(const Scene *scene, const SceneMaterial *reg
     return __real_scene_material_number(scene, left_out ? &whole : region, k);
 }
 
-bool __wrap_shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err)
+void __wrap_reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const int32_t *dofs,
+                                 int32_t dof_count, Hash *hash)
 {
-    static Scene other;
-    if (!made(MISTAKE_REGION_KEY)) return __real_shape_key(scene, tolerance, key, err);
-    other = *scene;
-    memset(&other.materials, 0, sizeof other.materials);
-    return __real_shape_key(&other, tolerance, key, err);
+    ReductionBlock other = *block;
+    if (made(MISTAKE_REGION_KEY)) other.materials.count = 1;
+    __real_reduction_block_hash(&other, mesh, dofs, dof_count, hash);
 }
 
 bool __wrap_model_lay_laws(Model *model, Error *err)

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/part_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -14,6 +15,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define PART ".part"   // io/files/part_file
 
 static const int64_t LIMIT_DEFAULT = 2000000000;
 static const double LIMIT_MOST = 1e18;   // bytes: an integer holds them
@@ -59,10 +62,10 @@ bool cache_folder_limit(int64_t *bytes, Error *err)
                   given);
 }
 
-// 32 digits and letters, and an ending that only we use.
+// 32 digits and letters, and an ending that only we use; or a part of such a file.
 static bool is_ours(const char *name)
 {
-#define ENDING(kind, ending, name) "." ending,
+#define ENDING(kind, ending, name) "." ending, "." ending PART,
     static const char *const endings[] = {CACHE_KINDS(ENDING)};
 #undef ENDING
     size_t key = strspn(name, "0123456789abcdef");
@@ -81,15 +84,13 @@ static int by_use(const void *left, const void *right)
 
 static bool add_entry(CacheFolder *folder, const char *name, const struct stat *about, Error *err)
 {
-    CacheFolderEntry *grown =
-        memory_grow(folder->entries, folder->count, &folder->room, sizeof *grown, err);
-    if (!grown) return false;
-    folder->entries = grown;
-    CacheFolderEntry *entry = &grown[folder->count++];
+    if (!memory_grow(&folder->entries, folder->count, &folder->room, sizeof *folder->entries, err))
+        return false;
+    CacheFolderEntry *entry = &folder->entries[folder->count++];
     double read = (double)about->st_atim.tv_sec + 1e-9 * (double)about->st_atim.tv_nsec;
     double written = (double)about->st_mtim.tv_sec + 1e-9 * (double)about->st_mtim.tv_nsec;
     *entry = (CacheFolderEntry){.bytes = about->st_size, .used = read > written ? read : written};
-    memcpy(entry->name, name, strlen(name));   // is_ours: 38 characters
+    memcpy(entry->name, name, strlen(name));   // is_ours: 43 characters at most
     folder->bytes += entry->bytes;
     return true;
 }
@@ -121,6 +122,19 @@ void cache_folder_destroy(CacheFolder *folder)
     *folder = (CacheFolder){0};
 }
 
+// A part is what a killed process left; or somebody writes it, and it stays.
+static bool remove_file(char *path)
+{
+    char *part = path + strlen(path) - strlen(PART);
+    PartFile file = {0};
+    Error unseen = {0};
+    if (strcmp(part, PART) != 0) return unlink(path) == 0;
+    *part = 0;
+    bool left = part_file_try(&file, path, &unseen);
+    part_file_discard(&file);
+    return left;
+}
+
 int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *keep,
                           int64_t *bytes)
 {
@@ -129,7 +143,7 @@ int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *
     for (int32_t k = 0; k < folder->count && folder->bytes - *bytes > limit; k++) {
         char path[PATH_MAX + CACHE_ENTRY_SIZE + 1];
         snprintf(path, sizeof path, "%s/%s", folder->path, folder->entries[k].name);
-        if ((keep && strcmp(path, keep) == 0) || unlink(path) != 0) continue;
+        if ((keep && strcmp(path, keep) == 0) || !remove_file(path)) continue;
         removed++;
         *bytes += folder->entries[k].bytes;
     }

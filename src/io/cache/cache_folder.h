@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The folder of the cache: where it is, what is in it, and how it stays below its limit: what was
-// not used for the longest time goes first. Nothing but our own files is looked at. Called by
-// io/cache/store and run/info/cache.
+// not used for the longest time goes first, also what killed processes left half written. Nothing
+// but our own files is looked at. Called by io/cache/store and run/info/cache.
 #ifndef AMONTONS_IO_CACHE_CACHE_FOLDER_H
 #define AMONTONS_IO_CACHE_CACHE_FOLDER_H
 
@@ -12,7 +12,6 @@
 // X(kind, ending of its files, what notes call it)
 #define CACHE_KINDS(X)                                                                             \
     X(CACHE_MESH, "mesh", "mesh")                                                                  \
-    X(CACHE_SHAPE, "shape", "shape")                                                               \
     X(CACHE_BASIS, "basis", "basis")                                                               \
     X(CACHE_MODES, "modes", "basis")
 

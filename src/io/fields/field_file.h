@@ -9,20 +9,16 @@
 #include "base/error.h"
 #include "io/fields/field_grid.h"
 
-// Both write beside `path` and rename, so that the final name never has half a file. Errors
-// (ERROR_FILE) name the path and the cause (full disk, no permission, no such folder).
-bool field_file_write_vtu(const char *path, const FieldGrid *grid, Error *err);
-bool field_file_write_vtp(const char *path, const FieldGrid *grid,
-                          Error *err);   // cells: all lines, or polygons
+// Cells are elements in a .vtu, all lines or all polygons in a .vtp. Written beside `path` and
+// renamed, so that the final name never has half a file. Errors (ERROR_FILE) name the path and the
+// cause (full disk, no permission, no such folder).
+bool field_file_write(const char *path, const FieldGrid *grid, Error *err);
 
-typedef struct FieldSeriesEntry {
-    double time;
-    const char *part;   // "bulk" or "interface"
-    const char *file;   // relative to the .pvd
-} FieldSeriesEntry;
+// Of time number k, in the folder fields/ beside the .pvd.
+#define FIELD_BULK_NAME "bulk_%06d.vtu"
+#define FIELD_LINE_NAME "interface_%06d.vtp"
 
-// Writes the collection anew (atomic); entries of equal time may differ in `part`.
-bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int32_t count,
-                          Error *err);
+// Writes the collection of both files of each time anew (atomic). times: [count]
+bool field_file_write_pvd(const char *path, const double *times, int32_t count, Error *err);
 
 #endif

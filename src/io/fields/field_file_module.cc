@@ -7,11 +7,9 @@ extern "C" {
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkFloatArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -54,34 +52,19 @@ vtkSmartPointer<Array> borrow(const Value *values, int64_t count, int components
     return array;
 }
 
-// One field: borrowed where it is stored as it is, converted where in single precision.
-vtkSmartPointer<vtkDataArray> make_array(const FieldArray &field, int64_t count)
-{
-    const int64_t size = count * field.components;
-    vtkSmartPointer<vtkDataArray> array;
-    if (field.single_precision) {
-        auto single = vtkSmartPointer<vtkFloatArray>::New();
-        single->SetNumberOfComponents(field.components);
-        single->SetNumberOfTuples(count);
-        for (int64_t k = 0; k < size; k++) single->SetValue(k, static_cast<float>(field.values[k]));
-        array = single;
-    } else {
-        array = borrow<vtkDoubleArray>(field.values, size, field.components);
-    }
-    array->SetName(field.name);
-    return array;
-}
-
 // Points, fields and time: what both kinds of grid have.
 void fill(vtkPointSet *set, const FieldGrid &grid)
 {
     vtkNew<vtkPoints> points;
     points->SetData(borrow<vtkDoubleArray>(grid.points, 3 * grid.point_count, 3));
     set->SetPoints(points);
-    for (int32_t k = 0; k < grid.point_array_count; k++)
-        set->GetPointData()->AddArray(make_array(grid.point_arrays[k], grid.point_count));
-    for (int32_t k = 0; k < grid.cell_array_count; k++)
-        set->GetCellData()->AddArray(make_array(grid.cell_arrays[k], grid.cell_count));
+    for (int32_t k = 0; k < grid.point_array_count; k++) {
+        const FieldArray &field = grid.point_arrays[k];
+        auto array = borrow<vtkDoubleArray>(field.values, grid.point_count * field.components,
+                                            field.components);
+        array->SetName(field.name);
+        set->GetPointData()->AddArray(array);
+    }
     vtkNew<vtkDoubleArray> time;
     time->SetName("TimeValue");
     time->InsertNextValue(grid.time);

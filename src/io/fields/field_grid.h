@@ -4,14 +4,12 @@
 #ifndef AMONTONS_IO_FIELDS_FIELD_GRID_H
 #define AMONTONS_IO_FIELDS_FIELD_GRID_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 // One array over points or cells. Values are not copied and not owned.
 typedef struct FieldArray {
     const char *name;   // "displacement"; units go into docs/results.md, not the name
     int32_t components;   // 1, or 3 for vectors (ParaView wants three)
-    bool single_precision;   // stored as Float32 (default: Float64)
     const double *values;   // [count * components]
 } FieldArray;
 
@@ -26,8 +24,6 @@ typedef struct FieldGrid {
     double time;   // stored as the field TimeValue
     int32_t point_array_count;
     const FieldArray *point_arrays;
-    int32_t cell_array_count;
-    const FieldArray *cell_arrays;
 } FieldGrid;
 
 #endif

@@ -41,10 +41,8 @@ bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Err
     while (fgets(line, sizeof line, list)) {
         FieldTime time;
         if (!read_entry(line, &time)) continue;
-        FieldTime *longer = memory_grow(*times, *count, &room, sizeof time, err);
-        TRY(longer);
-        *times = longer;
-        longer[(*count)++] = time;
+        TRY(memory_grow(times, *count, &room, sizeof time, err));
+        (*times)[(*count)++] = time;
     }
     if (*count == 0) FAIL(err, ERROR_INPUT, "%s names no time", path);
 cleanup:
@@ -63,7 +61,7 @@ static bool find_kind(double type, uint8_t *kind)
 {
     for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
         *kind = (uint8_t)k;
-        const ElementInfo *info = element_info((ElementKind)k);
+        const ElementInfo *info = &ELEMENTS[(ElementKind)k];
         if (info->dim > 1 && info->vtk_type == type) return true;
     }
     return false;

@@ -41,3 +41,10 @@ void folder_relative(const char *folder, const char *file, char *path, int32_t s
         if (used + 3 < (size_t)size) used += (size_t)sprintf(path + used, "../");
     snprintf(path + used, (size_t)size - used, "%s", to + shared);
 }
+
+bool folder_beside(const char *file, const char *given, char *path, int32_t size)
+{
+    const char *slash = file && *given != '/' ? strrchr(file, '/') : NULL;
+    int length = slash ? (int)(slash - file) + 1 : 0;
+    return snprintf(path, (size_t)size, "%.*s%s", length, slash ? file : "", given) < size;
+}

@@ -34,8 +34,8 @@
     X("answer.txt", "amontons run ")                                                               \
     X("reports", OWN_SHORT)                                                                        \
     X("accuracy.json", "\"contact nodes\"")                                                        \
-    X("array-*.json", "\"directory\": \"")                                                         \
-    X("array-*.sh", " sweep --element ")                                                           \
+    X("array.sh", " sweep --element ")                                                             \
+    X("slurm/designs", "")                                                                         \
     X("share-*.points", "")                                                                        \
     X("share-*.reports", OWN_SHORT)                                                                \
     X("running", "")                                                                               \

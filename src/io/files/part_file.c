@@ -115,12 +115,12 @@ bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err
     return true;
 }
 
-// fsync before rename: a power cut could otherwise leave the name without its bytes.
+// Synced before it is renamed: a power cut could otherwise leave the name without its bytes.
 bool part_file_commit(PartFile *file, Error *err)
 {
-    // EINVAL: a file system that cannot sync, which is no error.
-    if (fsync(file->descriptor) != 0 && errno != EINVAL)
-        return FAULT(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(errno));
+    int cause = transfer_sync(file->descriptor);
+    if (cause)
+        return FAULT(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(cause));
     if (rename(file->part, file->path) != 0)
         return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
                      strerror(errno));

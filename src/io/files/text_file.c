@@ -29,9 +29,7 @@ static bool read_stream(FILE *stream, const char *path, int32_t size_max, char *
         *size += (int32_t)fread(*bytes + *size, 1, (size_t)(capacity - *size), stream);
         if (*size < capacity) break;
         if (!check_size(path, *size, size_max, err)) return false;
-        char *longer = memory_resize(*bytes, capacity, 2 * (int64_t)capacity + 1, 1, err);
-        if (!longer) return false;
-        *bytes = longer;
+        if (!memory_resize(bytes, capacity, 2 * (int64_t)capacity + 1, 1, err)) return false;
         capacity *= 2;
     }
     if (ferror(stream)) return FAULT(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));

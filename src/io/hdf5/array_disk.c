@@ -91,9 +91,8 @@ static haddr_t disk_end_of_file(const H5FD_t *base, H5FD_mem_t type)
 
 static bool sync_file(ArrayDisk *disk)
 {
-    // EINVAL: a file system that cannot sync, which is no error.
-    if (fdatasync(disk->file->descriptor) != 0 && errno != EINVAL) note_failure(disk, errno);
-    disk->unsynced = false;
+    int cause = transfer_sync(disk->file->descriptor);
+    if (cause) note_failure(disk, cause);
     return disk->failure == 0;
 }
 
@@ -106,17 +105,8 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     int64_t got = transfer_read(disk->file->descriptor, buffer, (int64_t)size, (int64_t)address);
     if (got < (int64_t)size && errno != 0) note_failure(disk, errno);
     memset((char *)buffer + got, 0, size - (size_t)got);   // past the end, or unreadable
-    int cause = array_journal_overlay(&disk->journal, (int64_t)address, buffer, size);
-    if (cause != 0) note_failure(disk, cause);
+    array_journal_overlay(&disk->journal, (int64_t)address, buffer, size);
     return disk->reading && disk->failure != 0 ? -1 : 0;
-}
-
-static void write_over(ArrayDisk *disk, haddr_t address, size_t size, const void *buffer)
-{
-    // What the journal holds now may be needed until the file is on the disk.
-    if (disk->unsynced && !sync_file(disk)) return;
-    int cause = array_journal_add(&disk->journal, (int64_t)address, buffer, size);
-    if (cause != 0) note_failure(disk, cause);
 }
 
 // After a failure nothing more is written: the state of the last flush stays readable.
@@ -125,14 +115,14 @@ static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t 
 {
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
-    bool over = address < disk->kept;
     // HDF5 checks the length when it closes: keep it as if all had been written.
     if (address + size > disk->end_of_file) disk->end_of_file = address + size;
-    if (over && disk->failure == 0) write_over(disk, address, size, buffer);
-    if (disk->failure == 0 && !over) {
-        int cause = transfer_write(disk->file->descriptor, buffer, (int64_t)size, (int64_t)address);
-        if (cause != 0) note_failure(disk, cause);
-    }
+    if (disk->failure != 0) return 0;
+    int cause =
+        address < disk->kept
+            ? array_journal_add(&disk->journal, (int64_t)address, buffer, size)
+            : transfer_write(disk->file->descriptor, buffer, (int64_t)size, (int64_t)address);
+    if (cause != 0) note_failure(disk, cause);
     return 0;
 }
 
@@ -155,14 +145,13 @@ bool array_disk_open(ArrayDisk *disk, const PartFile *file, bool anew, Error *er
     struct stat status;
     *disk = (ArrayDisk){.file = file};   // of a reopened file HDF5 itself says where its space ends
     int cause = anew ? 0 : array_journal_find(&disk->journal, file->path);
-    if (cause == 0 && disk->journal.holds)
-        cause = array_journal_apply(&disk->journal, file->descriptor);
+    if (cause == 0) cause = array_journal_apply(&disk->journal, file->descriptor);
     array_journal_close(&disk->journal);
     if (cause == 0) sync_file(disk);
     if (cause == 0) cause = disk->failure;
     if (cause == 0) cause = array_journal_create(&disk->journal, file->path);
-    if (cause != 0)
-        return FAULT(err, ERROR_FILE, "cannot write %s: %s", file->part, strerror(cause));
+    if (cause != 0) note_failure(disk, cause);
+    if (!array_disk_check(disk, 0, "", err)) return false;
     if (fstat(file->descriptor, &status) == 0)
         disk->kept = disk->end_of_file = (haddr_t)status.st_size;
     return true;
@@ -179,14 +168,14 @@ bool array_disk_look(ArrayDisk *disk, const PartFile *file, bool finished, Error
     return true;
 }
 
-// First the new bytes, then the journal, each on the disk before the next.
+// First the new bytes and what the last journal had, then this one, each on the disk before the
+// next.
 bool array_disk_settle(ArrayDisk *disk, Error *err)
 {
-    if (disk->failure == 0 && disk->journal.holds && sync_file(disk)) {
+    if (disk->failure == 0 && disk->journal.size > 0 && sync_file(disk)) {
         int cause = array_journal_seal(&disk->journal);
         if (cause == 0) cause = array_journal_apply(&disk->journal, disk->file->descriptor);
         if (cause != 0) note_failure(disk, cause);
-        disk->unsynced = true;
     }
     disk->kept = disk->end_of_space;
     return array_disk_check(disk, 0, "", err);
@@ -242,8 +231,8 @@ bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Er
     char cause[HDF5_CAUSE_SIZE];
     // First the disk: what HDF5 says after a lost write follows from that.
     if (disk->failure != 0)
-        return FAULT(err, ERROR_FILE, "cannot write %s: %s", disk->file->part,
-                     strerror(disk->failure));
+        return FAULT(err, disk->failure == ENOMEM ? ERROR_MEMORY : ERROR_FILE,
+                     "cannot write %s: %s", disk->file->part, strerror(disk->failure));
     if (status < 0)
         return FAULT(err, ERROR_LIBRARY, "HDF5 cannot write %s into %s: %s", what, disk->file->part,
                      hdf5_cause(cause));

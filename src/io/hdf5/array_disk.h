@@ -24,7 +24,6 @@ typedef struct ArrayDisk {
     haddr_t end_of_file;   // bytes the file has, or would have if nothing had failed
     haddr_t kept;   // bytes that a reader needs of the last whole flush
     ArrayJournal journal;   // what is to be written over those
-    bool unsynced;   // a journal was copied into the file, which is not yet on the disk
 } ArrayDisk;
 
 // Begins with a file that is open. anew: it is empty; else what a killed writer left half done is

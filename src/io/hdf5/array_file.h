@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "io/hdf5/array_types.h"
 
-typedef struct ArrayFile ArrayFile;
+typedef struct ArrayFile ArrayFile;   // the module's
 
 ArrayFile *array_file_create(const char *path, Error *err);
 // Opens `path` for reading; where only `path`.part stands, that. Errors name the file.

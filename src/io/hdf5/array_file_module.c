@@ -24,7 +24,8 @@
 
 enum { FIRST_SERIES = 16 };   // room for series before the list grows
 
-struct Hdf5File {
+struct ArrayFile {
+    const ArrayFileModule *module;   // stands first
     char path[PATH_MAX + 8];   // what is read, or what a written file will be called
     hid_t id;   // 0: not open
     bool writing;   // created here: what follows is in use
@@ -36,14 +37,14 @@ struct Hdf5File {
 };
 
 // Whether the file can be written, and all written so far has reached the disk.
-static bool check_writable(const Hdf5File *file, Error *err)
+static bool check_writable(const ArrayFile *file, Error *err)
 {
     if (!file->writing) return FAULT(err, ERROR_LIBRARY, "%s is open for reading only", file->path);
     return array_disk_check(&file->disk, 0, "", err);
 }
 
 // First our own buffers, then HDF5's.
-static bool write_all(Hdf5File *file, Error *err)
+static bool write_all(ArrayFile *file, Error *err)
 {
     if (!check_writable(file, err)) return false;
     for (int32_t s = 0; s < file->series_count; s++)
@@ -52,12 +53,12 @@ static bool write_all(Hdf5File *file, Error *err)
     return array_disk_check(&file->disk, status, "what was appended", err);
 }
 
-static bool hdf5_flush(Hdf5File *file, Error *err)
+static bool hdf5_flush(ArrayFile *file, Error *err)
 {
     return !file->writing || (write_all(file, err) && array_disk_settle(&file->disk, err));
 }
 
-static bool hdf5_sync(Hdf5File *file, Error *err)
+static bool hdf5_sync(ArrayFile *file, Error *err)
 {
     return hdf5_flush(file, err) && array_disk_sync(&file->disk, err);
 }
@@ -78,7 +79,7 @@ static herr_t keep_metadata_until_flush(hid_t access)
 }
 
 // The HDF5 file over the part that is open already: an empty one, or what is in it.
-static bool begin_hdf5(Hdf5File *file, bool anew, Error *err)
+static bool begin_hdf5(ArrayFile *file, bool anew, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -101,7 +102,7 @@ cleanup:
 }
 
 // A .part still there is left. HDF5 is closed before its driver, and that before the descriptor.
-static void destroy(Hdf5File *file)
+static void destroy(ArrayFile *file)
 {
     if (!file) return;
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
@@ -112,12 +113,20 @@ static void destroy(Hdf5File *file)
     memory_free_all(file->series, file);
 }
 
-// For writing. A second writer of the path is refused by part_file as long as this one is open.
-static Hdf5File *begin_writing(const char *path, bool anew, Error *err)
+static ArrayFile *new_file(Error *err)
 {
-    Hdf5File *file = NEW_ARRAY(Hdf5File, 1, err);
+    ArrayFile *file = NEW_ARRAY(ArrayFile, 1, err);
     if (!file) return NULL;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   // HDF5 prints its error stack otherwise
+    file->module = amontons_array_file_module();
+    return file;
+}
+
+// For writing. A second writer of the path is refused by part_file as long as this one is open.
+static ArrayFile *begin_writing(const char *path, bool anew, Error *err)
+{
+    ArrayFile *file = new_file(err);
+    if (!file) return NULL;
     file->writing = true;
     file->series_capacity = FIRST_SERIES;
     TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
@@ -131,18 +140,18 @@ cleanup:
     return NULL;
 }
 
-static Hdf5File *hdf5_create(const char *path, Error *err)
+static ArrayFile *hdf5_create(const char *path, Error *err)
 {
     return begin_writing(path, true, err);
 }
 
-static Hdf5File *hdf5_reopen(const char *path, Error *err)
+static ArrayFile *hdf5_reopen(const char *path, Error *err)
 {
     return begin_writing(path, false, err);
 }
 
 // `path` or, where only that stands, `path`.part; into file->path.
-static bool choose_existing(Hdf5File *file, const char *path, Error *err)
+static bool choose_existing(ArrayFile *file, const char *path, Error *err)
 {
     char part[PATH_MAX + 8];
     if (!part_file_name(path, part))
@@ -159,7 +168,7 @@ static bool choose_existing(Hdf5File *file, const char *path, Error *err)
 }
 
 // By our driver; a file that has not got its name yet through the journal that its writer left.
-static bool use_disk(Hdf5File *file, const char *path, hid_t access, Error *err)
+static bool use_disk(ArrayFile *file, const char *path, hid_t access, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     bool finished = strcmp(file->path, path) == 0;
@@ -171,13 +180,12 @@ static bool use_disk(Hdf5File *file, const char *path, hid_t access, Error *err)
 }
 
 // Without a lock, so that the file of a running simulation can be read as of its last flush.
-static Hdf5File *hdf5_open(const char *path, Error *err)
+static ArrayFile *hdf5_open(const char *path, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     hid_t properties = 0;
-    Hdf5File *file = NEW_ARRAY(Hdf5File, 1, err);
+    ArrayFile *file = new_file(err);
     if (!file) return NULL;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     TRY(choose_existing(file, path, err));
     if (access(file->path, R_OK) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", file->path, strerror(errno));
@@ -196,7 +204,7 @@ cleanup:
 }
 
 // HDF5 writes once more when it closes.
-static bool end_writing(Hdf5File *file, Error *err)
+static bool end_writing(ArrayFile *file, Error *err)
 {
     if (!write_all(file, err)) return false;
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
@@ -207,7 +215,7 @@ static bool end_writing(Hdf5File *file, Error *err)
 }
 
 // Where one of these fails the name is not given.
-static bool hdf5_close(Hdf5File *file, Error *err)
+static bool hdf5_close(ArrayFile *file, Error *err)
 {
     if (!file->writing) goto cleanup;
     TRY(end_writing(file, err));
@@ -218,7 +226,7 @@ cleanup:
 }
 
 // After a failure or a stop: what there is stays readable as `path`.part.
-static void hdf5_abandon(Hdf5File *file)
+static void hdf5_abandon(ArrayFile *file)
 {
     Error ignored = {0};
     end_writing(file, &ignored);
@@ -228,21 +236,21 @@ static void hdf5_abandon(Hdf5File *file)
 // --- attributes ---------------------------------------------------------------------------------
 
 // They stand in the root of the file.
-static bool hdf5_set_number(Hdf5File *file, const char *name, double value, Error *err)
+static bool hdf5_set_number(ArrayFile *file, const char *name, double value, Error *err)
 {
     if (!check_writable(file, err)) return false;
     herr_t status = attribute_write_number(file->id, name, value);
     return array_disk_check(&file->disk, status, name, err);
 }
 
-static bool hdf5_set_text(Hdf5File *file, const char *name, const char *value, Error *err)
+static bool hdf5_set_text(ArrayFile *file, const char *name, const char *value, Error *err)
 {
     if (!check_writable(file, err)) return false;
     herr_t status = attribute_write_text(file->id, name, value);
     return array_disk_check(&file->disk, status, name, err);
 }
 
-static bool hdf5_get_number(Hdf5File *file, const char *name, double *value, Error *err)
+static bool hdf5_get_number(ArrayFile *file, const char *name, double *value, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     if (H5Aexists(file->id, name) <= 0)
@@ -253,7 +261,7 @@ static bool hdf5_get_number(Hdf5File *file, const char *name, double *value, Err
     return true;
 }
 
-static bool hdf5_get_text(Hdf5File *file, const char *name, char *value, int32_t size, Error *err)
+static bool hdf5_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
 {
     if (H5Aexists(file->id, name) <= 0)
         return FAULT(err, ERROR_FILE, "%s has no %s", file->path, name);
@@ -264,29 +272,27 @@ static bool hdf5_get_text(Hdf5File *file, const char *name, char *value, int32_t
 
 // --- writing series -----------------------------------------------------------------------------
 
-static bool hdf5_has(Hdf5File *file, const char *name)
+static bool hdf5_has(ArrayFile *file, const char *name)
 {
     return H5Lexists(file->id, name, H5P_DEFAULT) > 0;   // negative where a folder is missing
 }
 
 // NULL: none. A file has some twenty series, so a scan will do.
-static SeriesWriter *find_series(const Hdf5File *file, const char *name)
+static SeriesWriter *find_series(const ArrayFile *file, const char *name)
 {
     for (int32_t s = 0; s < file->series_count; s++)
         if (strcmp(file->series[s].name, name) == 0) return &file->series[s];
     return NULL;
 }
 
-static bool grow_series_list(Hdf5File *file, Error *err)
+static bool grow_series_list(ArrayFile *file, Error *err)
 {
-    SeriesWriter *series = memory_grow(file->series, file->series_count, &file->series_capacity,
-                                       sizeof(SeriesWriter), err);
-    if (series) file->series = series;
-    return series != NULL;
+    return memory_grow(&file->series, file->series_count, &file->series_capacity,
+                       sizeof(SeriesWriter), err);
 }
 
 // Unit and description are attributes of the dataset: a reader finds them beside the numbers.
-static bool hdf5_add_vectors(Hdf5File *file, const ArraySeries *series, int32_t components,
+static bool hdf5_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t components,
                              Error *err)
 {
     SeriesWriter added = {0};
@@ -306,7 +312,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool hdf5_append(Hdf5File *file, const char *name, const double *values, int64_t rows,
+static bool hdf5_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                         Error *err)
 {
     SeriesWriter *series = find_series(file, name);
@@ -317,7 +323,7 @@ static bool hdf5_append(Hdf5File *file, const char *name, const double *values, 
 }
 
 // A series of a reopened file is opened when it is first cut.
-static bool hdf5_cut(Hdf5File *file, const char *name, int64_t rows, Error *err)
+static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
 {
     SeriesWriter opened = {0}, *series = find_series(file, name);
     TRY(check_writable(file, err));
@@ -335,7 +341,7 @@ cleanup:
 }
 
 // Of a series that is being written nothing may be removed; tables and attributes are.
-static bool hdf5_remove(Hdf5File *file, const char *name, Error *err)
+static bool hdf5_remove(ArrayFile *file, const char *name, Error *err)
 {
     herr_t status = 0;
     if (!check_writable(file, err)) return false;
@@ -346,36 +352,13 @@ static bool hdf5_remove(Hdf5File *file, const char *name, Error *err)
 
 // --- reading ------------------------------------------------------------------------------------
 
-// Rows and width of a dataset; of vectors all components. The numbers come from a file, which may
-// be damaged: a product that would overflow is refused here, one too large by the allocator.
-static bool read_shape(const Hdf5File *file, const char *name, hid_t dataset, int64_t *rows,
-                       int32_t *width, Error *err)
-{
-    hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1};
-    hid_t space = H5Dget_space(dataset);
-    int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 1 || rank > ARRAY_RANK_MAX)
-        FAIL(err, ERROR_FILE, "%s: %s has %d dimensions, not 1 to %d", file->path, name, rank,
-             ARRAY_RANK_MAX);
-    H5Sget_simple_extent_dims(space, shape, NULL);
-    bool fits = shape[1] <= INT32_MAX && shape[2] <= INT32_MAX;
-    hsize_t across = fits ? shape[1] * shape[2] : 0;
-    if (!fits || across > INT32_MAX || shape[0] > INT64_MAX ||
-        (across > 0 && shape[0] > INT64_MAX / across))
-        FAIL(err, ERROR_FILE, "%s: %s is too large to be true", file->path, name);
-    *rows = (int64_t)shape[0];
-    *width = (int32_t)across;
-cleanup:
-    H5Sclose(space);
-    return error_is_clean(err);
-}
-
 // *values: [*rows * *width], the caller's; memory_free.
-static bool hdf5_read(Hdf5File *file, const char *name, double **values, int64_t *rows,
+static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     hid_t dataset = -1;
+    int32_t components = 1;
     *values = NULL;
     *rows = 0;
     *width = 0;
@@ -384,9 +367,8 @@ static bool hdf5_read(Hdf5File *file, const char *name, double **values, int64_t
     dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
-    TRY(read_shape(file, name, dataset, rows, width, err));
-    if (*rows * *width > INT64_MAX / (int64_t)sizeof(double))
-        FAIL(err, ERROR_MEMORY, "%s: no memory for all of %s", file->path, name);
+    if (!series_shape(dataset, rows, width, &components))
+        FAIL(err, ERROR_FILE, "%s: %s has a shape that cannot be true", file->path, name);
     TRY((*values = memory_bytes(*rows * *width * (int64_t)sizeof(double), err)));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
         FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));
@@ -403,24 +385,14 @@ cleanup:
 // One table of functions, so that a single look-up by name binds all of them.
 __attribute__((visibility("default"))) const ArrayFileModule *amontons_array_file_module(void)
 {
-    static const ArrayFileModule module = {
-        .create = hdf5_create,
-        .open = hdf5_open,
-        .reopen = hdf5_reopen,
-        .close = hdf5_close,
-        .abandon = hdf5_abandon,
-        .add_vectors = hdf5_add_vectors,
-        .append = hdf5_append,
-        .flush = hdf5_flush,
-        .sync = hdf5_sync,
-        .cut = hdf5_cut,
-        .remove = hdf5_remove,
-        .set_number = hdf5_set_number,
-        .set_text = hdf5_set_text,
-        .get_number = hdf5_get_number,
-        .get_text = hdf5_get_text,
-        .read = hdf5_read,
-        .has = hdf5_has,
+    static const ArrayFileModule module = {.create = hdf5_create,
+                                           .open = hdf5_open,
+                                           .reopen = hdf5_reopen,
+                                           .close = hdf5_close,
+                                           .abandon = hdf5_abandon,
+#define X(name, types, names) .name = hdf5_##name,
+                                           ARRAY_FILE_CALLS(X)
+#undef X
     };
     return &module;
 }

@@ -8,29 +8,44 @@
 #include "base/error.h"
 #include "io/hdf5/array_types.h"
 
-typedef struct Hdf5File Hdf5File;   // the module's own; an ArrayFile owns one
+typedef struct ArrayFile ArrayFile;   // begins with a pointer to its module's table
+
+// Calls on a file as io/hdf5/array_file.h has them, with their arguments: X(name, types, names).
+#define ARRAY_FILE_CALLS(X)                                                                        \
+    X(add_vectors, (ArrayFile * file, const ArraySeries *series, int32_t components, Error *err),  \
+      (file, series, components, err))                                                             \
+    X(append,                                                                                      \
+      (ArrayFile * file, const char *name, const double *values, int64_t rows, Error *err),        \
+      (file, name, values, rows, err))                                                             \
+    X(flush, (ArrayFile * file, Error * err), (file, err))                                         \
+    X(sync, (ArrayFile * file, Error * err), (file, err))                                          \
+    X(cut, (ArrayFile * file, const char *name, int64_t rows, Error *err),                         \
+      (file, name, rows, err))                                                                     \
+    X(remove, (ArrayFile * file, const char *name, Error *err), (file, name, err))                 \
+    X(set_number, (ArrayFile * file, const char *name, double value, Error *err),                  \
+      (file, name, value, err))                                                                    \
+    X(set_text, (ArrayFile * file, const char *name, const char *value, Error *err),               \
+      (file, name, value, err))                                                                    \
+    X(get_number, (ArrayFile * file, const char *name, double *value, Error *err),                 \
+      (file, name, value, err))                                                                    \
+    X(get_text, (ArrayFile * file, const char *name, char *value, int32_t size, Error *err),       \
+      (file, name, value, size, err))                                                              \
+    X(read,                                                                                        \
+      (ArrayFile * file, const char *name, double **values, int64_t *rows, int32_t *width,         \
+       Error *err),                                                                                \
+      (file, name, values, rows, width, err))                                                      \
+    X(has, (ArrayFile * file, const char *name), (file, name))
 
 // What each does stands in io/hdf5/array_file.h. No `file` is NULL.
 typedef struct ArrayFileModule {
-    Hdf5File *(*create)(const char *path, Error *err);
-    Hdf5File *(*open)(const char *path, Error *err);
-    Hdf5File *(*reopen)(const char *path, Error *err);
-    bool (*close)(Hdf5File *file, Error *err);   // frees `file` either way
-    void (*abandon)(Hdf5File *file);
-    bool (*add_vectors)(Hdf5File *file, const ArraySeries *series, int32_t components, Error *err);
-    bool (*append)(Hdf5File *file, const char *name, const double *values, int64_t rows,
-                   Error *err);
-    bool (*flush)(Hdf5File *file, Error *err);
-    bool (*sync)(Hdf5File *file, Error *err);
-    bool (*cut)(Hdf5File *file, const char *name, int64_t rows, Error *err);
-    bool (*remove)(Hdf5File *file, const char *name, Error *err);
-    bool (*set_number)(Hdf5File *file, const char *name, double value, Error *err);
-    bool (*set_text)(Hdf5File *file, const char *name, const char *value, Error *err);
-    bool (*get_number)(Hdf5File *file, const char *name, double *value, Error *err);
-    bool (*get_text)(Hdf5File *file, const char *name, char *value, int32_t size, Error *err);
-    bool (*read)(Hdf5File *file, const char *name, double **values, int64_t *rows, int32_t *width,
-                 Error *err);
-    bool (*has)(Hdf5File *file, const char *name);
+    ArrayFile *(*create)(const char *path, Error *err);
+    ArrayFile *(*open)(const char *path, Error *err);
+    ArrayFile *(*reopen)(const char *path, Error *err);
+    bool (*close)(ArrayFile *file, Error *err);   // frees `file` either way
+    void (*abandon)(ArrayFile *file);
+#define X(name, types, names) bool(*name) types;
+    ARRAY_FILE_CALLS(X)
+#undef X
 } ArrayFileModule;
 
 // The module's one entry, "amontons_array_file_module": a table that lasts as long as the program.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The file: a head, then pieces, each an address, a length and so many bytes. The head is written
-// last; while it is zeros, or does not fit the pieces, there is no journal.
+// The file: a head, then pieces, each an address, a length and so many bytes. While the head does
+// not fit the pieces, as in a file half written, there is no journal.
 #include "io/hdf5/array_journal.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/transfer.h"
 #include "io/files/open_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -25,25 +25,34 @@ typedef struct Piece {
 } Piece;
 
 static const char NAME[] = "amontons-journal 1";
-enum { BUFFER = 1 << 16 };
+enum { FIRST_ROOM = 1 << 16 };
 
-// --- bytes --------------------------------------------------------------------------------------
-
-static int read_at(const ArrayJournal *journal, void *bytes, size_t size, int64_t at)
+// The piece at *at, which goes on to the next, and its bytes; NULL: it does not end in the journal.
+static const char *take_piece(const ArrayJournal *journal, int64_t *at, Piece *piece)
 {
-    if (journal->copy) {
-        if (at + (int64_t)size > journal->size) return EIO;
-        memcpy(bytes, journal->copy + at, size);
-        return 0;
-    }
-    if (transfer_read(journal->descriptor, bytes, (int64_t)size, at) == (int64_t)size) return 0;
-    return errno ? errno : EIO;
+    int64_t left = journal->size - *at - (int64_t)sizeof *piece;
+    if (left < 0) return NULL;
+    memcpy(piece, journal->bytes + *at, sizeof *piece);
+    if (piece->address < 0 || piece->size < 0 || piece->size > left) return NULL;
+    const char *bytes = journal->bytes + *at + sizeof *piece;
+    *at += (int64_t)sizeof *piece + piece->size;
+    return bytes;
 }
 
-// EINVAL: a file system that cannot sync, which is no error.
-static int sync_data(int descriptor)
+// What belongs before the pieces.
+static Head head_of(const ArrayJournal *journal)
 {
-    return fdatasync(descriptor) != 0 && errno != EINVAL ? errno : 0;
+    Head head = {.size = journal->size};
+    Hash hash = hash_start();
+    Piece piece;
+    int64_t at = sizeof head;
+    memcpy(head.name, NAME, sizeof NAME);
+    for (const char *bytes; (bytes = take_piece(journal, &at, &piece));) {
+        hash_bytes(&hash, &piece, sizeof piece);
+        hash_bytes(&hash, bytes, (size_t)piece.size);
+    }
+    hash_write(&hash, head.checksum);
+    return head;
 }
 
 static bool find_name(ArrayJournal *journal, const char *path)
@@ -59,6 +68,9 @@ int array_journal_create(ArrayJournal *journal, const char *path)
 {
     if (!find_name(journal, path)) return ENAMETOOLONG;
     char why[OPEN_WHY_SIZE];
+    Error err = {0};
+    journal->room = FIRST_ROOM;   // of most runs: steps then allocate nothing
+    if (!(journal->bytes = memory_bytes(FIRST_ROOM, &err))) return ENOMEM;
     if (!open_is_there(journal->path)) return 0;
     int left = open_to_write(journal->path, OPEN_PART, why);
     if (left < 0) return errno;
@@ -66,139 +78,94 @@ int array_journal_create(ArrayJournal *journal, const char *path)
     return unlink(journal->path) != 0 && errno != ENOENT ? errno : 0;
 }
 
-// The first piece of a flush: what the journal held is in the file, which is on the disk.
-static int begin(ArrayJournal *journal)
+static void append(ArrayJournal *journal, const void *bytes, size_t size)
 {
-    const Head none = {0};
-    if (!journal->open) {
-        char why[OPEN_WHY_SIZE];
-        journal->descriptor = open_to_write(journal->path, OPEN_PART, why);
-        if (journal->descriptor < 0) return errno;
-        journal->open = true;
-    }
-    journal->holds = true;
-    journal->size = sizeof none;
-    journal->hash = hash_start();
-    return transfer_write(journal->descriptor, &none, sizeof none, 0);
-}
-
-static int append(ArrayJournal *journal, const void *bytes, size_t size)
-{
-    int cause = transfer_write(journal->descriptor, bytes, (int64_t)size, journal->size);
-    hash_bytes(&journal->hash, bytes, size);
+    memcpy(journal->bytes + journal->size, bytes, size);
     journal->size += (int64_t)size;
-    return cause;
 }
 
 int array_journal_add(ArrayJournal *journal, int64_t address, const void *bytes, size_t size)
 {
+    Error err = {0};
     Piece piece = {.address = address, .size = (int64_t)size};
-    int cause = journal->holds ? 0 : begin(journal);
-    if (cause == 0) cause = append(journal, &piece, sizeof piece);
-    return cause ? cause : append(journal, bytes, size);
+    if (journal->size == 0) journal->size = sizeof(Head);
+    int64_t needed = journal->size + (int64_t)sizeof piece + piece.size;
+    if (needed > journal->room) {
+        if (!memory_resize(&journal->bytes, journal->room, 2 * needed, 1, &err)) return ENOMEM;
+        journal->room = 2 * needed;
+    }
+    append(journal, &piece, sizeof piece);
+    append(journal, bytes, size);
+    return 0;
 }
 
 int array_journal_seal(ArrayJournal *journal)
 {
-    Head head = {.size = journal->size};
-    memcpy(head.name, NAME, sizeof NAME);
-    hash_write(&journal->hash, head.checksum);
-    int cause = transfer_write(journal->descriptor, &head, sizeof head, 0);
-    return cause ? cause : sync_data(journal->descriptor);
+    char why[OPEN_WHY_SIZE];
+    Head head = head_of(journal);
+    memcpy(journal->bytes, &head, sizeof head);
+    int file = open_to_write(journal->path, OPEN_PART, why);
+    if (file < 0) return errno;
+    int cause = transfer_write(file, journal->bytes, journal->size, 0);
+    if (cause == 0) cause = transfer_sync(file);
+    close(file);
+    return cause;
 }
 
 // --- reading ------------------------------------------------------------------------------------
 
-// The part that [from, from + size) and the piece have in common: begins at *first, *count bytes.
-static bool overlap(const Piece *piece, int64_t from, int64_t size, int64_t *first, int64_t *count)
-{
-    int64_t end = from + size, piece_end = piece->address + piece->size;
-    *first = from > piece->address ? from : piece->address;
-    *count = (end < piece_end ? end : piece_end) - *first;
-    return *count > 0;
-}
-
-int array_journal_overlay(const ArrayJournal *journal, int64_t address, char *bytes, size_t size)
+void array_journal_overlay(const ArrayJournal *journal, int64_t address, char *bytes, size_t size)
 {
     Piece piece;
-    int cause = 0;
-    if (!journal->holds) return 0;
-    for (int64_t at = sizeof(Head); cause == 0 && at < journal->size; at += piece.size) {
-        int64_t first, count;
-        cause = read_at(journal, &piece, sizeof piece, at);
-        at += (int64_t)sizeof piece;
-        if (cause == 0 && overlap(&piece, address, (int64_t)size, &first, &count))
-            cause = read_at(journal, bytes + (first - address), (size_t)count,
-                            at + first - piece.address);
+    int64_t at = sizeof(Head), end = address + (int64_t)size;
+    for (const char *from; (from = take_piece(journal, &at, &piece));) {
+        int64_t first = address > piece.address ? address : piece.address;
+        int64_t last = piece.address + piece.size < end ? piece.address + piece.size : end;
+        if (last > first)
+            memcpy(bytes + (first - address), from + (first - piece.address),
+                   (size_t)(last - first));
     }
-    return cause;
 }
 
 int array_journal_apply(ArrayJournal *journal, int descriptor)
 {
-    char buffer[BUFFER];
     Piece piece;
-    int cause = 0;
-    for (int64_t at = sizeof(Head); cause == 0 && at < journal->size; at += piece.size) {
-        cause = read_at(journal, &piece, sizeof piece, at);
-        at += (int64_t)sizeof piece;
-        for (int64_t done = 0; cause == 0 && done < piece.size; done += BUFFER) {
-            size_t count = (size_t)(piece.size - done < BUFFER ? piece.size - done : BUFFER);
-            cause = read_at(journal, buffer, count, at + done);
-            if (cause == 0)
-                cause = transfer_write(descriptor, buffer, (int64_t)count, piece.address + done);
-        }
+    int64_t at = sizeof(Head);
+    for (const char *from; (from = take_piece(journal, &at, &piece));) {
+        int cause = transfer_write(descriptor, from, piece.size, piece.address);
+        if (cause) return cause;
     }
-    if (cause == 0) journal->holds = false;
-    return cause;
+    journal->size = 0;
+    return 0;
 }
 
-// Every piece lies within the journal, and the checksum is that of all of them, each hashed as it
-// was added.
-static bool is_sealed(const ArrayJournal *journal, const Head *head)
-{
-    Hash hash = hash_start();
-    Piece piece;
-    char checksum[HASH_TEXT_SIZE];
-    for (int64_t at = sizeof *head; at < journal->size; at += piece.size) {
-        if (read_at(journal, &piece, sizeof piece, at) != 0) return false;
-        at += (int64_t)sizeof piece;
-        if (piece.address < 0 || piece.size < 0 || piece.size > journal->size - at) return false;
-        hash_bytes(&hash, &piece, sizeof piece);
-        hash_bytes(&hash, journal->copy + at, (size_t)piece.size);
-    }
-    hash_write(&hash, checksum);
-    return memcmp(checksum, head->checksum, HASH_TEXT_SIZE) == 0;
-}
-
-// A journal of a sound head into the memory; `size` is 0 where it has none.
-static int read_copy(ArrayJournal *journal, Head *head)
+// The whole file into the memory; `size` stays 0 where its head is not that of what follows.
+static int read_sealed(ArrayJournal *journal, int file)
 {
     Error err = {0};
+    Head head;
     struct stat status;
-    if (fstat(journal->descriptor, &status) != 0) return errno;
-    if (status.st_size < (off_t)sizeof *head || read_at(journal, head, sizeof *head, 0) != 0)
-        return 0;
-    if (memcmp(head->name, NAME, sizeof NAME) != 0 || head->size > status.st_size) return 0;
-    char *copy = memory_bytes(head->size, &err);
-    if (!copy) return ENOMEM;
-    int cause = read_at(journal, copy, (size_t)head->size, 0);
-    journal->copy = copy;
-    journal->size = head->size;
-    return cause;
+    if (fstat(file, &status) != 0) return errno;
+    if (status.st_size < (off_t)sizeof head) return 0;
+    if (!(journal->bytes = memory_bytes(status.st_size, &err))) return ENOMEM;
+    if (transfer_read(file, journal->bytes, status.st_size, 0) != status.st_size)
+        return errno ? errno : EIO;
+    memcpy(&head, journal->bytes, sizeof head);
+    if (head.size < (int64_t)sizeof head || head.size > status.st_size) return 0;
+    journal->size = head.size;
+    Head right = head_of(journal);
+    if (memcmp(&head, &right, sizeof head) != 0) journal->size = 0;
+    return 0;
 }
 
 int array_journal_find(ArrayJournal *journal, const char *path)
 {
-    Head head = {0};
     if (!find_name(journal, path)) return ENAMETOOLONG;
     Error unseen = {0};
-    journal->descriptor = open_to_read(journal->path, &unseen);
-    if (journal->descriptor < 0) return open_is_there(journal->path) ? EINVAL : 0;
-    journal->open = true;
-    int cause = read_copy(journal, &head);
-    journal->holds = cause == 0 && journal->copy && is_sealed(journal, &head);
-    if (!journal->holds) array_journal_close(journal);
+    int file = open_to_read(journal->path, &unseen);
+    if (file < 0) return open_is_there(journal->path) ? EINVAL : 0;
+    int cause = read_sealed(journal, file);
+    close(file);
     return cause;
 }
 
@@ -206,10 +173,9 @@ int array_journal_find(ArrayJournal *journal, const char *path)
 
 void array_journal_close(ArrayJournal *journal)
 {
-    if (journal->open) close(journal->descriptor);
-    memory_free(journal->copy);
-    journal->copy = NULL;
-    journal->open = journal->holds = false;
+    memory_free(journal->bytes);
+    journal->bytes = NULL;
+    journal->size = journal->room = 0;
 }
 
 void array_journal_remove(ArrayJournal *journal)

@@ -108,24 +108,33 @@ static bool find_type(hid_t stored, ArrayType *type)
     return false;
 }
 
+// The numbers come from a file, which may be damaged: bytes of all values must fit into 64 bits.
+bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components)
+{
+    hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1}, across = 0, most = INT64_MAX / sizeof(double);
+    hid_t space = H5Dget_space(dataset);
+    int rank = H5Sget_simple_extent_ndims(space);
+    bool known = rank >= 1 && rank <= ARRAY_RANK_MAX &&
+                 H5Sget_simple_extent_dims(space, shape, NULL) >= 0 && shape[1] <= INT32_MAX &&
+                 shape[2] <= INT32_MAX && (across = shape[1] * shape[2]) <= INT32_MAX &&
+                 shape[0] <= most / (across > 0 ? across : 1);
+    H5Sclose(space);
+    if (!known) return false;
+    *rows = (int64_t)shape[0];
+    *width = (int32_t)across;
+    *components = (int32_t)shape[2];
+    return true;
+}
+
 // Type, width and rows of the dataset; its chunks are those that series_create would give it.
 static bool read_layout(SeriesWriter *writer)
 {
-    hsize_t shape[ARRAY_RANK_MAX] = {0, 1, 1};
-    hid_t type = H5Dget_type(writer->dataset), space = H5Dget_space(writer->dataset);
+    hid_t type = H5Dget_type(writer->dataset);
     bool known = find_type(type, &writer->type);
-    int rank = H5Sget_simple_extent_ndims(space);
-    known = known && rank >= 1 && rank <= ARRAY_RANK_MAX &&
-            H5Sget_simple_extent_dims(space, shape, NULL) >= 0 && shape[0] <= INT64_MAX &&
-            shape[2] >= 1 && shape[2] <= INT32_MAX && shape[1] >= 1 &&
-            shape[1] <= INT32_MAX / shape[2];
     H5Tclose(type);
-    H5Sclose(space);
-    if (!known) return false;
-    writer->row_count = (int64_t)shape[0];
-    writer->components = (int32_t)shape[2];
-    writer->width = (int32_t)(shape[1] * shape[2]);
-    return true;
+    return known &&
+           series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components) &&
+           writer->width > 0;
 }
 
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)

@@ -30,6 +30,9 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
                    Error *err);
 void series_destroy(SeriesWriter *writer);
 
+// Rows of a dataset, values a row, and of a vector its components. false: it is none of ours.
+bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components);
+
 // One that is in the file already, as it was created. *writer as above.
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err);
 // Only the first `rows` rows stay. ERROR_FILE: it has fewer.

@@ -75,11 +75,9 @@ static bool is_text_value(const char *at)
 static bool add_parameter(GeoParameters *known, const char *name, size_t length, bool is_text,
                           Error *err)
 {
-    GeoParameter *items =
-        memory_resize(known->items, known->count, known->count + 1, sizeof *items, err);
-    if (!items) return false;
-    known->items = items;
-    GeoParameter *item = &items[known->count++];
+    if (!memory_resize(&known->items, known->count, known->count + 1, sizeof *known->items, err))
+        return false;
+    GeoParameter *item = &known->items[known->count++];
     if (length >= sizeof item->name) length = sizeof item->name - 1;
     memcpy(item->name, name, length);
     item->is_text = is_text;

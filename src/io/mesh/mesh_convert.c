@@ -23,12 +23,16 @@
 // rotation in a CAD program.
 static const double PLANE_TOLERANCE = 1e-9;
 
-// Raw nodes by ascending tag.
+// A raw node.
+typedef struct Node {
+    int64_t number;   // its tag
+    int32_t source;   // index into the raw nodes
+    int32_t index;   // in the MeshFile; -1: left out
+} Node;
+
 typedef struct NodeTable {
     int32_t count;
-    int64_t *number;   // [count] ascending; owned
-    int64_t *source;   // [count] index into the raw nodes; owned
-    int32_t *index;   // [count] index in the MeshFile, -1: left out; owned
+    Node *node;   // [count] by ascending tag; owned
 } NodeTable;
 
 void mesh_raw_destroy(MeshRaw *raw)
@@ -44,48 +48,26 @@ void mesh_raw_destroy(MeshRaw *raw)
 
 // --- nodes --------------------------------------------------------------------------------------
 
-// A tag and where its node stands in the raw arrays, for sorting.
-typedef struct TagAt {
-    int64_t number, source;
-} TagAt;
-
 // All nodes, none marked yet: index is -1 throughout.
 static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, Error *err)
 {
-    TagAt *tags = NEW_ARRAY(TagAt, raw->node_count, err);
-    if (!tags) goto cleanup;
     if (raw->node_count > INT32_MAX / 3)
-        FAIL(err, ERROR_INPUT, "%s: %lld nodes are too many", path, (long long)raw->node_count);
+        return REFUSE(err, "%s: %lld nodes are too many", path, (long long)raw->node_count);
+    if (!(table->node = NEW_ARRAY(Node, raw->node_count, err))) return false;
     table->count = (int32_t)raw->node_count;
-    for (int32_t k = 0; k < table->count; k++) tags[k] = (TagAt){raw->node_number[k], k};
-    qsort(tags, (size_t)table->count, sizeof *tags, order_int64);
-    TRY((table->number = NEW_ARRAY(int64_t, table->count, err)));
-    TRY((table->source = NEW_ARRAY(int64_t, table->count, err)));
-    TRY((table->index = NEW_ARRAY(int32_t, table->count, err)));
-    for (int32_t k = 0; k < table->count; k++) {
-        table->number[k] = tags[k].number;
-        table->source[k] = tags[k].source;
-        table->index[k] = -1;
-    }
-cleanup:
-    memory_free(tags);
-    return error_is_clean(err);
+    for (int32_t k = 0; k < table->count; k++) table->node[k] = (Node){raw->node_number[k], k, -1};
+    qsort(table->node, (size_t)table->count, sizeof *table->node, order_int64);
+    return true;
 }
 
-static void table_destroy(NodeTable *table)
+// The node of a tag; NULL: none. Tags mostly have no holes: that is tried first.
+static Node *table_find(const NodeTable *table, int64_t number)
 {
-    memory_free_all(table->number, table->source, table->index);
-}
-
-// The place of a tag in the table, -1: none. Tags mostly have no holes: that is tried first.
-static int32_t table_find(const NodeTable *table, int64_t number)
-{
-    if (table->count == 0) return -1;
-    int64_t guess = number - table->number[0];
-    if (guess >= 0 && guess < table->count && table->number[guess] == number) return (int32_t)guess;
-    const int64_t *found =
-        bsearch(&number, table->number, (size_t)table->count, sizeof number, order_int64);
-    return found ? (int32_t)(found - table->number) : -1;
+    if (table->count == 0) return NULL;
+    int64_t guess = number - table->node[0].number;
+    if (guess >= 0 && guess < table->count && table->node[guess].number == number)
+        return &table->node[guess];
+    return bsearch(&number, table->node, (size_t)table->count, sizeof *table->node, order_int64);
 }
 
 // Marks the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
@@ -95,12 +77,12 @@ static bool mark_elements(const RawElements *elements, const char *path, NodeTab
 {
     for (int32_t e = 0; e < elements->count; e++)
         for (int32_t a = 0; a < elements->items[e].count; a++) {
-            int32_t at = table_find(table, elements->items[e].nodes[a]);
-            if (at < 0)
+            Node *node = table_find(table, elements->items[e].nodes[a]);
+            if (!node)
                 return REFUSE(err, "%s: element %lld uses node %lld, which the file lacks", path,
                               (long long)elements->items[e].number,
                               (long long)elements->items[e].nodes[a]);
-            table->index[at] = 0;
+            node->index = 0;
         }
     return true;
 }
@@ -115,12 +97,13 @@ static bool mark_orphans(const MeshRaw *raw, NodeTable *table, Error *err)
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
         for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
-            int32_t at = table_find(table, block->nodes[i]);
-            if (at >= 0) attached[at] = true;
+            const Node *node = table_find(table, block->nodes[i]);
+            if (node) attached[node - table->node] = true;
         }
     }
     for (int32_t k = 0; k < table->count; k++)
-        if (!attached[k] && raw->node_dimension[table->source[k]] > 0) table->index[k] = 0;
+        if (!attached[k] && raw->node_dimension[table->node[k].source] > 0)
+            table->node[k].index = 0;
 cleanup:
     memory_free(attached);
     return error_is_clean(err);
@@ -133,8 +116,8 @@ static void mark_boundaries(const MeshRaw *raw, int32_t dim, NodeTable *table)
         const RawBlock *block = &raw->blocks[k];
         if (block->dimension != dim - 1 || raw_block_groups(raw, block) == 0) continue;
         for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
-            int32_t at = table_find(table, block->nodes[i]);
-            if (at >= 0) table->index[at] = 0;
+            Node *node = table_find(table, block->nodes[i]);
+            if (node) node->index = 0;
         }
     }
 }
@@ -144,7 +127,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
                          Error *err)
 {
     for (int32_t k = 0; k < table->count; k++)
-        if (table->index[k] == 0) table->index[k] = mesh->node_count++;
+        if (table->node[k].index == 0) table->node[k].index = mesh->node_count++;
     if (!(mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err)))
         return false;
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) return false;
@@ -152,19 +135,20 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
     double extent = 0, deepest = 0;
     int64_t worst = 0;
     for (int32_t k = 0; k < table->count; k++) {
-        if (table->index[k] < 0) continue;
-        const double *from = raw->node_position + 3 * table->source[k];
-        double *to = mesh->position + (int64_t)mesh->dim * table->index[k];
+        const Node *node = &table->node[k];
+        if (node->index < 0) continue;
+        const double *from = raw->node_position + 3 * (int64_t)node->source;
+        double *to = mesh->position + (int64_t)mesh->dim * node->index;
         if (!isfinite(from[0]) || !isfinite(from[1]) || !isfinite(from[2]))
             return REFUSE(err, "%s: node %lld has a coordinate that is not a number", path,
-                          (long long)table->number[k]);
+                          (long long)node->number);
         memcpy(to, from, (size_t)mesh->dim * sizeof(double));
-        mesh->node_number[table->index[k]] = table->number[k];
+        mesh->node_number[node->index] = node->number;
         extent = fmax(extent,
                       fmax(fabs(from[0] - mesh->position[0]), fabs(from[1] - mesh->position[1])));
         if (mesh->dim == 2 && fabs(from[2]) > fabs(deepest)) {
             deepest = from[2];
-            worst = table->number[k];
+            worst = node->number;
         }
     }
     if (fabs(deepest) > PLANE_TOLERANCE * extent)
@@ -193,7 +177,7 @@ static bool store_elements(const RawElements *elements, const NodeTable *table, 
         mesh->kind[e] = (uint8_t)element->kind;
         mesh->first_node[e] = at;
         for (int32_t a = 0; a < element->count; a++)
-            mesh->element_nodes[at++] = table->index[table_find(table, element->nodes[a])];
+            mesh->element_nodes[at++] = table_find(table, element->nodes[a])->index;
     }
     mesh->first_node[elements->count] = at;
     return true;
@@ -223,8 +207,8 @@ static bool store_group_nodes(const RawElements *elements, const NodeTable *tabl
         return false;
     for (int32_t k = 0; k < elements->count; k++)
         for (int32_t a = 0; a < elements->items[k].count; a++) {
-            int32_t at = table_find(table, elements->items[k].nodes[a]);
-            if (at >= 0 && table->index[at] >= 0) group->nodes[count++] = table->index[at];
+            const Node *node = table_find(table, elements->items[k].nodes[a]);
+            if (node && node->index >= 0) group->nodes[count++] = node->index;
         }
     qsort(group->nodes, (size_t)count, sizeof *group->nodes, order_int32);
     for (int32_t k = 0; k < count; k++)
@@ -248,11 +232,11 @@ static bool store_group_faces(const char *path, const RawElements *faces, const 
             return REFUSE(err, "%s: group '%s' mixes %s of %d and %d nodes", path, group->name,
                           group->dimension == 1 ? "edges" : "faces", first, nodes);
         for (int32_t a = 0; a < width; a++) {
-            int32_t at = a < nodes ? table_find(table, faces->items[k].nodes[a]) : -1;
-            if (a < nodes && at < 0)
+            const Node *node = a < nodes ? table_find(table, faces->items[k].nodes[a]) : NULL;
+            if (a < nodes && !node)
                 return REFUSE(err, "%s: group '%s' uses node %lld, which the file lacks", path,
                               group->name, (long long)faces->items[k].nodes[a]);
-            group->face_nodes[k * width + a] = a < nodes ? table->index[at] : -1;
+            group->face_nodes[k * width + a] = node ? node->index : -1;
         }
     }
     group->face_count = faces->count;
@@ -356,7 +340,6 @@ bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Erro
     TRY(store_elements(&body, &table, mesh, err));
     TRY(convert_groups(raw, path, &table, &body, mesh, err));
 cleanup:
-    table_destroy(&table);
-    memory_free(body.items);
+    memory_free_all(table.node, body.items);
     return error_is_clean(err);
 }

@@ -9,35 +9,11 @@
 
 enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
 
-const ElementInfo *element_info(ElementKind kind)
-{
-    static const ElementInfo rows[] = {
+const ElementInfo ELEMENTS[] = {
 #define X(symbol, dim, nodes, corners, gmsh, vtk, name) {dim, nodes, corners, gmsh, vtk, name},
-        ELEMENT_KINDS(X)
+    ELEMENT_KINDS(X)
 #undef X
-    };
-    return &rows[kind];
-}
-
-int32_t element_dim(ElementKind kind)
-{
-    return element_info(kind)->dim;
-}
-
-int32_t element_node_count(ElementKind kind)
-{
-    return element_info(kind)->node_count;
-}
-
-int32_t element_corner_count(ElementKind kind)
-{
-    return element_info(kind)->corner_count;
-}
-
-const char *element_name(ElementKind kind)
-{
-    return element_info(kind)->name;
-}
+};
 
 int32_t element_vtk_node(ElementKind kind, int32_t k)
 {

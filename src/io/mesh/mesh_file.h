@@ -53,8 +53,9 @@ typedef struct MeshGroup {
     // group: which of the two an element belongs to is not known
 } MeshGroup;
 
-// Made by gmsh now, or before (io/mesh/mesh_cache).
-typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE } MeshOrigin;
+// Made by gmsh now, or before (io/mesh/mesh_cache); or of files that it says itself, so that it is
+// made anew each time.
+typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE, MESH_OF_OTHER_FILES } MeshOrigin;
 
 typedef struct MeshFile {
     MeshOrigin origin;
@@ -104,11 +105,20 @@ typedef struct ElementInfo {
     const char *name;   // "Q4"; static storage
 } ElementInfo;
 
-const ElementInfo *element_info(ElementKind kind);
-int32_t element_dim(ElementKind kind);
-int32_t element_node_count(ElementKind kind);
-int32_t element_corner_count(ElementKind kind);
-const char *element_name(ElementKind kind);
+extern const ElementInfo ELEMENTS[ELEMENT_KIND_COUNT];
+
+static inline int32_t element_dim(ElementKind kind)
+{
+    return ELEMENTS[kind].dim;
+}
+static inline int32_t element_node_count(ElementKind kind)
+{
+    return ELEMENTS[kind].node_count;
+}
+static inline int32_t element_corner_count(ElementKind kind)
+{
+    return ELEMENTS[kind].corner_count;
+}
 // Which of its nodes VTK has in place k.
 int32_t element_vtk_node(ElementKind kind, int32_t k);
 

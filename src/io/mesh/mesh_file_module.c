@@ -213,20 +213,14 @@ static bool fetch_nodes(int dimension, MeshRaw *raw, Error *err)
                           dimension, -1, 0, 0, &status);
     if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no nodes (status %d)", status);
     int64_t old = raw->node_count, total = old + (int64_t)tag_count;
-    int64_t *number = memory_resize(raw->node_number, old, total, sizeof(int64_t), err);
-    if (!number) goto cleanup;
-    raw->node_number = number;
-    uint8_t *on = memory_resize(raw->node_dimension, old, total, sizeof(uint8_t), err);
-    if (!on) goto cleanup;
-    raw->node_dimension = on;
-    double *position = memory_resize(raw->node_position, 3 * old, 3 * total, sizeof(double), err);
-    if (!position) goto cleanup;
-    raw->node_position = position;
+    if (!memory_resize(&raw->node_number, old, total, sizeof(int64_t), err)) goto cleanup;
+    if (!memory_resize(&raw->node_dimension, old, total, sizeof(uint8_t), err)) goto cleanup;
+    if (!memory_resize(&raw->node_position, 3 * old, 3 * total, sizeof(double), err)) goto cleanup;
     for (size_t k = 0; k < tag_count; k++) {
-        number[old + (int64_t)k] = (int64_t)tags[k];
-        on[old + (int64_t)k] = (uint8_t)dimension;
+        raw->node_number[old + (int64_t)k] = (int64_t)tags[k];
+        raw->node_dimension[old + (int64_t)k] = (uint8_t)dimension;
     }
-    if (tag_count) memcpy(position + 3 * old, values, 3 * tag_count * sizeof(double));
+    if (tag_count) memcpy(raw->node_position + 3 * old, values, 3 * tag_count * sizeof(double));
     raw->node_count = total;
 cleanup:
     gmshFree(tags);
@@ -263,11 +257,10 @@ static bool fetch_elements(int dimension, int entity, MeshRaw *raw, Error *err)
                              &node_counts, &node_lists, dimension, entity, &status);
     if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no elements (status %d)", status);
     for (size_t k = 0; k < type_count; k++) {
-        RawBlock *blocks =
-            memory_resize(raw->blocks, raw->block_count, raw->block_count + 1, sizeof *blocks, err);
-        if (!blocks) goto cleanup;
-        raw->blocks = blocks;
-        RawBlock *block = &blocks[raw->block_count++];
+        if (!memory_resize(&raw->blocks, raw->block_count, raw->block_count + 1,
+                           sizeof *raw->blocks, err))
+            goto cleanup;
+        RawBlock *block = &raw->blocks[raw->block_count++];
         *block = (RawBlock){.dimension = dimension, .entity = entity, .gmsh_type = types[k]};
         TRY(name_type(block, err));
         block->count = (int64_t)tag_counts[k];

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "io/files/open_file.h"
+#include "io/files/text_file.h"
 #include "io/mesh/geo_commands.h"
 #include "io/mesh/geo_parameters.h"
 #include "io/mesh/mesh_apart.h"
@@ -18,9 +18,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// CHUNK_SIZE: bytes read at once when looking for the end mark. HEAD_LINES: how far down the head
-// is looked for (comments may precede it).
-enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, SPLITS_MAX = 6 };
+enum { SPLITS_MAX = 6 };
 
 // --- before gmsh --------------------------------------------------------------------------------
 
@@ -35,61 +33,34 @@ static bool check_file(const char *path, Error *err)
     return true;
 }
 
-// gmsh runs what does not begin like a mesh as a script, whatever its name ends with.
-static bool check_begin(FILE *file, const char *path, Error *err)
-{
-    char line[16] = "";
-    bool mesh = fgets(line, sizeof line, file) &&
-                (strncmp(line, "$MeshFormat", 11) == 0 || strncmp(line, "$Comments", 9) == 0);
-    if (!mesh)
-        return REFUSE(
-            err, "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
-            path);
-    rewind(file);
-    return true;
-}
-
-// Finds $MeshFormat among the first lines and the version on the line after it.
-static bool read_version(FILE *file, const char *path, double *version, Error *err)
-{
-    char line[256];
-    for (int32_t k = 0; k < HEAD_LINES && fgets(line, sizeof line, file); k++) {
-        if (strncmp(line, "$MeshFormat", strlen("$MeshFormat")) != 0) continue;
-        if (!fgets(line, sizeof line, file) || (*version = strtod(line, NULL)) <= 0)
-            return REFUSE(err, "%s: is truncated: no version after $MeshFormat", path);
-        return true;
-    }
-    return REFUSE(err, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)", path);
-}
-
-// True when `mark` occurs from the file's present position on.
-static bool file_holds(FILE *file, const char *mark, char *chunk)
-{
-    size_t width = strlen(mark), kept = 0, got = 0;
-    while ((got = fread(chunk + kept, 1, CHUNK_SIZE - kept, file)) > 0) {
-        size_t filled = kept + got;
-        if (memmem(chunk, filled, mark, width)) return true;
-        kept = filled < width - 1 ? filled : width - 1;
-        memmove(chunk, chunk + filled - kept, kept);
-    }
-    return false;
-}
-
-// A .msh must have its head, and the mark that ends the elements: without it the file was cut off.
+// A .msh begins as one, else gmsh would run it as a script, whatever its name ends with (so it
+// would behind a byte order mark, which text_file_read leaves out); it says its version, and has
+// the mark that ends the elements, without which it was cut off.
 static bool check_msh(const char *path, double *version, Error *err)
 {
-    char *chunk = NULL;
-    FILE *file = open_stream(path, err);
-    TRY(file);
-    TRY(check_begin(file, path, err));
-    TRY(read_version(file, path, version, err));
-    if (!(chunk = NEW_ARRAY(char, CHUNK_SIZE, err))) goto cleanup;
-    if (!file_holds(file, "$EndElements", chunk))
+    static const char begin[] = "$MeshFormat", comments[] = "$Comments", end[] = "$EndElements";
+    struct stat status;
+    char *bytes = NULL;
+    int32_t size = 0;
+    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
+    if (stat(path, &status) != 0 || status.st_size != size ||
+        (strncmp(bytes, begin, strlen(begin)) != 0 &&
+         strncmp(bytes, comments, strlen(comments)) != 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
+             path);
+    const char *line = strstr(bytes, begin);   // comments may stand before it
+    if (!line)
+        FAIL(err, ERROR_INPUT, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)",
+             path);
+    line = strchr(line, '\n');
+    if (!line || (*version = strtod(line, NULL)) <= 0)
+        FAIL(err, ERROR_INPUT, "%s: is truncated: no version after $MeshFormat", path);
+    if (!memmem(bytes, (size_t)size, end, strlen(end)))
         FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
              path);
 cleanup:
-    memory_free(chunk);
-    if (file) fclose(file);
+    memory_free(bytes);
     return error_is_clean(err);
 }
 
@@ -175,12 +146,11 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     request.parameter_count = given.count;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
-    if (found) {
-        mesh->origin = MESH_OF_CACHE;
-    } else {
+    if (!found) {
         TRY(mesh_apart_read(&request, mesh, err));
         mesh_cache_store(key, mesh);
     }
+    mesh->origin = found ? MESH_OF_CACHE : key[0] ? MESH_OF_GMSH : MESH_OF_OTHER_FILES;
 cleanup:
     memory_free(given.list);
     return error_is_clean(err);

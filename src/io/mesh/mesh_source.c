@@ -10,7 +10,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { OPTIONS_PATH_SIZE = 4096 };
@@ -35,13 +34,6 @@ static bool has_options(const char *path)
     return length >= (int)sizeof options || access(options, F_OK) == 0;
 }
 
-// A pipe would be waited for; the reader of the mesh says what else is wrong with the path.
-static bool is_file(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) != 0 || S_ISREG(status.st_mode);
-}
-
 static bool is_geo(const char *path)
 {
     return text_ends_with(path, ".geo");
@@ -52,7 +44,6 @@ bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t
 {
     char *bytes = NULL;
     int32_t size = 0;
-    if (!is_file(path)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
     TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
     *whole = !has_options(path) && (!is_geo(path) || !reaches_outside(bytes));
     hash_text(hash, is_geo(path) ? "geo" : "msh");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a mesh depends on: the bytes of its file, and whether these are all. A .geo may include and
 // merge other files, ask for variables of the environment, look into folders, run commands. Called
-// by io/mesh/mesh_cache, model/shape_cache and study/sweep for their keys.
+// by io/mesh/mesh_cache and study/sweep for their keys.
 #ifndef AMONTONS_IO_MESH_MESH_SOURCE_H
 #define AMONTONS_IO_MESH_MESH_SOURCE_H
 

@@ -17,7 +17,7 @@ enum { GMSH_POINT = 15, GMSH_HEX_20 = 17, GMSH_WEDGE_15 = 18, KIND_LIST_SIZE = 6
 static int32_t kind_of(const RawBlock *block)
 {
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
-        const ElementInfo *info = element_info((ElementKind)kind);
+        const ElementInfo *info = &ELEMENTS[(ElementKind)kind];
         if (info->gmsh_type == block->gmsh_type && info->dim == block->dimension) return kind;
     }
     return -1;
@@ -98,11 +98,10 @@ static bool append_block(RawElements *elements, const RawBlock *block, int32_t g
     int64_t total = elements->count + block->count;
     if (total > INT32_MAX / ELEMENT_NODES_MAX)
         return REFUSE(err, "%lld elements are too many", (long long)total);
-    RawElement *items = memory_resize(elements->items, elements->count, total, sizeof *items, err);
-    if (!items) return false;
-    elements->items = items;
+    if (!memory_resize(&elements->items, elements->count, total, sizeof *elements->items, err))
+        return false;
     for (int64_t k = 0; k < block->count; k++)
-        items[elements->count++] =
+        elements->items[elements->count++] =
             (RawElement){.number = block->number[k],
                          .nodes = block->nodes + k * block->nodes_per_element,
                          .count = block->nodes_per_element,
@@ -130,7 +129,7 @@ static void list_kinds(int32_t dim, char list[KIND_LIST_SIZE])
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
         if (element_dim((ElementKind)kind) == dim)
             length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s",
-                               length ? ", " : "", element_name((ElementKind)kind));
+                               length ? ", " : "", ELEMENTS[(ElementKind)kind].name);
 }
 
 // picked: empty before; its elements point into `raw`, which must outlive them. Where the file has

@@ -70,39 +70,29 @@ static void shape_simplex_2(const Reference *of, const double *point, ShapeValue
     }
 }
 
-// N_a = product of (1 + c s) / 2 over the axes, c the node's place there.
-static void shape_product(const Reference *of, const double *point, ShapeValues *shape)
+// The 1D functions that are 1 at c (-1, 0 or 1), and their slopes.
+static double linear(double c, double s, double *slope)
 {
-    int32_t dim = of->dim;
-    double scale = 1 << dim;
-    for (int32_t a = 0; a < of->nodes; a++) {
-        const double *c = of->node[a];
-        double value = 1;
-        for (int32_t d = 0; d < dim; d++) value *= 1 + c[d] * point[d];
-        shape->value[a] = value / scale;
-        for (int32_t d = 0; d < dim; d++) {
-            double slope = c[d];
-            for (int32_t f = 0; f < dim; f++) slope *= f == d ? 1 : 1 + c[f] * point[f];
-            shape->slope[a][d] = slope / scale;
-        }
-    }
+    *slope = c / 2;
+    return (1 + c * s) / 2;
 }
 
-// The 1D quadratic that is 1 at c (-1, 0 or 1), and its slope.
 static double quadratic(double c, double s, double *slope)
 {
     *slope = c == 0 ? -2 * s : s + c / 2;
     return c == 0 ? 1 - s * s : s * (s + c) / 2;
 }
 
-static void shape_product_2(const Reference *of, const double *point, ShapeValues *shape)
+// N_a = their product over the axes, c the node's place there.
+static void shape_product(const Reference *of, const double *point, ShapeValues *shape)
 {
     int32_t dim = of->dim;
+    double (*along)(double, double, double *) = of->nodes == 1 << dim ? linear : quadratic;
     for (int32_t a = 0; a < of->nodes; a++) {
         double factor[DIM_MAX], slope[DIM_MAX];
         shape->value[a] = 1;
         for (int32_t d = 0; d < dim; d++) {
-            factor[d] = quadratic(of->node[a][d], point[d], &slope[d]);
+            factor[d] = along(of->node[a][d], point[d], &slope[d]);
             shape->value[a] *= factor[d];
         }
         for (int32_t d = 0; d < dim; d++) {
@@ -239,18 +229,18 @@ typedef struct ShapeRow {
 // Exact for B' D B where sides are straight and opposite ones parallel, mass_rule for N_a^2.
 static const ShapeRow ROWS[ELEMENT_KIND_COUNT] = {
     [ELEMENT_L2] = {LINE_NODES, shape_product, .line_points = 2},
-    [ELEMENT_L3] = {LINE_NODES, shape_product_2, .line_points = 3},
+    [ELEMENT_L3] = {LINE_NODES, shape_product, .line_points = 3},
     [ELEMENT_T3] = {TRIANGLE_NODES, shape_simplex, triangle_rule_1, triangle_rule_1, 2},
     [ELEMENT_T6] = {TRIANGLE_NODES, shape_simplex_2, triangle_rule_2, triangle_rule_4, 2},
     [ELEMENT_Q4] = {SQUARE_NODES, shape_product, .line_points = 2},
     [ELEMENT_Q8] = {SQUARE_NODES, shape_q8, .line_points = 3},
-    [ELEMENT_Q9] = {SQUARE_NODES, shape_product_2, .line_points = 3},
+    [ELEMENT_Q9] = {SQUARE_NODES, shape_product, .line_points = 3},
     [ELEMENT_TET4] = {TETRAHEDRON_NODES, shape_simplex, tetrahedron_rule_1, tetrahedron_rule_1, 3},
     [ELEMENT_TET10] = {TETRAHEDRON_NODES, shape_simplex_2, tetrahedron_rule_2, tetrahedron_rule_5,
                        3},
     [ELEMENT_WEDGE6] = {WEDGE_NODES, shape_wedge, triangle_rule_2, triangle_rule_2, 2, 2},
     [ELEMENT_HEX8] = {CUBE_NODES, shape_product, .line_points = 2},
-    [ELEMENT_HEX27] = {CUBE_NODES, shape_product_2, .line_points = 3}};
+    [ELEMENT_HEX27] = {CUBE_NODES, shape_product, .line_points = 3}};
 
 const double *shape_node(ElementKind kind, int32_t a)
 {
@@ -259,7 +249,7 @@ const double *shape_node(ElementKind kind, int32_t a)
 
 ShapeValues shape_at(ElementKind kind, const double *point)
 {
-    const ElementInfo *info = element_info(kind);
+    const ElementInfo *info = &ELEMENTS[kind];
     const ShapeRow *row = &ROWS[kind];
     ShapeValues shape = {0};
     row->values(&(Reference){info->dim, info->node_count, row->node}, point, &shape);

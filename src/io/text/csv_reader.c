@@ -38,9 +38,7 @@ static char *take_cell(char **at, bool *ends)
 
 static bool add_cell(CsvTable *table, int32_t *count, int32_t *room, const char *cell, Error *err)
 {
-    const char **longer = memory_grow(table->cells, *count, room, sizeof *table->cells, err);
-    if (!longer) return false;
-    table->cells = longer;
+    if (!memory_grow(&table->cells, *count, room, sizeof *table->cells, err)) return false;
     table->cells[(*count)++] = cell;
     return error_is_clean(err);
 }

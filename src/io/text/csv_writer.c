@@ -4,11 +4,11 @@
 #include "io/text/csv_writer.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/text/text_writer.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { DIGITS = 9, PLAIN = 4 };   // PLAIN: zeros before the first digit of 0.00012
@@ -28,42 +28,29 @@ CsvWriter *csv_create(const char *path, Error *err)
     return NULL;
 }
 
-static void put(CsvWriter *csv, const char *bytes, size_t count)
-{
-    text_writer_put(&csv->out, bytes, count);
-}
-
 static void begin_cell(CsvWriter *csv)
 {
-    if (csv->in_row) put(csv, ",", 1);
+    if (csv->in_row) fputc(',', csv->out.out);
     csv->in_row = true;
 }
 
 // RFC 4180, 2.6 and 2.7: a cell with a comma, a quote or a line end stands in quotes.
 void csv_text(CsvWriter *csv, const char *text)
 {
+    bool quoted = strpbrk(text, ",\"\n\r") != NULL;
     begin_cell(csv);
-    if (!strpbrk(text, ",\"\n\r")) {
-        put(csv, text, strlen(text));
-        return;
+    if (quoted) fputc('"', csv->out.out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', csv->out.out);   // a quote inside is doubled
+        fputc(*text, csv->out.out);
     }
-    put(csv, "\"", 1);
-    for (const char *quote = strchr(text, '"'); quote; quote = strchr(text, '"')) {
-        put(csv, text, (size_t)(quote - text) + 1);   // a quote inside is doubled
-        put(csv, "\"", 1);
-        text = quote + 1;
-    }
-    put(csv, text, strlen(text));
-    put(csv, "\"", 1);
+    if (quoted) fputc('"', csv->out.out);
 }
 
 void csv_number(CsvWriter *csv, double value)
 {
-    char digits[40] = "";
-    for (int precision = 6; isfinite(value) && precision <= 17; precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, value);
-        if (strtod(digits, NULL) == value) break;
-    }
+    char digits[NUMBER_TEXT_SIZE] = "";
+    if (isfinite(value)) text_shortest(value, 6, digits);
     csv_text(csv, digits);
 }
 
@@ -84,15 +71,13 @@ void csv_rounded(CsvWriter *csv, double value)
         *--at = (char)('0' + digits % 10);
     }
     if (value < 0) *--at = '-';
-    put(csv, at, (size_t)(end - at));
-    if (plain) return;
-    snprintf(text, sizeof text, "e%d", power);
-    put(csv, text, strlen(text));
+    fwrite(at, 1, (size_t)(end - at), csv->out.out);
+    if (!plain) fprintf(csv->out.out, "e%d", power);
 }
 
 void csv_end_row(CsvWriter *csv)
 {
-    put(csv, "\n", 1);
+    fputc('\n', csv->out.out);
     csv->in_row = false;
 }
 

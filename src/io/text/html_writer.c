@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MARKUP_SIZE = 2000, CHUNK = 3 * 1000 };
+enum { CHUNK = 3 * 1000 };
 
 struct HtmlWriter {
     TextWriter out;
@@ -25,28 +25,17 @@ HtmlWriter *html_create(const char *path, bool any, Error *err)
     return NULL;
 }
 
-static void put(HtmlWriter *html, const char *bytes, size_t count)
-{
-    text_writer_put(&html->out, bytes, count);
-}
-
 void html_markup(HtmlWriter *html, const char *format, ...)
 {
-    char words[MARKUP_SIZE];
     va_list arguments;
     va_start(arguments, format);
-    int length = vsnprintf(words, sizeof words, format, arguments);
+    vfprintf(html->out.out, format, arguments);
     va_end(arguments);
-    if (length < 0 || length >= MARKUP_SIZE)
-        error_set(&html->out.first, ERROR_COMPUTE, __FILE__, __LINE__, "markup of %d bytes",
-                  length);
-    else
-        put(html, words, (size_t)length);
 }
 
 void html_raw(HtmlWriter *html, const char *markup)
 {
-    put(html, markup, strlen(markup));
+    fputs(markup, html->out.out);
 }
 
 // NULL: the character stands for itself.
@@ -75,10 +64,8 @@ void html_text(HtmlWriter *html, const char *text)
         int32_t length = text_utf8_length(text);
         const char *escaped = length == 1 ? escape((unsigned char)*text) : NULL;
         if (length == 0) escaped = "\uFFFD";
-        if (escaped)
-            put(html, escaped, strlen(escaped));
-        else
-            put(html, text, (size_t)length);
+        fwrite(escaped ? escaped : text, 1, escaped ? strlen(escaped) : (size_t)length,
+               html->out.out);
         text += length ? length : 1;
     }
 }
@@ -94,7 +81,7 @@ void html_number(HtmlWriter *html, double value, int32_t digits)
 {
     char words[40];
     if (!isfinite(value)) {
-        put(html, "\u2013", strlen("\u2013"));
+        html_raw(html, "\u2013");
         return;
     }
     snprintf(words, sizeof words, "%.*g", digits, fabs(value));
@@ -130,7 +117,7 @@ void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t si
     for (int64_t at = 0; at < size; at += CHUNK) {
         int64_t count = size - at < CHUNK ? size - at : CHUNK;
         html_base64((const uint8_t *)bytes + at, count, text);
-        put(html, text, strlen(text));
+        html_raw(html, text);
     }
 }
 

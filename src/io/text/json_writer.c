@@ -14,7 +14,6 @@
 
 enum {
     DEPTH_MAX = 32,   // open objects and lists; run.json has five
-    FIRST_CAPACITY = 4096,   // bytes of text before the first growth
     INDENT = 2   // columns a level
 };
 
@@ -29,37 +28,17 @@ struct JsonWriter {
     PartFile file;
     bool in_flow;   // json_create_flow
     Error first;   // the first failure
-    char *text;   // [capacity], of which `length` are written; owned
-    int64_t length, capacity;
+    FILE *out;   // into `text`
+    char *text;   // [size] once `out` is closed; owned, of the C library
+    size_t size;
     int32_t depth;   // open levels; levels[0] is the document itself
     JsonLevel levels[DEPTH_MAX + 1];
 };
 
-// After the first failure nothing is added.
-static void append_bytes(JsonWriter *json, const char *bytes, int64_t count)
-{
-    if (!error_is_clean(&json->first)) return;
-    if (json->length + count > json->capacity) {
-        int64_t capacity = 2 * (json->length + count);   // doubled: copied twice on average
-        char *longer = memory_resize(json->text, json->length, capacity, 1, &json->first);
-        if (!longer) return;
-        json->text = longer;
-        json->capacity = capacity;
-    }
-    memcpy(json->text + json->length, bytes, (size_t)count);
-    json->length += count;
-}
-
-static void append_text(JsonWriter *json, const char *text)
-{
-    append_bytes(json, text, (int64_t)strlen(text));
-}
-
 // And the indentation of the level that is open.
 static void append_new_line(JsonWriter *json)
 {
-    append_text(json, "\n");
-    for (int32_t column = 0; column < INDENT * json->depth; column++) append_text(json, " ");
+    fprintf(json->out, "\n%*s", INDENT * json->depth, "");
 }
 
 // In YAML's flow style a word stands without quotes.
@@ -74,7 +53,7 @@ static bool is_bare(const JsonWriter *json, const char *value)
 static void append_escaped(JsonWriter *json, const char *value)
 {
     const char *quote = is_bare(json, value) ? "" : "\"";
-    append_text(json, quote);
+    fputs(quote, json->out);
     const unsigned char *next = (const unsigned char *)value;
     while (*next) {
         int32_t length = text_utf8_length((const char *)next);
@@ -89,13 +68,11 @@ static void append_escaped(JsonWriter *json, const char *value)
             snprintf(escaped, sizeof escaped, "\\t");
         else if (*next < 0x20 || *next == 0x7F)
             snprintf(escaped, sizeof escaped, "\\u%04x", *next);
-        if (escaped[0])
-            append_text(json, escaped);
-        else
-            append_bytes(json, (const char *)next, length);
+        fwrite(escaped[0] ? escaped : (const char *)next, 1,
+               escaped[0] ? strlen(escaped) : (size_t)length, json->out);
         next += length > 0 ? length : 1;
     }
-    append_text(json, quote);
+    fputs(quote, json->out);
 }
 
 // Comma, line and key before a value or before the bracket of a level.
@@ -109,12 +86,12 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
                   key ? "a key inside a list" : "no key inside an object");
     if (!is_plain && !json->in_flow) level->one_line = false;   // from here on
-    if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
+    if (level->count > 0) fputs(level->one_line ? ", " : ",", json->out);
     if (json->depth > 0 && !level->one_line) append_new_line(json);
     level->count++;
     if (key) {
         append_escaped(json, key);
-        append_text(json, ": ");
+        fputs(": ", json->out);
     }
 }
 
@@ -122,7 +99,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
 static void begin_level(JsonWriter *json, const char *key, bool is_list)
 {
     begin_item(json, key, false);
-    append_text(json, is_list ? "[" : "{");
+    fputs(is_list ? "[" : "{", json->out);
     if (json->depth == DEPTH_MAX) {
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__,
                   "%s: more than %d levels of nesting", json->file.path, DEPTH_MAX);
@@ -138,8 +115,8 @@ JsonWriter *json_create(const char *path, Error *err)
     JsonWriter *json = NEW_ARRAY(JsonWriter, 1, err);
     if (!json) return NULL;
     if (path) TRY(part_file_create(&json->file, path, err));
-    json->capacity = FIRST_CAPACITY;
-    TRY((json->text = NEW_ARRAY(char, json->capacity, err)));
+    if (!(json->out = open_memstream(&json->text, &json->size)))
+        FAIL(err, ERROR_MEMORY, "no memory for a document");
     return json;
 cleanup:
     json_abandon(json);
@@ -173,7 +150,7 @@ void json_end(JsonWriter *json)
     }
     JsonLevel level = json->levels[json->depth--];
     if (level.count > 0 && !level.one_line) append_new_line(json);
-    append_text(json, level.is_list ? "]" : "}");
+    fputs(level.is_list ? "]" : "}", json->out);
 }
 
 void json_text(JsonWriter *json, const char *key, const char *value)
@@ -182,67 +159,69 @@ void json_text(JsonWriter *json, const char *key, const char *value)
     if (value)
         append_escaped(json, value);
     else
-        append_text(json, "null");
+        fputs("null", json->out);
 }
 
 void json_number(JsonWriter *json, const char *key, double value)
 {
-    char digits[32] = "null";
-    // 15 digits are always right, 17 always enough (IEEE 754 double): the fewest that read back. As
-    // words, 1e+06 is shorter than 1000000.
-    for (int32_t precision = json->in_flow ? 6 : 15; isfinite(value) && precision <= 17;
-         precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, value);
-        if (strtod(digits, NULL) == value) break;
-    }
+    char digits[NUMBER_TEXT_SIZE] = "null";
+    // 15 digits are always right. As words, 1e+06 is shorter than 1000000.
+    if (isfinite(value)) text_shortest(value, json->in_flow ? 6 : 15, digits);
     begin_item(json, key, true);
-    append_text(json, digits);
+    fputs(digits, json->out);
 }
 
 void json_integer(JsonWriter *json, const char *key, int64_t value)
 {
-    char digits[32];
-    snprintf(digits, sizeof digits, "%" PRId64, value);
     begin_item(json, key, true);
-    append_text(json, digits);
+    fprintf(json->out, "%" PRId64, value);
 }
 
 void json_boolean(JsonWriter *json, const char *key, bool value)
 {
     begin_item(json, key, true);
-    append_text(json, value ? "true" : "false");
+    fputs(value ? "true" : "false", json->out);
+}
+
+void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) json_number(json, numbers[k].key, numbers[k].value);
+}
+
+void json_number_list(JsonWriter *json, const char *key, const double *values, int32_t count)
+{
+    json_begin_list(json, key);
+    for (int32_t k = 0; k < count; k++) json_number(json, NULL, values[k]);
+    json_end(json);
 }
 
 // A missing end is a bug of the caller; the file would not be JSON.
-static bool end_document(JsonWriter *json, Error *err)
+static bool end_document(JsonWriter *json, const char *last, Error *err)
 {
+    fputs(last, json->out);
     if (json->depth != 0 || json->levels[0].count != 1)
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: the document is not whole",
                   json->file.path);
+    if (fclose(json->out) != 0 || !json->text)
+        error_set(&json->first, ERROR_MEMORY, __FILE__, __LINE__, "no memory for a document");
+    json->out = NULL;
     if (!error_is_clean(&json->first) && error_is_clean(err)) *err = json->first;
     return error_is_clean(err);
 }
 
 bool json_finish(JsonWriter *json, Error *err)
 {
-    append_text(json, "\n");
-    TRY(end_document(json, err));
-    TRY(part_file_write(&json->file, json->text, json->length, err));
-    TRY(part_file_commit(&json->file, err));
-cleanup:
+    bool done = end_document(json, "\n", err) &&
+                part_file_write(&json->file, json->text, (int64_t)json->size, err) &&
+                part_file_commit(&json->file, err);
     json_abandon(json);
-    return error_is_clean(err);
+    return done;
 }
 
 char *json_take(JsonWriter *json, Error *err)
 {
-    char *text = NULL;
-    append_text(json, json->in_flow ? "" : "\n");
-    append_bytes(json, "", 1);   // the end of the text
-    TRY(end_document(json, err));
-    text = json->text;
-    json->text = NULL;
-cleanup:
+    bool whole = end_document(json, json->in_flow ? "" : "\n", err);
+    char *text = whole ? memory_text(json->text, err) : NULL;
     json_abandon(json);
     return text;
 }
@@ -250,6 +229,8 @@ cleanup:
 void json_abandon(JsonWriter *json)
 {
     if (!json) return;
+    if (json->out) fclose(json->out);
     part_file_discard(&json->file);
-    memory_free_all(json->text, json);
+    free(json->text);
+    memory_free(json);
 }

@@ -22,6 +22,19 @@ void json_text(JsonWriter *json, const char *key, const char *value);   // NULL:
 void json_number(JsonWriter *json, const char *key, double value);
 void json_integer(JsonWriter *json, const char *key, int64_t value);
 void json_boolean(JsonWriter *json, const char *key, bool value);
+// Several numbers, {key, value} each; whole ones, below 10^15, as integers are. And an object of
+// them alone.
+#define json_numbers_of(json, ...)                                                                 \
+    json_numbers((json), (const JsonNumber[]){__VA_ARGS__},                                        \
+                 (int32_t)(sizeof((const JsonNumber[]){__VA_ARGS__}) / sizeof(JsonNumber)))
+#define json_object_of(json, key, ...)                                                             \
+    (json_begin_object((json), (key)), json_numbers_of((json), __VA_ARGS__), json_end((json)))
+typedef struct JsonNumber {
+    const char *key;
+    double value;
+} JsonNumber;
+void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count);
+void json_number_list(JsonWriter *json, const char *key, const double *values, int32_t count);
 bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
 // In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either
 // way.

@@ -17,4 +17,8 @@ void picture_style_complete(PictureStyle *style, const PictureStyle *base);
 // asked.
 double picture_limit(const PictureStyle *style, int32_t end, bool *is_part);
 
+// Lines of a map of more points than this, on a grid, are those of medians of so many by so many
+// points: each alone tells little there.
+enum { MAP_MANY = 10000, MAP_MEDIANS = 7 };
+
 #endif

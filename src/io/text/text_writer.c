@@ -1,42 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A stream of the C library gathers the bytes: its own word on a failure would not say why.
 #include "io/text/text_writer.h"
 
-#include <string.h>
+enum { BUFFER = 1 << 16 };
+
+// After the first failure nothing is written.
+static ssize_t write_bytes(void *self, const char *bytes, size_t count)
+{
+    TextWriter *writer = self;
+    if (error_is_clean(&writer->first))
+        part_file_write(&writer->file, bytes, (int64_t)count, &writer->first);
+    return (ssize_t)count;
+}
 
 bool text_writer_open(TextWriter *writer, const char *path, bool any, Error *err)
 {
-    return part_file_replace(&writer->file, path, any, err);
-}
-
-// After the first failure nothing is written.
-static void flush(TextWriter *writer)
-{
-    if (error_is_clean(&writer->first))
-        part_file_write(&writer->file, writer->bytes, (int64_t)writer->waiting, &writer->first);
-    writer->waiting = 0;
-}
-
-void text_writer_put(TextWriter *writer, const char *bytes, size_t count)
-{
-    writer->size += (int64_t)count;
-    while (count > 0) {
-        size_t room = sizeof writer->bytes - writer->waiting, part = count < room ? count : room;
-        memcpy(writer->bytes + writer->waiting, bytes, part);
-        writer->waiting += part;
-        bytes += part;
-        count -= part;
-        if (writer->waiting == sizeof writer->bytes) flush(writer);
-    }
+    if (!part_file_replace(&writer->file, path, any, err)) return false;
+    writer->out = fopencookie(writer, "w", (cookie_io_functions_t){.write = write_bytes});
+    if (writer->out && setvbuf(writer->out, NULL, _IOFBF, BUFFER) == 0) return true;
+    text_writer_close(writer);
+    return FAULT(err, ERROR_MEMORY, "no memory to write %s", path);
 }
 
 bool text_writer_finish(TextWriter *writer, Error *err)
 {
-    flush(writer);
+    if (fflush(writer->out) != 0 && error_is_clean(&writer->first))
+        error_set(&writer->first, ERROR_MEMORY, __FILE__, __LINE__,
+                  "no memory for what is written");
     if (!error_is_clean(&writer->first)) *err = writer->first;
     return error_is_clean(err) && part_file_commit(&writer->file, err);
 }
 
 void text_writer_close(TextWriter *writer)
 {
+    if (writer->out) fclose(writer->out);
     part_file_discard(&writer->file);
 }

@@ -8,19 +8,16 @@
 #include "base/error.h"
 #include "io/files/part_file.h"
 
-#include <stddef.h>
+#include <stdio.h>
 
 typedef struct TextWriter {
     PartFile file;
     Error first;   // the first failure
-    int64_t size;   // bytes so far
-    size_t waiting;   // of `bytes`, not written yet
-    char bytes[1 << 16];
+    FILE *out;   // what is put here comes into the file
 } TextWriter;
 
-// any: also over a file that is not ours. *writer is zeroed.
+// any: also over a file that is not ours. *writer is zeroed, and not moved.
 bool text_writer_open(TextWriter *writer, const char *path, bool any, Error *err);
-void text_writer_put(TextWriter *writer, const char *bytes, size_t count);
 // fsync and rename. The part is left to text_writer_close, as after a failure.
 bool text_writer_finish(TextWriter *writer, Error *err);
 void text_writer_close(TextWriter *writer);

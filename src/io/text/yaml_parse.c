@@ -51,10 +51,9 @@ static bool add_node(YamlDocument *document, YamlKind kind, int32_t position, Ya
 {
     if (document->node_count == YAML_NODES_MAX)
         return yaml_error_at(document, position, err, "more than 20000 values: this is no scene");
-    YamlItem *nodes = memory_grow(document->nodes, document->node_count, &document->node_capacity,
-                                  sizeof(YamlItem), err);
-    if (!nodes) return false;
-    document->nodes = nodes;
+    if (!memory_grow(&document->nodes, document->node_count, &document->node_capacity,
+                     sizeof(YamlItem), err))
+        return false;
     *node = document->node_count++;
     document->nodes[*node] = (YamlItem){.kind = kind,
                                         .position = position,

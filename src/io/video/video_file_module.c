@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/transfer.h"
 #include "io/files/own_mark.h"
+#include "io/files/part_file.h"
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -43,7 +44,9 @@ static const VideoKind kinds[] = {
      {{"deadline", "realtime"}, {"cpu-used", "7"}, {"row-mt", "1"}, {"crf", "24"}}},
     {".gif", "gif", "gif", "GIF", AV_PIX_FMT_PAL8, {{0}}}};
 
-struct VideoStream {
+struct VideoFile {
+    const VideoModule *module;   // stands first
+    PartFile part;
     AVFormatContext *format;   // owned, like all
     AVIOContext *io;
     AVCodecContext *codec;
@@ -53,7 +56,7 @@ struct VideoStream {
     struct SwsContext *scaler;   // NULL: of a GIF
     uint32_t palette[PALETTE_SIZE];
     uint8_t *nearest;   // [SIDE^3] entry of the palette by blue, green, red
-    int descriptor, write_errno;   // write_errno: 0: all was written so far
+    int write_errno;   // 0: all was written so far
     int64_t frames;
     int log_level;   // libav's, as it was found
 };
@@ -62,29 +65,30 @@ struct VideoStream {
 
 static int bytes_write(void *self, uint8_t *bytes, int size)
 {
-    VideoStream *stream = self;
-    int cause = transfer_write(stream->descriptor, bytes, size, -1);
-    if (cause) stream->write_errno = cause;
+    VideoFile *film = self;
+    int cause = transfer_write(film->part.descriptor, bytes, size, -1);
+    if (cause) film->write_errno = cause;
     return cause ? AVERROR(cause) : size;
 }
 
 static int64_t place_seek(void *self, int64_t offset, int whence)
 {
-    VideoStream *stream = self;
+    VideoFile *film = self;
     if (whence & AVSEEK_SIZE) return -1;
-    return lseek(stream->descriptor, offset, whence & ~AVSEEK_FORCE);
+    return lseek(film->part.descriptor, offset, whence & ~AVSEEK_FORCE);
 }
 
 // What libav says, or the disk where that failed.
-static bool check(VideoStream *stream, int code, const char *what, Error *err)
+static bool check(VideoFile *film, int code, const char *what, Error *err)
 {
     char words[AV_ERROR_MAX_STRING_SIZE] = "";
-    if (stream->write_errno)
-        return FAULT(err, ERROR_FILE, "cannot write: %s", strerror(stream->write_errno));
+    if (film->write_errno)
+        return FAULT(err, ERROR_FILE, "film %s: cannot write: %s", film->part.path,
+                     strerror(film->write_errno));
     if (code == AVERROR(ENOMEM)) return FAULT(err, ERROR_MEMORY, "no memory for libav");
     if (code < 0) {
         av_strerror(code, words, sizeof words);
-        return FAULT(err, ERROR_LIBRARY, "libav %s: %s", what, words);
+        return FAULT(err, ERROR_LIBRARY, "film %s: libav %s: %s", film->part.path, what, words);
     }
     return true;
 }
@@ -101,27 +105,25 @@ static const VideoKind *find_kind(const char *path)
 
 // The name is asked once more, to move the index of an .mp4 to its front; "file:" keeps a colon in
 // it from being taken for a protocol.
-static bool format_open(VideoStream *stream, const VideoKind *kind, const VideoTarget *target,
-                        Error *err)
+static bool format_open(VideoFile *film, const VideoKind *kind, Error *err)
 {
     char url[4200];
-    snprintf(url, sizeof url, "file:%s", target->part);
-    if (!check(stream, avformat_alloc_output_context2(&stream->format, NULL, kind->format, url),
+    snprintf(url, sizeof url, "file:%s", film->part.part);
+    if (!check(film, avformat_alloc_output_context2(&film->format, NULL, kind->format, url),
                "makes no such file", err))
         return false;
     uint8_t *buffer = av_malloc(BUFFER_SIZE);
     if (buffer)
-        stream->io =
-            avio_alloc_context(buffer, BUFFER_SIZE, 1, stream, NULL, bytes_write, place_seek);
-    if (!stream->io) av_free(buffer);
-    if (!check(stream, stream->io ? 0 : AVERROR(ENOMEM), "", err)) return false;
-    stream->format->pb = stream->io;
-    stream->format->flags |= AVFMT_FLAG_BITEXACT;
+        film->io = avio_alloc_context(buffer, BUFFER_SIZE, 1, film, NULL, bytes_write, place_seek);
+    if (!film->io) av_free(buffer);
+    if (!check(film, film->io ? 0 : AVERROR(ENOMEM), "", err)) return false;
+    film->format->pb = film->io;
+    film->format->flags |= AVFMT_FLAG_BITEXACT;
     return true;
 }
 
 // Colours of video are those of BT.709, which is what players take for granted of HD.
-static bool codec_open(VideoStream *stream, const VideoKind *kind, const VideoDef *def, Error *err)
+static bool codec_open(VideoFile *film, const VideoKind *kind, const VideoDef *def, Error *err)
 {
     AVDictionary *options = NULL;
     const AVCodec *encoder = avcodec_find_encoder_by_name(kind->encoder);
@@ -130,9 +132,9 @@ static bool codec_open(VideoStream *stream, const VideoKind *kind, const VideoDe
              "libav has no encoder %s here, which makes %s (%s); try another ending: .mp4, .webm, "
              ".gif, or a folder of PNG frames",
              kind->encoder, kind->ending, kind->name);
-    stream->codec = avcodec_alloc_context3(encoder);
-    TRY(check(stream, stream->codec ? 0 : AVERROR(ENOMEM), "", err));
-    AVCodecContext *codec = stream->codec;
+    film->codec = avcodec_alloc_context3(encoder);
+    TRY(check(film, film->codec ? 0 : AVERROR(ENOMEM), "", err));
+    AVCodecContext *codec = film->codec;
     codec->width = def->width;
     codec->height = def->height;
     codec->pix_fmt = kind->pixels;
@@ -141,7 +143,7 @@ static bool codec_open(VideoStream *stream, const VideoKind *kind, const VideoDe
     codec->gop_size = 2 * def->rate;   // a viewer may jump to every other second
     codec->thread_count = THREADS;
     codec->flags |= AV_CODEC_FLAG_BITEXACT;
-    if (stream->format->oformat->flags & AVFMT_GLOBALHEADER)
+    if (film->format->oformat->flags & AVFMT_GLOBALHEADER)
         codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     if (kind->pixels == AV_PIX_FMT_YUV420P) {
         codec->colorspace = AVCOL_SPC_BT709;
@@ -151,58 +153,56 @@ static bool codec_open(VideoStream *stream, const VideoKind *kind, const VideoDe
     }
     for (int32_t k = 0; k < 4 && kind->options[k][0]; ++k)
         av_dict_set(&options, kind->options[k][0], kind->options[k][1], 0);
-    TRY(check(stream, avcodec_open2(codec, encoder, &options), "does not start its encoder", err));
+    TRY(check(film, avcodec_open2(codec, encoder, &options), "does not start its encoder", err));
 cleanup:
     av_dict_free(&options);
     return error_is_clean(err);
 }
 
 // The file's own frames and their way from what is drawn.
-static bool frame_create(VideoStream *stream, const VideoKind *kind, const VideoDef *def,
-                         Error *err)
+static bool frame_create(VideoFile *film, const VideoKind *kind, const VideoDef *def, Error *err)
 {
-    stream->frame = av_frame_alloc();
-    stream->packet = av_packet_alloc();
-    if (!check(stream, stream->frame && stream->packet ? 0 : AVERROR(ENOMEM), "", err))
-        return false;
-    stream->frame->format = kind->pixels;
-    stream->frame->width = def->width;
-    stream->frame->height = def->height;
-    if (!check(stream, av_frame_get_buffer(stream->frame, 0), "has no frame", err)) return false;
+    film->frame = av_frame_alloc();
+    film->packet = av_packet_alloc();
+    if (!check(film, film->frame && film->packet ? 0 : AVERROR(ENOMEM), "", err)) return false;
+    film->frame->format = kind->pixels;
+    film->frame->width = def->width;
+    film->frame->height = def->height;
+    if (!check(film, av_frame_get_buffer(film->frame, 0), "has no frame", err)) return false;
     if (kind->pixels == AV_PIX_FMT_PAL8) return true;
-    stream->scaler = sws_getContext(def->width, def->height, AV_PIX_FMT_BGR0, def->width,
-                                    def->height, kind->pixels, SWS_BILINEAR, NULL, NULL, NULL);
-    if (!check(stream, stream->scaler ? 0 : AVERROR(ENOMEM), "", err)) return false;
+    film->scaler = sws_getContext(def->width, def->height, AV_PIX_FMT_BGR0, def->width, def->height,
+                                  kind->pixels, SWS_BILINEAR, NULL, NULL, NULL);
+    if (!check(film, film->scaler ? 0 : AVERROR(ENOMEM), "", err)) return false;
     const int *hd = sws_getCoefficients(SWS_CS_ITU709);
-    sws_setColorspaceDetails(stream->scaler, hd, 1, hd, 0, 0, 1 << 16, 1 << 16);
+    sws_setColorspaceDetails(film->scaler, hd, 1, hd, 0, 0, 1 << 16, 1 << 16);
     return true;
 }
 
-static bool track_open(VideoStream *stream, const VideoDef *def, Error *err)
+static bool track_open(VideoFile *film, const VideoDef *def, Error *err)
 {
     AVDictionary *options = NULL;
-    stream->track = avformat_new_stream(stream->format, NULL);
-    TRY(check(stream, stream->track ? 0 : AVERROR(ENOMEM), "", err));
-    stream->track->time_base = stream->codec->time_base;
-    stream->track->avg_frame_rate = stream->codec->framerate;
-    TRY(check(stream, avcodec_parameters_from_context(stream->track->codecpar, stream->codec),
+    film->track = avformat_new_stream(film->format, NULL);
+    TRY(check(film, film->track ? 0 : AVERROR(ENOMEM), "", err));
+    film->track->time_base = film->codec->time_base;
+    film->track->avg_frame_rate = film->codec->framerate;
+    TRY(check(film, avcodec_parameters_from_context(film->track->codecpar, film->codec),
               "describes no stream", err));
     av_dict_set(&options, "movflags", "+faststart", 0);   // others do not know it
-    av_dict_set(&stream->format->metadata, "comment", OWN_FILM, 0);
-    if (def->title && def->title[0]) av_dict_set(&stream->format->metadata, "title", def->title, 0);
-    TRY(check(stream, avformat_write_header(stream->format, &options), "writes no header", err));
+    av_dict_set(&film->format->metadata, "comment", OWN_FILM, 0);
+    if (def->title && def->title[0]) av_dict_set(&film->format->metadata, "title", def->title, 0);
+    TRY(check(film, avformat_write_header(film->format, &options), "writes no header", err));
 cleanup:
     av_dict_free(&options);
     return error_is_clean(err);
 }
 
 // The nearest entry of the palette to the middle of each of SIDE^3 cubes of colours.
-static bool palette_fill(VideoStream *stream, const uint8_t *colors, Error *err)
+static bool palette_fill(VideoFile *film, const uint8_t *colors, Error *err)
 {
-    if (!(stream->nearest = NEW_ARRAY(uint8_t, SIDE * SIDE * SIDE, err))) return false;
+    if (!(film->nearest = NEW_ARRAY(uint8_t, SIDE * SIDE * SIDE, err))) return false;
     for (int32_t k = 0; k + 1 < PALETTE_SIZE; ++k)   // the last one stays transparent
-        stream->palette[k] = 0xff000000u | (uint32_t)colors[3 * k] << 16 |
-                             (uint32_t)colors[3 * k + 1] << 8 | colors[3 * k + 2];
+        film->palette[k] = 0xff000000u | (uint32_t)colors[3 * k] << 16 |
+                           (uint32_t)colors[3 * k + 1] << 8 | colors[3 * k + 2];
     for (int32_t cube = 0; cube < SIDE * SIDE * SIDE; ++cube) {
         int32_t least = INT32_MAX, at[3];
         for (int32_t c = 0; c < 3; ++c)   // the ends of the range are themselves
@@ -213,118 +213,121 @@ static bool palette_fill(VideoStream *stream, const uint8_t *colors, Error *err)
                 away += (colors[3 * k + c] - at[c]) * (colors[3 * k + c] - at[c]);
             if (away >= least) continue;
             least = away;
-            stream->nearest[cube] = (uint8_t)k;
+            film->nearest[cube] = (uint8_t)k;
         }
     }
     return true;
 }
 
-static void stream_destroy(VideoStream *stream)
+static void film_destroy(VideoFile *film)
 {
-    if (!stream) return;
-    avcodec_free_context(&stream->codec);
-    av_frame_free(&stream->frame);
-    av_packet_free(&stream->packet);
-    sws_freeContext(stream->scaler);
-    avformat_free_context(stream->format);
-    if (stream->io) av_freep(&stream->io->buffer);
-    avio_context_free(&stream->io);
-    av_log_set_level(stream->log_level);
-    memory_free_all(stream->nearest, stream);
+    if (!film) return;
+    avcodec_free_context(&film->codec);
+    av_frame_free(&film->frame);
+    av_packet_free(&film->packet);
+    sws_freeContext(film->scaler);
+    avformat_free_context(film->format);
+    if (film->io) av_freep(&film->io->buffer);
+    avio_context_free(&film->io);
+    av_log_set_level(film->log_level);
+    part_file_discard(&film->part);
+    memory_free_all(film->nearest, film);
 }
 
-static VideoStream *stream_create(const VideoDef *def, const VideoTarget *target, Error *err)
+static VideoFile *film_create(const VideoDef *def, Error *err)
 {
     const VideoKind *kind = find_kind(def->path);
-    VideoStream *stream = NEW_ARRAY(VideoStream, 1, err);
-    TRY(stream);
-    stream->descriptor = target->descriptor;
-    stream->log_level = av_log_get_level();
+    VideoFile *film = NEW_ARRAY(VideoFile, 1, err);
+    TRY(film);
+    film->module = amontons_video_module();
+    film->log_level = av_log_get_level();
     av_log_set_level(AV_LOG_QUIET);
     if (!kind) FAIL(err, ERROR_INPUT, "a film's name ends in .mp4, .webm or .gif");
     if (kind->pixels == AV_PIX_FMT_PAL8 && GIF_TICKS % def->rate != 0)
         FAIL(err, ERROR_INPUT,
              "%d frames a second: a GIF counts hundredths of a second, so 10, 20, 25 or 50",
              def->rate);
-    if (kind->pixels == AV_PIX_FMT_PAL8) TRY(palette_fill(stream, def->palette, err));
-    TRY(format_open(stream, kind, target, err));
-    TRY(codec_open(stream, kind, def, err));
-    TRY(frame_create(stream, kind, def, err));
-    TRY(track_open(stream, def, err));
-    return stream;
+    if (kind->pixels == AV_PIX_FMT_PAL8) TRY(palette_fill(film, def->palette, err));
+    TRY(part_file_replace(&film->part, def->path, def->overwrite, err));
+    TRY(format_open(film, kind, err));
+    TRY(codec_open(film, kind, def, err));
+    TRY(frame_create(film, kind, def, err));
+    TRY(track_open(film, def, err));
+    return film;
 cleanup:
-    stream_destroy(stream);
+    film_destroy(film);
     return NULL;
 }
 
 // --- frames --------------------------------------------------------------------------------------
 
 // All that the encoder has ready goes into the file.
-static bool packets_write(VideoStream *stream, Error *err)
+static bool packets_write(VideoFile *film, Error *err)
 {
     for (;;) {
-        int code = avcodec_receive_packet(stream->codec, stream->packet);
+        int code = avcodec_receive_packet(film->codec, film->packet);
         if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return true;
-        if (!check(stream, code, "cannot encode a frame", err)) return false;
-        if (stream->packet->duration <= 0) stream->packet->duration = 1;   // frame
-        av_packet_rescale_ts(stream->packet, stream->codec->time_base, stream->track->time_base);
-        stream->packet->stream_index = stream->track->index;
-        code = av_interleaved_write_frame(stream->format, stream->packet);
-        if (!check(stream, code, "cannot write a frame", err)) return false;
+        if (!check(film, code, "cannot encode a frame", err)) return false;
+        if (film->packet->duration <= 0) film->packet->duration = 1;   // frame
+        av_packet_rescale_ts(film->packet, film->codec->time_base, film->track->time_base);
+        film->packet->stream_index = film->track->index;
+        code = av_interleaved_write_frame(film->format, film->packet);
+        if (!check(film, code, "cannot write a frame", err)) return false;
     }
     return true;
 }
 
-static void frame_index(VideoStream *stream, const uint8_t *pixels, int32_t stride)
+static void frame_index(VideoFile *film, const uint8_t *pixels, int32_t stride)
 {
     enum { DROP = 8 - SIDE_BITS };   // bits of a colour's part
-    memcpy(stream->frame->data[1], stream->palette, sizeof stream->palette);
-    for (int32_t row = 0; row < stream->frame->height; ++row) {
+    memcpy(film->frame->data[1], film->palette, sizeof film->palette);
+    for (int32_t row = 0; row < film->frame->height; ++row) {
         const uint8_t *from = pixels + (int64_t)row * stride;
-        uint8_t *to = stream->frame->data[0] + (int64_t)row * stream->frame->linesize[0];
-        for (int32_t k = 0; k < stream->frame->width; ++k, from += 4)
-            to[k] = stream->nearest[(from[2] >> DROP) << 2 * SIDE_BITS |
-                                    (from[1] >> DROP) << SIDE_BITS | from[0] >> DROP];
+        uint8_t *to = film->frame->data[0] + (int64_t)row * film->frame->linesize[0];
+        for (int32_t k = 0; k < film->frame->width; ++k, from += 4)
+            to[k] = film->nearest[(from[2] >> DROP) << 2 * SIDE_BITS |
+                                  (from[1] >> DROP) << SIDE_BITS | from[0] >> DROP];
     }
 }
 
-static bool stream_add(VideoStream *stream, const uint8_t *pixels, int32_t stride, Error *err)
+static bool film_add(VideoFile *film, const uint8_t *pixels, int32_t stride, Error *err)
 {
-    AVFrame *frame = stream->frame;
-    if (!check(stream, av_frame_make_writable(frame), "has no frame", err)) return false;
-    if (stream->scaler)
-        sws_scale(stream->scaler, (const uint8_t *const[]){pixels}, &stride, 0, frame->height,
+    AVFrame *frame = film->frame;
+    if (!check(film, av_frame_make_writable(frame), "has no frame", err)) return false;
+    if (film->scaler)
+        sws_scale(film->scaler, (const uint8_t *const[]){pixels}, &stride, 0, frame->height,
                   frame->data, frame->linesize);
     else
-        frame_index(stream, pixels, stride);
-    frame->pts = stream->frames++;
-    return check(stream, avcodec_send_frame(stream->codec, frame), "cannot encode a frame", err) &&
-           packets_write(stream, err);
+        frame_index(film, pixels, stride);
+    frame->pts = film->frames++;
+    return check(film, avcodec_send_frame(film->codec, frame), "cannot encode a frame", err) &&
+           packets_write(film, err);
 }
 
 // GIF89a, 24: a comment before the last byte; libav has none.
-static void gif_sign(VideoStream *stream)
+static void gif_sign(VideoFile *film)
 {
     uint8_t words[] = OWN_FILM, head[] = {'!', 0xfe, sizeof words - 1}, tail[] = {0, ';'};
-    lseek(stream->descriptor, -1, SEEK_END);
-    bytes_write(stream, head, sizeof head);
-    bytes_write(stream, words, sizeof words - 1);
-    bytes_write(stream, tail, sizeof tail);
+    lseek(film->part.descriptor, -1, SEEK_END);
+    bytes_write(film, head, sizeof head);
+    bytes_write(film, words, sizeof words - 1);
+    bytes_write(film, tail, sizeof tail);
 }
 
-static bool stream_finish(VideoStream *stream, Error *err)
+static bool film_finish(VideoFile *film, Error *err)
 {
-    if (!check(stream, avcodec_send_frame(stream->codec, NULL), "cannot end the film", err))
+    if (!check(film, avcodec_send_frame(film->codec, NULL), "cannot end the film", err))
         return false;
-    if (!packets_write(stream, err)) return false;
-    if (!check(stream, av_write_trailer(stream->format), "cannot end the file", err)) return false;
-    avio_flush(stream->io);
-    if (strcmp(stream->format->oformat->name, "gif") == 0) gif_sign(stream);
-    return check(stream, stream->io->error, "cannot end the file", err);
+    if (!packets_write(film, err)) return false;
+    if (!check(film, av_write_trailer(film->format), "cannot end the file", err)) return false;
+    avio_flush(film->io);
+    if (strcmp(film->format->oformat->name, "gif") == 0) gif_sign(film);
+    return check(film, film->io->error, "cannot end the file", err) &&
+           part_file_commit(&film->part, err);
 }
 
 __attribute__((visibility("default"))) const VideoModule *amontons_video_module(void)
 {
-    static const VideoModule module = {stream_create, stream_add, stream_finish, stream_destroy};
+    static const VideoModule module = {film_create, film_add, film_finish, film_destroy};
     return &module;
 }

@@ -15,9 +15,9 @@ bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err)
     const ExpectedCost *cost = &model.expected;
     bool reduced = model.is_reduced;
     double reduction = model.choice.held ? 0 : cost->reduction;
-    *forecast = (RunForecast){.elements = model.elements,
+    *forecast = (RunForecast){.elements = model.mesh.element_count,
                               .contact_nodes = model.interface.contact_count,
-                              .unknowns = model.full_dofs,
+                              .unknowns = model.bulk.dof_count,
                               .reduced = reduced,
                               .held = model.choice.held,
                               .stages = model.choice.stages,

@@ -80,7 +80,7 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
             mesh->element_count);
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
         if (summary.element_counts[kind])
-            fprintf(out, " %d %s", summary.element_counts[kind], element_name((ElementKind)kind));
+            fprintf(out, " %d %s", summary.element_counts[kind], ELEMENTS[(ElementKind)kind].name);
     fprintf(out, "\n  x from %.6g to %.6g", mesh->x_min, mesh->x_max);
     if (mesh->dim > 2) fprintf(out, ", y from %.6g to %.6g", mesh->y_min, mesh->y_max);
     fprintf(out, ", z from %.6g to %.6g, %s %.6g\n", mesh->z_min, mesh->z_max, size_name(mesh),

@@ -143,8 +143,7 @@ static bool write_history(const char *folder, FILE *out, Error *err)
     write_events(column, events, out);
 cleanup:
     if (file) array_file_close(file, err);
-    double *const owned[] = {rod, mu, x};
-    for (size_t k = 0; k < sizeof owned / sizeof owned[0]; k++) memory_free(owned[k]);
+    memory_free_all(rod, mu, x);
     for (int32_t k = 0; k < EVENT_COLUMNS; k++) memory_free(column[k]);
     return error_is_clean(err);
 }

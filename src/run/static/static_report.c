@@ -25,32 +25,23 @@ static bool write_json(const char *folder, const Model *model, const StaticSolut
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
     scene_write_json(model->scene, json, "scene", folder);
-    json_begin_object(json, "model");
-    json_integer(json, "nodes", summary->nodes);
-    json_integer(json, "contact_nodes", summary->contact_nodes);
-    json_integer(json, "rod_nodes", summary->rod_nodes);
-    json_end(json);
+    json_object_of(json, "model", {"nodes", summary->nodes},
+                   {"contact_nodes", summary->contact_nodes}, {"rod_nodes", summary->rod_nodes});
     json_begin_object(json, "results");
-    json_integer(json, "open", summary->open);
-    json_integer(json, "sticking", summary->sticking);
-    json_integer(json, "slipping", summary->slipping);
-    json_number(json, "normal_force", summary->normal_force);
-    json_number(json, "shear_force", summary->shear_force);
-    json_number(json, "pressure_moment", summary->pressure_moment);
-    json_number(json, "rod_force", summary->rod_force);
-    json_number(json, "rod_height", summary->rod_height);
+    json_numbers_of(json, {"open", summary->open}, {"sticking", summary->sticking},
+                    {"slipping", summary->slipping}, {"normal_force", summary->normal_force},
+                    {"shear_force", summary->shear_force},
+                    {"pressure_moment", summary->pressure_moment},
+                    {"rod_force", summary->rod_force}, {"rod_height", summary->rod_height});
     if (model->scene->rod.stiffness > 0) json_number(json, "rod_way", solution->rod_way);
-    json_number(json, "elastic_energy", summary->elastic_energy);
-    json_number(json, "load_work", summary->load_work);
+    json_numbers_of(json, {"elastic_energy", summary->elastic_energy},
+                    {"load_work", summary->load_work});
     json_integer(json, "iterations", summary->iterations);
     json_end(json);
-    json_begin_object(json, "errors");
-    json_number(json, "residual", summary->residual);
-    json_number(json, "force", summary->force_balance);
-    json_number(json, "moment", summary->moment_balance);
-    json_number(json, "energy", summary->energy_balance);
-    json_number(json, "complementarity", summary->complementarity);
-    json_end(json);
+    json_object_of(json, "errors", {"residual", summary->residual},
+                   {"force", summary->force_balance}, {"moment", summary->moment_balance},
+                   {"energy", summary->energy_balance},
+                   {"complementarity", summary->complementarity});
     json_end(json);
     return json_finish(json, err);
 }
@@ -123,25 +114,18 @@ cleanup:
     return false;
 }
 
-// velocity is 0: solution->work, which was emptied for it.
-static bool write_vtu(const char *folder, const StaticSolution *solution, FieldFiles *files,
-                      Error *err)
-{
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/static.vtu", folder);
-    FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
-    return field_files_write_bulk(files, &state, path, err);
-}
-
 // solution->work is overwritten.
 bool static_report_write(const char *folder, const Model *model, StaticSolution *solution,
                          const StaticSummary *summary, Error *err)
 {
     FieldFiles files = {0};
+    char path[PATH_SIZE];
+    FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
+    snprintf(path, sizeof path, "%s/static.vtu", folder);
     for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
     TRY(field_files_create(&model->mesh, &model->interface, &files, err));
     files.materials = model->materials.list;
-    TRY(write_vtu(folder, solution, &files, err));
+    TRY(field_files_write_bulk(&files, &state, path, err));
     TRY(write_arrays(folder, model, solution, &files.stress, err));
     TRY(write_json(folder, model, solution, summary, err));
 cleanup:

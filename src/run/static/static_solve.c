@@ -122,7 +122,7 @@ static void find_reactions(const Model *model, StaticSolution *solution)
     }
 }
 
-// model: mesh, bulk and interface are there; supports are held and the rod is built here. K
+// model: mesh, loads and interface are there; supports are held and the rod is built here. K
 // alone may be singular (a block that only stands): its interface is lifted for the factor, and S
 // lowered again (reduction/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in
 // the interior.
@@ -148,6 +148,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     solution->law = friction_spread(solution->node_laws, interface->contact_count);
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     TRY(model_hold_supports(model, err));
+    TRY(bulk_assemble(&model->mesh, model->materials.list, bulk, err));
     TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,
                              err));
     system.machine = model_machine(model);
@@ -286,7 +287,7 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
              scene->path, friction_law_name(&scene->friction));
     TRY(result_folder_claim(folder, overwrite, &place, err));
     TRY(model_read_mesh(&model, err));
-    TRY(model_build_bulk(&model, err));
+    TRY(model_lay_bulk(&model, err));
     TRY(static_solve(&model, &solution, err));
     *summary = static_summarise(&model, &solution);
     TRY(result_folder_clear(&place, err));

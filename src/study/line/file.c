@@ -31,15 +31,10 @@ static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
 {
     const Model1d *model = &simulation->model;
     json_begin_object(json, "model");
-    json_number(json, "alpha", model->alpha);
-    json_number(json, "length", model->length);
-    json_number(json, "height", model->height);
-    json_number(json, "drive_height", model->drive);
-    json_number(json, "E_1", model->elastic_x);
-    json_number(json, "E_2", model->elastic_shear);
-    json_number(json, "eta_t", model->viscous_x);
-    json_number(json, "eta_s", model->viscous_shear);
-    json_integer(json, "modes", MODEL1D_MODES);
+    json_numbers_of(
+        json, {"alpha", model->alpha}, {"length", model->length}, {"height", model->height},
+        {"drive_height", model->drive}, {"E_1", model->elastic_x}, {"E_2", model->elastic_shear},
+        {"eta_t", model->viscous_x}, {"eta_s", model->viscous_shear}, {"modes", MODEL1D_MODES});
     if (!simulation->options->theory_only) json_integer(json, "nodes", simulation->options->nodes);
     json_end(json);
 }
@@ -48,18 +43,12 @@ static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
 // velocity. null: not up to L.
 static void write_theory(JsonWriter *json, const Model1dSummary *summary)
 {
-    json_begin_object(json, "theory");
-    json_number(json, "range_over_L", summary->range);
-    json_number(json, "l_sc_over_L", summary->l_sc);
-    json_number(json, "l_c_over_L", summary->l_c);
-    json_number(json, "l_c_small_over_L", summary->l_c_small);
-    json_number(json, "mu_M", summary->mu_c);
-    json_number(json, "l_sc_full_over_L", summary->l_sc_full);
-    json_number(json, "l_c_full_over_L", summary->l_c_full);
-    json_number(json, "l_c_at_V_full_over_L", summary->l_rod_full);
-    json_number(json, "mu_M_full", summary->mu_c_full);
-    json_number(json, "mu_M_at_V_full", summary->mu_rod_full);
-    json_end(json);
+    json_object_of(json, "theory", {"range_over_L", summary->range}, {"l_sc_over_L", summary->l_sc},
+                   {"l_c_over_L", summary->l_c}, {"l_c_small_over_L", summary->l_c_small},
+                   {"mu_M", summary->mu_c}, {"l_sc_full_over_L", summary->l_sc_full},
+                   {"l_c_full_over_L", summary->l_c_full},
+                   {"l_c_at_V_full_over_L", summary->l_rod_full}, {"mu_M_full", summary->mu_c_full},
+                   {"mu_M_at_V_full", summary->mu_rod_full});
 }
 
 // first_*: the first peak, which starts from u_0; the others are means over the periodic regime.
@@ -67,19 +56,14 @@ static void write_simulation(JsonWriter *json, const Model1dSimulation *simulati
                              const Model1dSummary *summary)
 {
     json_begin_object(json, "simulation");
-    json_number(json, "first_mu", summary->first_mu);
-    json_number(json, "first_l_sc_over_L", summary->first_l_sc);
-    json_number(json, "first_l_c_over_L", summary->first_l_c);
-    json_number(json, "mu_M", summary->mu_M);
-    json_number(json, "mu_M_spread", summary->mu_M_spread);
-    json_integer(json, "period", summary->period);
-    json_number(json, "l_sc_over_L", summary->l_sc_seen);
-    json_number(json, "l_c_over_L", summary->l_c_seen);
-    json_integer(json, "bounded", summary->bounded);
-    json_integer(json, "leading", summary->leading);
-    json_number(json, "quasi_static_error", summary->quasi_static_error);
-    json_number(json, "energy_error", summary->energy_error);
-    json_number(json, "complementarity_error", summary->contact_error);
+    json_numbers_of(
+        json, {"first_mu", summary->first_mu}, {"first_l_sc_over_L", summary->first_l_sc},
+        {"first_l_c_over_L", summary->first_l_c}, {"mu_M", summary->mu_M},
+        {"mu_M_spread", summary->mu_M_spread}, {"period", summary->period},
+        {"l_sc_over_L", summary->l_sc_seen}, {"l_c_over_L", summary->l_c_seen},
+        {"bounded", summary->bounded}, {"leading", summary->leading},
+        {"quasi_static_error", summary->quasi_static_error},
+        {"energy_error", summary->energy_error}, {"complementarity_error", summary->contact_error});
     json_integer(json, "accepted", summary->accepted);
     json_integer(json, "rejected", summary->rejected);
     Answers answers = answers_of(&simulation->drops);

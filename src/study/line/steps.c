@@ -137,7 +137,7 @@ static bool is_finished(Model1dSimulation *simulation)
     if (remaining <= 1e-9 * simulation->t_end) return true;
     if (!step_control_fits(&simulation->control, remaining)) return true;
     return simulation->scene->time.until_periodic && simulation->events.crossed &&
-           answers_are_known(&simulation->drops);
+           answers_of(&simulation->drops).enough;
 }
 
 // Steps to the scene's end, or to the periodic regime where that is asked for.

@@ -14,6 +14,7 @@ typedef struct Design {
     int32_t point;   // of the sweep, the first of its conditions; -1: not computed yet
     double accuracy;   // accuracy.mu; 0: the study's
     bool settled;   // a smaller accuracy is of no use, as the time of a run decides
+    bool confirmed, is_finer;   // it was the best, and so computed once more; with a smaller bar
     double value, bar;   // what is searched for, of a fit the misfit; NaN: none; its error
     bool has_bar;   // an error bar, with the mesh's part; else what is usual of such a mesh
     int32_t deciding;   // point of `vary` whose value it is; 0: of none alone

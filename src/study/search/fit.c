@@ -24,11 +24,8 @@ static bool take_results(Search *search, int32_t d, int32_t c, const char *repor
 {
     Fit *fit = search->judge.context;
     int32_t count = fit->measured.count;
-    char history[AMONTONS_PATH_SIZE];
-    search_run_path(search, d, c, history);
-    size_t length = strlen(history);
-    if (length > 8 && length < sizeof history - 8)
-        strcpy(history + length - 8, "history.h5");   // beside run.json
+    char history[POINT_PATH_SIZE + 16];
+    point_path(search->sweep, search->designs.list[d].point + c, "history.h5", history);
     for (int32_t k = 0; k < count; k++) {
         const Datum *datum = &fit->measured.list[k];
         int64_t at = (int64_t)d * count + k;
@@ -54,43 +51,27 @@ static void judge_misfit(Search *search, int32_t d)
     }
 }
 
-// Misfits differ by powers of ten.
-static double tell_logarithm(double misfit)
-{
-    return log1p(misfit);
-}
-
 // --- the best -----------------------------------------------------------------------------------
 
 static bool make_response(Fit *fit, Error *err)
 {
     const Designs *designs = &fit->search.designs;
     int32_t n = fit->search.study->search.key_count, data = fit->measured.count, count = 0;
-    double *room = NEW_ARRAY(double, (int64_t)designs->count *(n + 2 * data + 1) + 2 * data, err);
-    TRY(room);
-    double *places = room, *found = places + (int64_t)designs->count * n;
-    double *own = found + (int64_t)designs->count * data;
-    double *misfit = own + (int64_t)designs->count * data, *measured = misfit + designs->count;
+    ResponseDesign *list = NEW_ARRAY(ResponseDesign, designs->count, err);
+    TRY(list);
     for (int32_t d = 0; d < designs->count; d++) {
         if (isnan(designs->list[d].value)) continue;
-        for (int32_t k = 0; k < n; k++)
-            places[count * n + k] = fit_scaled(fit, k, designs->list[d].x[k]);
-        memcpy(&found[(int64_t)count * data], &fit->found[(int64_t)d * data],
-               (size_t)data * sizeof *found);
-        memcpy(&own[(int64_t)count * data], &fit->own[(int64_t)d * data],
-               (size_t)data * sizeof *own);
-        misfit[count++] = designs->list[d].value;
-    }
-    for (int32_t k = 0; k < data; k++) {
-        measured[k] = fit->measured.list[k].value;
-        measured[data + k] = fit->measured.list[k].error;
+        ResponseDesign *one = &list[count++];
+        for (int32_t k = 0; k < n; k++) one->place[k] = fit_scaled(fit, k, designs->list[d].x[k]);
+        one->found = &fit->found[(int64_t)d * data];
+        one->own = &fit->own[(int64_t)d * data];
+        one->misfit = designs->list[d].value;
     }
     response_destroy(&fit->response);
-    ResponseDef def = {n,   count,  data,     places,          found,
-                       own, misfit, measured, measured + data, FAR * fit_threshold(fit, 1)};
+    ResponseDef def = {n, count, data, list, fit->measured.list, FAR * fit_threshold(fit, 1)};
     TRY(response_make(&def, &fit->response, err));
 cleanup:
-    memory_free(room);
+    memory_free(list);
     return error_is_clean(err);
 }
 
@@ -152,7 +133,7 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
     if (fit->measured.count < search->study->search.key_count)
         return REFUSE(err, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
                       search->study->search.key_count);
-    search->judge = (SearchJudge){take_results, judge_misfit, tell_logarithm, fit};
+    search->judge = (SearchJudge){take_results, judge_misfit, fit};
     if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
         return false;
     int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;
@@ -185,8 +166,8 @@ static void summarise(const Fit *fit, FitSummary *summary)
     for (int32_t d = 0; d < search->designs.count; d++)
         summary->designs += !isnan(search->designs.list[d].value);
     for (int32_t k = 0; k < data; k++) {
-        double own = fit->response.own[k] * fit->response.own[k];
-        summary->own_share += own / (own + fit->response.error[k] * fit->response.error[k]) / data;
+        double own = pow(fit->response.own[k], 2), error = fit->measured.list[k].error;
+        summary->own_share += own / (own + error * error) / data;
     }
 }
 

@@ -9,15 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum {
-    PROFILE_POINTS = 81,
-    REGION_POINTS = 97,
-    BISECTIONS = 30,
-    STEPS_MAX = 200,
-    PAIRS_KEYS_MAX = 4
-};
+enum { PROFILE_POINTS = 81, REGION_POINTS = 97, PAIRS_KEYS_MAX = 4 };
 static const double BEYOND = 0.6;   // of a region's width that its figure shows on either side
-static const double RAY_FIRST = 1e-4, RAY_GROWS = 1.3;   // steps along a ray
 
 // --- profiles -----------------------------------------------------------------------------------
 
@@ -91,35 +84,6 @@ cleanup:
 
 // --- regions of two keys ------------------------------------------------------------------------
 
-// Whether the misfit, least over the other keys, is below `most` so far along a ray from the best.
-static bool is_inside(const Fit *fit, const int32_t keys[2], const double ray[2], double reach,
-                      double most)
-{
-    bool fixed[STUDY_SEARCH_MAX] = {0};
-    double place[STUDY_SEARCH_MAX];
-    memcpy(place, fit->best, sizeof place);
-    for (int32_t i = 0; i < 2; i++) {
-        fixed[keys[i]] = true;
-        place[keys[i]] += reach * ray[i];
-        if (place[keys[i]] < 0 || place[keys[i]] > 1) return false;
-    }
-    return response_least(&fit->response, fixed, place) <= most;
-}
-
-static double along_ray(const Fit *fit, const int32_t keys[2], const double ray[2], double most)
-{
-    double inside = 0, step = RAY_FIRST;
-    for (int32_t k = 0; k < STEPS_MAX && is_inside(fit, keys, ray, inside + step, most); k++) {
-        inside += step;
-        step *= RAY_GROWS;
-    }
-    for (int32_t k = 0; k < BISECTIONS; k++) {
-        step /= 2;
-        if (is_inside(fit, keys, ray, inside + step, most)) inside += step;
-    }
-    return inside;
-}
-
 // Directions that a circle of `cos` and `sin` turns into the ellipse of the curvature; else the
 // regions' widths.
 static void find_axes(const Fit *fit, const int32_t keys[2], double axes[2][2])
@@ -147,11 +111,13 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
     char name[2 * STUDY_NAME_SIZE + 10], label[60];
     find_axes(fit, keys, axes);
     for (int32_t i = 0; i < REGION_POINTS; i++) {
-        double angle = full * i / (REGION_POINTS - 1), ray[2];
-        for (int32_t k = 0; k < 2; k++) ray[k] = cos(angle) * axes[0][k] + sin(angle) * axes[1][k];
-        double reach = along_ray(fit, keys, ray, most);
-        x[i] = fit_unscaled(fit, keys[0], fit->best[keys[0]] + reach * ray[0]);
-        y[i] = fit_unscaled(fit, keys[1], fit->best[keys[1]] + reach * ray[1]);
+        double angle = full * i / (REGION_POINTS - 1), ray[STUDY_SEARCH_MAX] = {0};
+        double place[STUDY_SEARCH_MAX];
+        for (int32_t k = 0; k < 2; k++)
+            ray[keys[k]] = cos(angle) * axes[0][k] + sin(angle) * axes[1][k];
+        fit_walk(fit, ray, most, place);
+        x[i] = fit_unscaled(fit, keys[0], place[keys[0]]);
+        y[i] = fit_unscaled(fit, keys[1], place[keys[1]]);
     }
     for (int32_t i = 0; i < 2; i++) best[i] = fit_unscaled(fit, keys[i], fit->best[keys[i]]);
     snprintf(name, sizeof name, "region_%s_%s", fit->search.study->search.keys[keys[0]].key,
@@ -173,14 +139,12 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
 static bool draw_measured(const Fit *fit, Error *err)
 {
     int32_t count = fit->measured.count;
-    const Response *response = &fit->response;
     double *room = NEW_ARRAY(double, 3 * (int64_t)count, err);
     TRY(room);
     double *number = room, *off = room + count, *error = off + count;
     for (int32_t k = 0; k < count; k++) {
-        double both = hypot(response->error[k], response->own[k]);
         number[k] = k + 1;
-        off[k] = (response_at(response, k, fit->best) - response->measured[k]) / both;
+        off[k] = fit_errors_off(fit, k);
         error[k] = 1;
     }
     double ends[] = {0, count + 1}, none[] = {0, 0};

@@ -2,6 +2,8 @@
 // Regions by the profile of the misfit: Venzon and Moolgavkar, Appl. Stat. 37, 87 (1988).
 #include "study/search/fit_regions.h"
 
+#include "algebra/dense.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -23,6 +25,13 @@ double fit_unscaled(const Fit *fit, int32_t k, double scaled)
     return search_unscaled(key, least + scaled * (most - least));
 }
 
+double fit_errors_off(const Fit *fit, int32_t datum)
+{
+    const Datum *measured = &fit->measured.list[datum];
+    double error = hypot(measured->error, fit->response.own[datum]);
+    return (response_at(&fit->response, datum, fit->best) - measured->value) / error;
+}
+
 int32_t fit_freedom(const Fit *fit)
 {
     return fit->measured.count - fit->search.study->search.key_count;
@@ -39,43 +48,47 @@ double fit_threshold(const Fit *fit, int32_t keys)
     return wide * (keys == 1 ? one[k] : -2 * log(1 - share));
 }
 
-// The least misfit with key `k` at `value`; place: of all keys, begins near.
-static double profile_at(const Fit *fit, int32_t k, double value, double *place)
+// The misfit so far along `ray`, the least over the keys that it leaves out. place: of all keys,
+// begins near.
+static double misfit_at(const Fit *fit, const double *ray, double reach, double *place)
 {
-    bool fixed[STUDY_SEARCH_MAX] = {0};
-    fixed[k] = true;
-    place[k] = value;
+    bool fixed[STUDY_SEARCH_MAX];
+    for (int32_t k = 0; k < fit->response.keys; k++) {
+        fixed[k] = ray[k] != 0;
+        if (fixed[k]) place[k] = fmin(fmax(fit->best[k] + reach * ray[k], 0), 1);
+    }
     return response_least(&fit->response, fixed, place);
 }
 
-// Along key `k` from the best on, up (way: 1) or down (-1), until the misfit is beyond `most`; then
-// between the last two. *open: the range ends before. place: of all keys, at the end.
-static double walk(const Fit *fit, int32_t k, int way, double most, double *place, bool *open)
+// In steps until the misfit is beyond `most`; then between the last two.
+bool fit_walk(const Fit *fit, const double *ray, double most, double *place)
 {
-    double step = FIRST_WALK, at = fit->best[k], inside = at;
     double curvature[STUDY_SEARCH_MAX * STUDY_SEARCH_MAX], last[STUDY_SEARCH_MAX];
+    double inside = 0, at = 0, end = INFINITY, stiff = 0;
+    bool within = true;
+    int32_t n = fit->response.keys;
     response_curvature(&fit->response, fit->best, curvature);
-    double stiff = curvature[k * fit->response.keys + k];
-    step *= stiff > 0 ? fmin(1, sqrt((most - fit->misfit) / stiff)) : 1;
-    memcpy(last, fit->best, sizeof last);
-    memcpy(place, last, sizeof last);
-    *open = true;
-    for (int32_t i = 0; i < WALK_MAX && *open && (way > 0 ? at < 1 : at > 0); i++) {
-        at = fmin(fmax(inside + way * step, 0), 1);
-        *open = profile_at(fit, k, at, place) <= most;
-        if (*open) inside = at, memcpy(last, place, sizeof last);
-        step *= WALK_GROWS;
+    for (int32_t k = 0; k < n; k++) {
+        stiff += ray[k] * dense_dot(&curvature[k * n], ray, n);
+        if (ray[k] != 0) end = fmin(end, ((ray[k] > 0) - fit->best[k]) / ray[k]);
     }
-    for (int32_t i = 0; i < BISECTIONS && !*open; i++) {
+    double step = FIRST_WALK * (stiff > 0 ? fmin(1, sqrt((most - fit->misfit) / stiff)) : 1);
+    memcpy(last, fit->best, sizeof last);
+    for (int32_t i = 0; i < WALK_MAX && within && inside < end; i++, step *= WALK_GROWS) {
+        at = fmin(inside + step, end);
+        memcpy(place, last, sizeof last);
+        within = misfit_at(fit, ray, at, place) <= most;
+        if (within) inside = at, memcpy(last, place, sizeof last);
+    }
+    for (int32_t i = 0; i < BISECTIONS && !within; i++) {
         double middle = (inside + at) / 2;
         memcpy(place, last, sizeof last);
-        bool within = profile_at(fit, k, middle, place) <= most;
-        if (within) memcpy(last, place, sizeof last);
-        *(within ? &inside : &at) = middle;
+        bool below = misfit_at(fit, ray, middle, place) <= most;
+        if (below) memcpy(last, place, sizeof last);
+        *(below ? &inside : &at) = middle;
     }
     memcpy(place, last, sizeof last);
-    place[k] = inside;
-    return inside;
+    return within;
 }
 
 void fit_find_regions(Fit *fit, bool *stays)
@@ -84,8 +97,12 @@ void fit_find_regions(Fit *fit, bool *stays)
     *stays = true;
     for (int32_t k = 0; k < fit->response.keys; k++) {
         Region *region = &fit->regions[k], before = *region;
-        region->low = walk(fit, k, -1, most, region->low_place, &region->low_open);
-        region->high = walk(fit, k, 1, most, region->high_place, &region->high_open);
+        double up[STUDY_SEARCH_MAX] = {0}, down[STUDY_SEARCH_MAX] = {0};
+        up[k] = 1, down[k] = -1;
+        region->low_open = fit_walk(fit, down, most, region->low_place);
+        region->high_open = fit_walk(fit, up, most, region->high_place);
+        region->low = region->low_place[k];
+        region->high = region->high_place[k];
         double moved = fmax(fabs(region->low - before.low), fabs(region->high - before.high));
         *stays = *stays && moved <= STAYS * (region->high - region->low);
     }

@@ -81,13 +81,6 @@ static void print_combinations(const Fit *fit, FILE *out)
 
 // --- words --------------------------------------------------------------------------------------
 
-static double errors_off(const Fit *fit, int32_t k)
-{
-    const Response *response = &fit->response;
-    double error = hypot(response->error[k], response->own[k]);
-    return (response_at(response, k, fit->best) - response->measured[k]) / error;
-}
-
 static void print_datum(const Fit *fit, int32_t k, FILE *out)
 {
     const Datum *datum = &fit->measured.list[k];
@@ -95,7 +88,7 @@ static void print_datum(const Fit *fit, int32_t k, FILE *out)
     fprintf(out, "    %s%s%s", condition, *condition ? ": " : "", datum->name);
     if (*datum->along) fprintf(out, " at %s = %.4g", datum->along, datum->at);
     fprintf(out, " measured %.4g +- %.2g, found %.4g: off by %.1f errors\n", datum->value,
-            datum->error, response_at(&fit->response, k, fit->best), fabs(errors_off(fit, k)));
+            datum->error, response_at(&fit->response, k, fit->best), fabs(fit_errors_off(fit, k)));
 }
 
 // The worst first.
@@ -103,7 +96,7 @@ static void print_worst(const Fit *fit, FILE *out)
 {
     double before = INFINITY;
     int32_t count = 0, off = 0;
-    for (int32_t k = 0; k < fit->measured.count; k++) off += fabs(errors_off(fit, k)) > OFF;
+    for (int32_t k = 0; k < fit->measured.count; k++) off += fabs(fit_errors_off(fit, k)) > OFF;
     fprintf(
         out,
         "  %d of %d measurements are off by more than %g errors (1 in 20 is to be expected)%s\n",
@@ -111,13 +104,13 @@ static void print_worst(const Fit *fit, FILE *out)
     while (count < WORST_SHOWN) {
         int32_t worst = -1;
         for (int32_t k = 0; k < fit->measured.count; k++) {
-            double by = fabs(errors_off(fit, k));
-            if (by < before && by > OFF && (worst < 0 || by > fabs(errors_off(fit, worst))))
+            double by = fabs(fit_errors_off(fit, k));
+            if (by < before && by > OFF && (worst < 0 || by > fabs(fit_errors_off(fit, worst))))
                 worst = k;
         }
         if (worst < 0) break;
         print_datum(fit, worst, out);
-        before = fabs(errors_off(fit, worst));
+        before = fabs(fit_errors_off(fit, worst));
         count++;
     }
 }
@@ -137,15 +130,8 @@ static void print_parameter(const Fit *fit, const FitParameter *parameter, FILE 
                                                         : "");
 }
 
-typedef struct Answer {
-    const Fit *fit;
-    const FitSummary *summary;
-} Answer;
-
-static void print_answer(const void *context, FILE *out)
+static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
 {
-    const Fit *fit = ((const Answer *)context)->fit;
-    const FitSummary *summary = ((const Answer *)context)->summary;
     int32_t freedom = fit_freedom(fit), best = designs_best(&fit->search.designs);
     char words[OPTIMISE_WORDS_SIZE];
     fprintf(out, "%d measurements, %d keys, %d designs: misfit %.4g", summary->measurements,
@@ -194,7 +180,7 @@ static bool write_table(const Fit *fit, Error *err)
         csv_number(csv, datum->error);
         csv_number(csv, response_at(&fit->response, k, fit->best));
         csv_number(csv, fit->response.own[k]);
-        csv_number(csv, errors_off(fit, k));
+        csv_number(csv, fit_errors_off(fit, k));
         csv_end_row(csv);
     }
     return csv_finish(csv, err);
@@ -202,7 +188,10 @@ static bool write_table(const Fit *fit, Error *err)
 
 bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
 {
-    return search_answer(&fit->search, print_answer, &(Answer){fit, summary}, err) &&
-           write_table(fit, err) && fit_figures(fit, err) &&
+    SearchAnswer answer;
+    if (!search_answer_begin(&answer, err)) return false;
+    print_answer(fit, summary, answer.out);
+    return search_answer_end(&fit->search, &answer, err) && write_table(fit, err) &&
+           fit_figures(fit, err) &&
            search_leave_best(&fit->search, designs_best(&fit->search.designs), 0, err);
 }

@@ -2,6 +2,7 @@
 #include "study/search/front.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "study/search/search_figure.h"
 #include "study/sweep/reading/study_point.h"
 
@@ -23,13 +24,12 @@ static bool dominates(const Designs *designs, int32_t a, int32_t b)
     return better;
 }
 
-void front_find(const Designs *designs, bool *is_on)
+bool front_holds(const Designs *designs, int32_t design)
 {
-    for (int32_t d = 0; d < designs->count; d++) {
-        is_on[d] = !isnan(designs->list[d].value);
-        for (int32_t other = 0; other < designs->count && is_on[d]; other++)
-            is_on[d] = isnan(designs->list[other].value) || !dominates(designs, other, d);
-    }
+    bool holds = !isnan(designs->list[design].value);
+    for (int32_t other = 0; other < designs->count && holds; other++)
+        holds = isnan(designs->list[other].value) || !dominates(designs, other, design);
+    return holds;
 }
 
 typedef struct Placed {
@@ -37,49 +37,27 @@ typedef struct Placed {
     int32_t design;
 } Placed;
 
-static int compare_placed(const void *a, const void *b)
-{
-    const Placed *one = a, *other = b;
-    return one->first > other->first   ? 1
-           : one->first < other->first ? -1
-                                       : one->design - other->design;
-}
-
 // Those on the front by their first value; *front: [count], owned by the caller.
 static bool list_front(const Designs *designs, Placed **front, int32_t *count, Error *err)
 {
-    bool *is_on = NEW_ARRAY(bool, designs->count, err);
     *count = 0;
-    *front = NULL;
-    TRY(is_on);
-    TRY(*front = NEW_ARRAY(Placed, designs->count, err));
-    front_find(designs, is_on);
+    if (!(*front = NEW_ARRAY(Placed, designs->count, err))) return false;
     for (int32_t d = 0; d < designs->count; d++)
-        if (is_on[d]) (*front)[(*count)++] = (Placed){designs_points(designs, d)->value, d};
-    qsort(*front, (size_t)*count, sizeof **front, compare_placed);
-cleanup:
-    memory_free(is_on);
-    return error_is_clean(err);
+        if (front_holds(designs, d))
+            (*front)[(*count)++] = (Placed){designs_points(designs, d)->value, d};
+    qsort(*front, (size_t)*count, sizeof **front, order_doubles);
+    return true;
 }
 
 // "load.pressure=0.004" of the point of `vary` of an aim; "": there is one alone.
-static bool aim_words(const Search *search, int32_t aim, char words[OPTIMISE_WORDS_SIZE],
-                      Error *err)
+static bool aim_words(const Search *search, int32_t aim, char words[POINT_WORDS_SIZE], Error *err)
 {
     const Study *study = search->study;
-    size_t used = 0;
     words[0] = 0;
     int32_t c = aim % search->designs.conditions;
-    if (!study_point_scene(study, c, search->scene, err)) return false;
-    for (int32_t k = 0; k < study->axis_count; k++) {
-        char value[SCENE_TEXT_SIZE];
-        double number = 0;
-        study_scene_value(search->scene, study->axes[k].key, value, sizeof value, &number);
-        int length = snprintf(words + used, OPTIMISE_WORDS_SIZE - used, "%s%s=%s", k ? " " : "",
-                              study->axes[k].key, value);
-        if (length < 0 || (size_t)length >= OPTIMISE_WORDS_SIZE - used) break;
-        used += (size_t)length;
-    }
+    if (!study_scene(study, &(PointChoice){.point = c}, search->scene, err)) return false;
+    for (int32_t k = 0; k < study->axis_count; k++)
+        study_add_words(search->scene, study->axes[k].key, words, POINT_WORDS_SIZE);
     return true;
 }
 
@@ -88,7 +66,7 @@ bool front_print(const Search *search, FILE *out, Error *err)
     const Designs *designs = &search->designs;
     Placed *front = NULL;
     int32_t count = 0;
-    char words[OPTIMISE_WORDS_SIZE];
+    char words[POINT_WORDS_SIZE];
     TRY(list_front(designs, &front, &count, err));
     fprintf(out, "%d aims:\n", designs->aims);
     for (int32_t a = 0; a < designs->aims; a++) {
@@ -121,7 +99,7 @@ cleanup:
 // "mu_hold at load.pressure=0.004".
 static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, Error *err)
 {
-    char words[OPTIMISE_WORDS_SIZE];
+    char words[POINT_WORDS_SIZE];
     *label =
         label_of_record(search->study->records[designs_aim(&search->designs, aim).record].name);
     if (!aim_words(search, aim, words, err)) return false;

@@ -6,8 +6,7 @@
 
 #include "study/search/search.h"
 
-// [designs->count] which are on the front, by values alone.
-void front_find(const Designs *designs, bool *is_on);
+bool front_holds(const Designs *designs, int32_t design);   // by values alone
 // A line a design, by its value at the first aim, with its value and bar at each.
 bool front_print(const Search *search, FILE *out, Error *err);
 // figures/front.png: all designs, and the front, over the first two aims.

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/folder.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
 #include "scene/keys.h"
@@ -123,11 +124,9 @@ static bool find_condition(Measured *measured, const Table *table, int32_t row, 
     if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
     for (*found = 0; *found < measured->condition_count; ++*found)
         if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
-    char **list = memory_grow(measured->conditions, measured->condition_count,
-                              &measured->condition_room, sizeof *list, err);
-    TRY(list);
-    measured->conditions = list;
-    TRY(list[measured->condition_count] = memory_text(text, err));
+    TRY(memory_grow(&measured->conditions, measured->condition_count, &measured->condition_room,
+                    sizeof *measured->conditions, err));
+    TRY(measured->conditions[measured->condition_count] = memory_text(text, err));
     measured->condition_count++;
 cleanup:
     free(text);
@@ -136,10 +135,10 @@ cleanup:
 
 static bool add_datum(Measured *measured, const Datum *datum, Error *err)
 {
-    Datum *list = memory_grow(measured->list, measured->count, &measured->room, sizeof *list, err);
-    if (!list) return false;
-    measured->list = list;
-    list[measured->count++] = *datum;
+    if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
+                     err))
+        return false;
+    measured->list[measured->count++] = *datum;
     return true;
 }
 
@@ -191,11 +190,10 @@ cleanup:
 static bool read_named(const Study *study, YamlNode node, Measured *measured, Error *err)
 {
     char path[2 * SCENE_TEXT_SIZE];
-    const char *given = yaml_text(study->file, node), *slash = strrchr(study->path, '/');
+    const char *given = yaml_text(study->file, node);
     if (yaml_kind(study->file, node) != YAML_SCALAR || !*given || strlen(given) >= SCENE_TEXT_SIZE)
         return yaml_refuse(study->file, node, "measured", "a table's path, or a list of them", err);
-    int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
-    snprintf(path, sizeof path, "%.*s%s", folder, study->path, given);
+    folder_beside(study->path, given, path, sizeof path);   // there is room
     return read_table(measured, path, err);
 }
 

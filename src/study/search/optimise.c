@@ -25,11 +25,6 @@ enum {
 // to be asked for half the error it would end with the same meshes.
 static const double MISSED_BY_FAR = 2;
 
-typedef struct Optimise {
-    Search search;
-    double accuracy;   // accuracy.mu of the study; 0: none
-} Optimise;
-
 // --- what a design is worth ---------------------------------------------------------------------
 
 static bool take_value(Search *search, int32_t d, int32_t c, const char *report, Error *err)
@@ -49,11 +44,6 @@ static bool take_value(Search *search, int32_t d, int32_t c, const char *report,
 static void judge_design(Search *search, int32_t d)
 {
     designs_judge(&search->designs, d);
-}
-
-static double tell_as_it_is(double value)
-{
-    return value;
 }
 
 // --- sections -----------------------------------------------------------------------------------
@@ -85,14 +75,15 @@ static bool compute_sections(Search *search, int32_t best, Error *err)
 
 // Half the error that was asked for or, where that is smaller, of the one that came out. false: it
 // is as small as it may get, or as the time for a run makes it.
-static bool next_accuracy(const Search *search, Design *design)
+static bool next_accuracy(const Search *search, Design *design, double limit, Error *err)
 {
-    const Optimise *self = search->judge.context;
-    double limit = search->study->rank.refine, came_out = design->bar / fabs(design->value);
-    double asked = design->accuracy > 0 ? design->accuracy : self->accuracy;
+    const Scene *scene = point_scene(search->sweep, design->point, err);
+    if (!scene) return false;
+    double came_out = design->bar / fabs(design->value);
+    double asked = design->accuracy > 0 ? design->accuracy : scene->accuracy.mu;
     double has = fmin(asked, came_out);
     if (!design->has_bar || came_out > MISSED_BY_FAR * asked) design->settled = true;
-    if (design->settled || !(limit > 0) || has <= limit) return false;
+    if (design->settled || has <= limit) return false;
     design->accuracy = fmax(has / 2, limit);
     return true;
 }
@@ -124,7 +115,8 @@ static bool decide_round(Search *search, int32_t best, bool *again, Error *err)
         Design *design = &search->designs.list[d];
         taken[d] = true;
         before[count] = *design;
-        if (next_accuracy(search, design)) leaders[count++] = d;
+        if (next_accuracy(search, design, search->study->rank.refine, err)) leaders[count++] = d;
+        TRY(error_is_clean(err));
     }
     if (count == 0) goto cleanup;
     TRY(search_compute(search, leaders, count, err));
@@ -140,7 +132,7 @@ cleanup:
 
 static bool decide(Search *search, Error *err)
 {
-    bool again = true;
+    bool again = search->study->rank.refine > 0;
     while (again) {
         int32_t best = designs_best(&search->designs);
         bool open = false;
@@ -150,6 +142,22 @@ static bool decide(Search *search, Error *err)
         if (open && !decide_round(search, best, &again, err)) return false;
     }
     return true;
+}
+
+// The best of many is so by its luck, too: it is computed once more with half its bar, and where
+// that leaves another design the best, that one in turn.
+static bool confirm(Search *search, Error *err)
+{
+    int32_t best;
+    while (best = designs_best(&search->designs), !search->designs.list[best].confirmed) {
+        Design *design = &search->designs.list[best], before = *design;
+        design->confirmed = before.confirmed = before.settled = true;
+        if (!next_accuracy(search, design, 0, err)) continue;
+        if (!search_compute(search, &best, 1, err)) return false;
+        design->is_finer = design->has_bar && design->bar < before.bar;
+        if (!design->is_finer) *design = before;
+    }
+    return error_is_clean(err);
 }
 
 static bool has_front(const Search *search)
@@ -192,7 +200,7 @@ static bool finish_search(Search *search, Error *err)
     for (int32_t k = has_front(search) ? BESTS_MAX : 0, last = -1;
          k < BESTS_MAX && best >= 0 && best != last; k++) {
         if (!compute_sections(search, best, err)) return false;
-        if (!decide(search, err)) return false;
+        if (!decide(search, err) || !confirm(search, err)) return false;
         last = best;
         best = designs_best(&search->designs);
     }
@@ -205,9 +213,8 @@ static bool finish_search(Search *search, Error *err)
 
 // --- the whole ----------------------------------------------------------------------------------
 
-static bool open_study(Optimise *self, const char *path, const SweepOptions *options, Error *err)
+static bool open_study(Search *search, const char *path, const SweepOptions *options, Error *err)
 {
-    Search *search = &self->search;
     if (!search_open(search, path, options, false, err)) return false;
     const StudyRank *rank = &search->study->rank;
     if (!rank->wanted) return REFUSE(err, "%s: what is best? say `rank: {by: mu_hold}`", path);
@@ -216,20 +223,11 @@ static bool open_study(Optimise *self, const char *path, const SweepOptions *opt
             err, "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
     if (search->study->search.over == OVER_FRONT && rank->refine > 0)
         return REFUSE(err, "%s: best: `over: front` does not go with `refine`", path);
-    search->judge = (SearchJudge){take_value, judge_design, tell_as_it_is, self};
+    search->judge = (SearchJudge){take_value, judge_design, NULL};
     if (!search_begin(search, 0, NULL, err)) return false;
     search->planned += search->designs.conditions * count_parts(search) * (SECTION_POINTS - 1) *
                        search->study->search.key_count;
     return true;
-}
-
-// accuracy.mu of the first design: the study's. Points were refused that have none, where `refine`
-// halves it (sweep).
-static bool note_accuracy(Optimise *self, Error *err)
-{
-    const Scene *scene = point_scene(self->search.sweep, 0, err);
-    if (scene) self->accuracy = scene->accuracy.mu;
-    return scene != NULL;
 }
 
 static void summarise(const Search *search, OptimiseSummary *summary)
@@ -258,16 +256,15 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
                        Error *err)
 {
     *summary = (OptimiseSummary){.value = NAN, .bar = NAN, .start_value = NAN, .start_bar = NAN};
-    Optimise *self = NEW_ARRAY(Optimise, 1, err);
-    TRY(self);
-    TRY(open_study(self, path, options, err));
-    TRY(search_in_parts(&self->search, err));
-    if (self->search.designs.count > 0) TRY(note_accuracy(self, err));
-    TRY(finish_search(&self->search, err));
-    summarise(&self->search, summary);
-    TRY(optimise_report(&self->search, summary, err));
+    Search *search = NEW_ARRAY(Search, 1, err);
+    TRY(search);
+    TRY(open_study(search, path, options, err));
+    TRY(search_in_parts(search, err));
+    TRY(finish_search(search, err));
+    summarise(search, summary);
+    TRY(optimise_report(search, summary, err));
 cleanup:
-    if (self) search_close(&self->search, err);
-    memory_free(self);
+    if (search) search_close(search, err);
+    memory_free(search);
     return error_is_clean(err);
 }

@@ -140,23 +140,14 @@ static void print_section(const Search *search, int32_t best, int32_t k, FILE *o
     fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
 }
 
-typedef struct Answer {
-    const Search *search;
-    const OptimiseSummary *summary;
-    int32_t best;
-} Answer;
-
-static void print_answer(const void *context, FILE *out)
+static void print_answer(const Search *search, const OptimiseSummary *summary, int32_t best,
+                         FILE *out)
 {
     static const char *const over[] = {[OVER_WORST] = "worst",
                                        [OVER_MEAN] = "mean",
                                        [OVER_DEVIATION] = "standard deviation",
                                        [OVER_FRONT] = "mean"};
-    const Answer *answer = context;
-    const Search *search = answer->search;
-    const OptimiseSummary *summary = answer->summary;
     const Designs *designs = &search->designs;
-    int32_t best = answer->best;
     Error ignored = {0};
     if (search->study->search.over == OVER_FRONT) front_print(search, out, &ignored);
     fprintf(out, "%s, %s%s of %d designs", quantity(search),
@@ -168,6 +159,12 @@ static void print_answer(const void *context, FILE *out)
     fprintf(out, ":\n  %s: ", summary->best);
     print_estimate(&designs->list[best], out);
     fprintf(out, "\n");
+    int32_t finer = 0;
+    for (int32_t d = 0; d < designs->count; d++) finer += designs->list[d].is_finer;
+    if (designs->list[best].is_finer)
+        fprintf(out,
+                "  computed once more for half its bar, as the best of many is so by luck, too%s\n",
+                finer > 1 ? "; what was better before came out worse" : "");
     print_gain(search, summary, best, out);
     print_open(search, best, out);
     for (int32_t k = 0; k < search->study->search.key_count; k++)
@@ -241,7 +238,10 @@ cleanup:
 bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err)
 {
     int32_t best = designs_best(&search->designs);
-    if (!search_answer(search, print_answer, &(Answer){search, summary, best}, err)) return false;
+    SearchAnswer answer;
+    if (!search_answer_begin(&answer, err)) return false;
+    print_answer(search, summary, best, answer.out);
+    if (!search_answer_end(search, &answer, err)) return false;
     if (!draw_course(search, err)) return false;
     if (search->study->search.over == OVER_FRONT && !front_draw(search, err)) return false;
     for (int32_t k = 0; k < search->study->search.key_count; k++)

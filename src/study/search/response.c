@@ -62,15 +62,15 @@ static bool weigh(const ResponseDef *def, double *weights, int32_t *best, Error 
 {
     double *sorted = NEW_ARRAY(double, def->designs, err);
     TRY(sorted);
-    memcpy(sorted, def->misfit, (size_t)def->designs * sizeof *sorted);
+    for (int32_t d = 0; d < def->designs; d++) sorted[d] = def->list[d].misfit;
     qsort(sorted, (size_t)def->designs, sizeof *sorted, order_doubles);
     int32_t needed = (int32_t)(MORE * full_terms(def->keys));
     double reach = sorted[needed < def->designs ? needed : def->designs - 1] - sorted[0];
     double far = fmax(def->far, reach);
     for (int32_t d = 0; d < def->designs; d++) {
-        double above = (def->misfit[d] - sorted[0]) / far;
+        double above = (def->list[d].misfit - sorted[0]) / far;
         weights[d] = 1 / (1 + above * above);
-        if (def->misfit[d] == sorted[0]) *best = d;
+        if (def->list[d].misfit == sorted[0]) *best = d;
     }
 cleanup:
     memory_free(sorted);
@@ -82,9 +82,9 @@ static void scale_keys(const ResponseDef *def, const double *weights, int32_t be
 {
     for (int32_t k = 0; k < r->keys; k++) {
         double sum = 0, square = 0;
-        r->origin[k] = def->places[best * r->keys + k];
+        r->origin[k] = def->list[best].place[k];
         for (int32_t d = 0; d < def->designs; d++) {
-            double apart = def->places[d * r->keys + k] - r->origin[k];
+            double apart = def->list[d].place[k] - r->origin[k];
             sum += weights[d];
             square += weights[d] * apart * apart;
         }
@@ -99,17 +99,17 @@ static void solve_datum(const ResponseDef *def, const double *weights, const dou
     double *b = &r->coefficients[(int64_t)datum * r->terms];
     double sum = 0, square = 0, scatter = 0, own = 0;
     for (int32_t d = 0; d < def->designs; d++)
-        dense_add_scaled(weights[d] * def->found[(int64_t)d * r->data + datum],
-                         &rows[(int64_t)d * r->terms], r->terms, b);
+        dense_add_scaled(weights[d] * def->list[d].found[datum], &rows[(int64_t)d * r->terms],
+                         r->terms, b);
     dense_lower_solve(factor, r->terms, b);
     dense_lower_solve_transposed(factor, r->terms, b);
     for (int32_t d = 0; d < def->designs; d++) {
-        double off = def->found[(int64_t)d * r->data + datum] -
+        double off = def->list[d].found[datum] -
                      dense_dot(b, &rows[(int64_t)d * r->terms], r->terms);
         sum += weights[d];
         square += weights[d] * weights[d];
         scatter += weights[d] * off * off;
-        own += weights[d] * def->own[(int64_t)d * r->data + datum];
+        own += weights[d] * def->list[d].own[datum];
     }
     double count = sum * sum / square;   // designs that count
     scatter = count > r->terms ? scatter / sum * count / (count - r->terms) : 0;
@@ -124,7 +124,7 @@ static bool solve(const ResponseDef *def, const double *weights, Response *r, Er
     TRY(rows && matrix);
     for (int32_t d = 0; d < def->designs; d++) {
         double *row = &rows[(int64_t)d * n];
-        terms_at(r, &def->places[d * r->keys], row, NULL);
+        terms_at(r, def->list[d].place, row, NULL);
         for (int32_t k = 0; k < n; k++)
             dense_add_scaled(weights[d] * row[k], row, n, &matrix[k * n]);
     }
@@ -141,7 +141,8 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
 {
     double *weights = NULL;
     int32_t best = 0, n = def->keys;
-    *r = (Response){.keys = n, .data = def->data, .terms = full_terms(n)};
+    *r =
+        (Response){.keys = n, .data = def->data, .terms = full_terms(n), .measured = def->measured};
     if (def->designs < MORE * r->terms) r->terms = 1 + 2 * n;
     if (def->designs < MORE * r->terms) r->terms = 1 + n;
     if (def->designs <= r->terms)
@@ -152,11 +153,7 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
             def->designs, n);
     TRY(weights = NEW_ARRAY(double, def->designs, err));
     TRY(r->coefficients = NEW_ARRAY(double, (int64_t)r->data * r->terms, err));
-    TRY(r->measured = NEW_ARRAY(double, 3 * (int64_t)r->data, err));
-    r->error = r->measured + r->data;
-    r->own = r->error + r->data;
-    memcpy(r->measured, def->measured, (size_t)r->data * sizeof *r->measured);
-    memcpy(r->error, def->error, (size_t)r->data * sizeof *r->error);
+    TRY(r->own = NEW_ARRAY(double, r->data, err));
     TRY(weigh(def, weights, &best, err));
     scale_keys(def, weights, best, r);
     TRY(solve(def, weights, r, err));
@@ -167,7 +164,7 @@ cleanup:
 
 void response_destroy(Response *response)
 {
-    memory_free_all(response->coefficients, response->measured);
+    memory_free_all(response->coefficients, response->own);
     *response = (Response){0};
 }
 
@@ -175,7 +172,8 @@ void response_destroy(Response *response)
 
 static double weight_of(const Response *r, int32_t datum)
 {
-    return 1 / (r->error[datum] * r->error[datum] + r->own[datum] * r->own[datum]);
+    double error = r->measured[datum].error;
+    return 1 / (error * error + r->own[datum] * r->own[datum]);
 }
 
 double response_misfit(const Response *r, const double *place)
@@ -184,7 +182,7 @@ double response_misfit(const Response *r, const double *place)
     terms_at(r, place, terms, NULL);
     for (int32_t k = 0; k < r->data; k++) {
         double off = dense_dot(terms, &r->coefficients[(int64_t)k * r->terms], r->terms) -
-                     r->measured[k];
+                     r->measured[k].value;
         sum += weight_of(r, k) * off * off;
     }
     return sum;
@@ -201,7 +199,8 @@ static void derive(const Response *r, const double *place, double *curvature, do
     memset(gradient, 0, (size_t)n * sizeof *gradient);
     for (int32_t k = 0; k < r->data; k++) {
         const double *of = &r->coefficients[(int64_t)k * r->terms];
-        double weight = weight_of(r, k), off = dense_dot(terms, of, r->terms) - r->measured[k];
+        double weight = weight_of(r, k),
+               off = dense_dot(terms, of, r->terms) - r->measured[k].value;
         dense_apply(dense_view(slopes, n, r->terms), of, 1, 0, row);
         dense_add_scaled(weight * off, row, n, gradient);
         for (int32_t i = 0; i < n; i++)

@@ -8,28 +8,30 @@
 #ifndef AMONTONS_STUDY_SEARCH_RESPONSE_H
 #define AMONTONS_STUDY_SEARCH_RESPONSE_H
 
-#include "base/error.h"
-
-#include <stdint.h>
+#include "study/search/measured.h"
 
 enum { RESPONSE_KEYS_MAX = 12, RESPONSE_TERMS_MAX = 91 };   // 1 + 12 + 12 * 13 / 2
 
+typedef struct ResponseDesign {
+    double place[RESPONSE_KEYS_MAX];
+    const double *found;   // [data]
+    const double *own;   // [data] the program's own error of each, one standard deviation
+    double misfit;
+} ResponseDesign;
+
 typedef struct ResponseDef {
     int32_t keys, designs, data;
-    const double *places;   // [designs][keys]
-    const double *found;   // [designs][data]
-    const double *own;   // [designs][data] the program's own error of each, one standard deviation
-    const double *misfit;   // [designs]
-    const double *measured, *error;   // [data]
+    const ResponseDesign *list;   // [designs]
+    const Datum *measured;   // [data]
     double far;   // misfit above the least from which on a design counts little
 } ResponseDef;
 
 typedef struct Response {
     int32_t keys, data, terms;
     double origin[RESPONSE_KEYS_MAX], scale[RESPONSE_KEYS_MAX];   // of the polynomials' variables
+    const Datum *measured;   // [data] not owned
     double *coefficients;   // [data][terms] owned, as the next
-    double *measured, *error;   // [data]
-    double *own;   // [data] the program's: of the runs, or their scatter about the polynomial
+    double *own;   // [data] the program's error: of the runs, or their scatter about the polynomial
 } Response;
 
 // ERROR_COMPUTE: too few designs.

@@ -91,16 +91,6 @@ bool search_compute_from(Search *search, int32_t first, Error *err)
     return search_compute(search, which, count, err);
 }
 
-void search_run_path(const Search *search, int32_t design, int32_t condition,
-                     char path[AMONTONS_PATH_SIZE])
-{
-    char whole[POINT_PATH_SIZE + 16];
-    *path = 0;
-    if (search->study->keep_table) return;
-    point_report_path(search->sweep, search->designs.list[design].point + condition, whole);
-    if (strlen(whole) < AMONTONS_PATH_SIZE) memcpy(path, whole, strlen(whole) + 1);
-}
-
 // --- designs ------------------------------------------------------------------------------------
 
 // At the first condition.
@@ -125,7 +115,8 @@ static bool make_scene(Search *search, const StudyCase *trial, int32_t condition
                        Error *err)
 {
     Error refusal = {0};
-    *allowed = study_trial_scene(search->study, trial, condition, search->scene, &refusal);
+    *allowed = study_scene(search->study, &(PointChoice){.point = condition, .trial = trial},
+                           search->scene, &refusal);
     if (*allowed) return true;
     if (refusal.code != ERROR_INPUT) {
         *err = refusal;
@@ -135,8 +126,9 @@ static bool make_scene(Search *search, const StudyCase *trial, int32_t condition
     return true;
 }
 
-// Those of `vary`, or of what was measured; the first comes last, as limits are checked at it.
-bool search_allows(Search *search, const double *x, bool *allowed, Error *err)
+// Whether its scenes, those of `vary` or of what was measured, are accepted and keep all of
+// `where`; the first comes last, as limits are checked at it.
+static bool is_allowed(Search *search, const double *x, bool *allowed, Error *err)
 {
     const Designs *designs = &search->designs;
     Design design = {.choice = -1};
@@ -167,7 +159,7 @@ bool search_add(Search *search, double *x, int32_t *added, Error *err)
     *added = -1;
     designs_round(search->study, x);
     if (search->designs.count == DESIGNS_MAX || designs_find(&search->designs, x) >= 0) return true;
-    if (!search_allows(search, x, &allowed, err)) return false;
+    if (!is_allowed(search, x, &allowed, err)) return false;
     if (allowed) *added = designs_add(&search->designs, x, -1);
     return true;
 }
@@ -180,13 +172,20 @@ static bool add_start(Search *search, Error *err)
     double x[STUDY_SEARCH_MAX] = {0};
     bool within = true;
     Error ignored = {0};
-    if (!study_point_scene(search->study, 0, search->scene, &ignored)) return true;
+    if (!study_scene(search->study, &(PointChoice){.point = 0}, search->scene, &ignored))
+        return true;
     for (int32_t k = 0; k < keys->key_count; k++) {
         char words[SCENE_TEXT_SIZE];
         study_scene_value(search->scene, keys->keys[k].key, words, sizeof words, &x[k]);
         within = within && x[k] >= keys->keys[k].least && x[k] <= keys->keys[k].most;
     }
     return !within || search_add(search, x, &search->start, err);
+}
+
+// What the chooser is told, over a scale that suits: misfits differ by powers of ten.
+static double on_scale(const Search *search, double value)
+{
+    return search->study->search.fits ? log1p(value) : value;
 }
 
 // What the chooser is told of a design that is refused or comes to nothing, and the least it is
@@ -197,8 +196,8 @@ static double below_the_worst(const Search *search)
     for (int32_t d = 0; d < search->designs.count; d++) {
         double value = search->designs.list[d].value;
         if (isnan(value)) continue;
-        low = fmin(low, sign * search->judge.told(value));
-        high = fmax(high, sign * search->judge.told(value));
+        low = fmin(low, sign * on_scale(search, value));
+        high = fmax(high, sign * on_scale(search, value));
     }
     return low <= high ? low - REFUSED * (high - low) : 0;
 }
@@ -208,7 +207,7 @@ static double told_of(const Search *search, int32_t design)
 {
     double sure = NAN, sign = search->designs.lowest ? -1 : 1;
     if (design >= 0) sure = design_sure(&search->designs, &search->designs.list[design]);
-    return fmax(sign * search->judge.told(sure), below_the_worst(search));
+    return fmax(sign * on_scale(search, sure), below_the_worst(search));
 }
 
 static bool tell(Search *search, int32_t choice, int32_t design, Error *err)

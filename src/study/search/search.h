@@ -15,7 +15,6 @@ typedef struct SearchJudge {
     // Condition `c` of design `d`; report: its run.json; NULL: it failed, or was not computed.
     bool (*take)(Search *search, int32_t d, int32_t c, const char *report, Error *err);
     void (*judge)(Search *search, int32_t d);   // sets its value, when all conditions are taken
-    double (*told)(double value);   // to the chooser: rises with `value`, over a scale that suits
     void *context;
 } SearchJudge;
 
@@ -47,8 +46,6 @@ bool search_open(Search *search, const char *path, const SweepOptions *options, 
 bool search_begin(Search *search, int32_t conditions, char *const *texts, Error *err);
 // `count` more designs, by a chooser that knows all those so far; before the first also the start.
 bool search_designs(Search *search, int32_t count, Error *err);
-// Whether its scenes are accepted and keep all of `where`.
-bool search_allows(Search *search, const double *x, bool *allowed, Error *err);
 // Adds a design if it is new and allowed; x is rounded. *added: its index, -1: not added.
 bool search_add(Search *search, double *x, int32_t *added, Error *err);
 // Computes designs, [count]; new ones, or others once more with another accuracy.
@@ -57,8 +54,5 @@ bool search_compute(Search *search, const int32_t *which, int32_t count, Error *
 bool search_compute_from(Search *search, int32_t first, Error *err);
 // The table, also of a search that was stopped, and the figures of the study where it was not.
 void search_close(Search *search, Error *err);
-// "a folder's run.json" of a design at a condition; "": it left none.
-void search_run_path(const Search *search, int32_t design, int32_t condition,
-                     char path[AMONTONS_PATH_SIZE]);
 
 #endif

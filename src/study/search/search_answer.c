@@ -7,20 +7,22 @@
 
 #include <stdlib.h>
 
-bool search_answer(const Search *search, void (*print)(const void *context, FILE *out),
-                   const void *context, Error *err)
+bool search_answer_begin(SearchAnswer *answer, Error *err)
 {
-    char path[POINT_PATH_SIZE], *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) FAIL(err, ERROR_MEMORY, "no memory for the answer");
-    print(context, out);
-    if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for the answer");
-    if (search->options->out) fputs(text, search->options->out);
+    *answer = (SearchAnswer){0};
+    answer->out = open_memstream(&answer->text, &answer->size);
+    return answer->out || FAULT(err, ERROR_MEMORY, "no memory for the answer");
+}
+
+bool search_answer_end(const Search *search, SearchAnswer *answer, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    if (fclose(answer->out) != 0) FAIL(err, ERROR_MEMORY, "no memory for the answer");
+    if (search->options->out) fputs(answer->text, search->options->out);
     snprintf(path, sizeof path, "%s/answer.txt", search->options->folder);
-    TRY(part_file_put(path, text, (int64_t)size, err));
+    TRY(part_file_put(path, answer->text, (int64_t)answer->size, err));
 cleanup:
-    free(text);
+    free(answer->text);
     return error_is_clean(err);
 }
 
@@ -28,12 +30,11 @@ cleanup:
 bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err)
 {
     const char *folder = search->options->folder;
-    char path[POINT_PATH_SIZE], picture[POINT_PATH_SIZE], *text = NULL;
-    size_t size = 0;
+    char path[POINT_PATH_SIZE], picture[POINT_PATH_SIZE];
     int32_t point = search->designs.list[design].point + condition;
     JsonWriter *json = NULL;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) FAIL(err, ERROR_MEMORY, "no memory for the best design");
+    SearchAnswer nowhere;   // what is said of the mesh beside its picture
+    if (!search_answer_begin(&nowhere, err)) return false;
     snprintf(path, sizeof path, "%s/best.yaml", folder);
     snprintf(picture, sizeof picture, "%s/figures/best.png", folder);
     const Scene *scene = point_scene(search->sweep, point, err);
@@ -41,9 +42,9 @@ bool search_leave_best(const Search *search, int32_t design, int32_t condition, 
     TRY(json = json_create(path, err));
     scene_write_json(scene, json, NULL, folder);
     TRY(json_finish(json, err));
-    TRY(amontons_info(path, &(InfoOptions){.picture = picture}, out, err));
+    TRY(amontons_info(path, &(InfoOptions){.picture = picture}, nowhere.out, err));
 cleanup:
-    if (out) fclose(out);
-    free(text);
+    fclose(nowhere.out);
+    free(nowhere.text);
     return error_is_clean(err);
 }

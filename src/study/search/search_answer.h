@@ -6,9 +6,15 @@
 
 #include "study/search/search.h"
 
-// What `print` says goes to options->out (NULL: nowhere) and to DIR/answer.txt.
-bool search_answer(const Search *search, void (*print)(const void *context, FILE *out),
-                   const void *context, Error *err);
+// What is written to `out` in between goes to options->out (NULL: nowhere) and to DIR/answer.txt.
+typedef struct SearchAnswer {
+    FILE *out;
+    char *text;
+    size_t size;
+} SearchAnswer;
+
+bool search_answer_begin(SearchAnswer *answer, Error *err);
+bool search_answer_end(const Search *search, SearchAnswer *answer, Error *err);
 // DIR/best.yaml, a scene to be run, of a design at a condition; figures/best.png: its mesh and rod.
 bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err);
 

@@ -14,26 +14,19 @@
 static void write_results(JsonWriter *json, const StabilitySummary *summary)
 {
     json_begin_object(json, "results");
-    json_number(json, "l_sc_certificate_over_L", summary->l_sc_certificate);
-    json_number(json, "l_sc_over_L", summary->l_sc);
-    json_number(json, "l_sc_frequency", summary->frequency);
-    json_number(json, "l_c_scan_over_L", summary->l_c_scan);
-    json_number(json, "l_c_over_L", summary->l_c);
-    json_number(json, "l_c_at_V_over_L", summary->l_c_rod);
-    json_number(json, "A_sc_over_A", summary->area_sc);
-    json_number(json, "A_c_over_A", summary->area_c);
-    json_number(json, "A_c_at_V_over_A", summary->area_c_rod);
-    json_number(json, "element_over_L", summary->element);
-    json_number(json, "mu_l_sc", summary->mu_sc);
-    json_number(json, "mu_snap", summary->mu_snap);
-    json_number(json, "mu_M_adiabatic", summary->mu_c);
-    json_number(json, "mu_M", summary->mu_rod);
-    json_number(json, "U_adiabatic", summary->U_c);
-    json_number(json, "U", summary->U_rod);
+    json_numbers_of(json, {"l_sc_certificate_over_L", summary->l_sc_certificate},
+                    {"l_sc_over_L", summary->l_sc}, {"l_sc_frequency", summary->frequency},
+                    {"l_c_scan_over_L", summary->l_c_scan}, {"l_c_over_L", summary->l_c},
+                    {"l_c_at_V_over_L", summary->l_c_rod}, {"A_sc_over_A", summary->area_sc},
+                    {"A_c_over_A", summary->area_c}, {"A_c_at_V_over_A", summary->area_c_rod},
+                    {"element_over_L", summary->element}, {"mu_l_sc", summary->mu_sc},
+                    {"mu_snap", summary->mu_snap}, {"mu_M_adiabatic", summary->mu_c},
+                    {"mu_M", summary->mu_rod}, {"U_adiabatic", summary->U_c},
+                    {"U", summary->U_rod});
     json_text(json, "pad", summary->pads[summary->pad].name);
-    json_number(json, "steady_contact", summary->steady_contact);
-    json_number(json, "nucleation_length", summary->nucleation_length);
-    json_number(json, "critical_stiffness", summary->pads[summary->pad].critical_stiffness);
+    json_numbers_of(json, {"steady_contact", summary->steady_contact},
+                    {"nucleation_length", summary->nucleation_length},
+                    {"critical_stiffness", summary->pads[summary->pad].critical_stiffness});
     json_begin_list(json, "why");
     for (int32_t k = 0; k < summary->why_count; k++) json_text(json, NULL, summary->why[k]);
     json_end(json);
@@ -48,16 +41,11 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
     for (int32_t k = 0; k < path->count; k++) {
         const StabilityPoint *point = &path->points[k];
         json_begin_object(json, NULL);
-        json_number(json, "l_over_L", point->front / length);
-        json_integer(json, "slipping", point->slipping);
-        json_number(json, "slipping_over_A", point->area);
-        json_number(json, "U", point->U);
-        json_number(json, "mu", point->mu);
-        json_number(json, "mu_at_V", point->mu_at_V);
-        json_number(json, "rate_re", point->rate_re);
-        json_number(json, "rate_im", point->rate_im);
-        json_number(json, "real_rate", point->real_rate);
-        json_number(json, "load", point->load);
+        json_numbers_of(json, {"l_over_L", point->front / length}, {"slipping", point->slipping},
+                        {"slipping_over_A", point->area}, {"U", point->U}, {"mu", point->mu},
+                        {"mu_at_V", point->mu_at_V}, {"rate_re", point->rate_re},
+                        {"rate_im", point->rate_im}, {"real_rate", point->real_rate},
+                        {"load", point->load});
         json_boolean(json, "certified", point->certified);
         json_end(json);
     }
@@ -72,16 +60,12 @@ static void write_pads(JsonWriter *json, const StabilitySummary *summary)
         const StabilityPad *pad = &summary->pads[p];
         json_begin_object(json, NULL);
         json_text(json, "name", pad->name);
-        json_number(json, "length", pad->length);
-        json_number(json, "pressure", pad->pressure);
-        json_number(json, "slipping_over_length", pad->slipping / pad->length);
-        json_number(json, "mode", pad->mode);
-        json_number(json, "load", pad->load);
-        json_number(json, "l_c_over_length", pad->l_c / pad->length);
-        json_number(json, "mu_fall", pad->mu_fall);
-        json_number(json, "drag", pad->drag);
-        json_number(json, "stiffness", pad->stiffness);
-        json_number(json, "critical_stiffness", pad->critical_stiffness);
+        json_numbers_of(json, {"length", pad->length}, {"pressure", pad->pressure},
+                        {"slipping_over_length", pad->slipping / pad->length}, {"mode", pad->mode},
+                        {"load", pad->load}, {"l_c_over_length", pad->l_c / pad->length},
+                        {"mu_fall", pad->mu_fall}, {"drag", pad->drag},
+                        {"stiffness", pad->stiffness},
+                        {"critical_stiffness", pad->critical_stiffness});
         json_end(json);
     }
     json_end(json);
@@ -102,11 +86,8 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     write_results(json, summary);
     write_pads(json, summary);
     write_points(json, path);
-    json_begin_object(json, "timing_s");
-    json_number(json, "before", summary->seconds_before);
-    json_number(json, "path", summary->seconds_path);
-    json_number(json, "growth", summary->seconds_growth);
-    json_end(json);
+    json_object_of(json, "timing_s", {"before", summary->seconds_before},
+                   {"path", summary->seconds_path}, {"growth", summary->seconds_growth});
     json_integer(json, "path_steps", summary->path_steps);
     json_end(json);
     return json_finish(json, err);

@@ -85,18 +85,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What is ranked, in a point's run.json, and its error; NaN: it has none.
-static bool read_ranked(const Sweep *sweep, int32_t k, double *value, double *error, Error *err)
+// What is ranked, in a point's run.json.
+static PointValue read_ranked(const Sweep *sweep, int32_t k, Error *err)
 {
-    char path[STUDY_NAME_SIZE + 8];
-    const char *ranked = sweep->study.records[sweep->study.rank.record].path;
     char *report = point_report(sweep, k, err);
-    *value = *error = NAN;
-    snprintf(path, sizeof path, "%s_error", ranked);
-    if (report) json_find_number(report, ranked, value);
-    if (report) json_find_number(report, path, error);
+    PointValue ranked = point_value(report, sweep->study.records[sweep->study.rank.record].path);
     memory_free(report);
-    return error_is_clean(err);
+    return ranked;
 }
 
 bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
@@ -104,20 +99,20 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         SweepPoint refined = *point;
-        double value = NAN, error = NAN, value_before = NAN, error_before = NAN;
+        PointValue found = point_value(NULL, "");
         if (strcmp(refined.hash, before[k].hash) == 0) continue;
-        if (refined.status == POINT_DONE && !read_ranked(sweep, k, &value, &error, err))
-            return false;
+        if (refined.status == POINT_DONE) found = read_ranked(sweep, k, err);
         *point = before[k];
-        if (!read_ranked(sweep, k, &value_before, &error_before, err)) return false;
-        if (isnan(error_before)) error_before = INFINITY;
-        if (error < error_before) {
-            double moved = fabs(value - value_before) / error_before;
+        PointValue last = read_ranked(sweep, k, err);
+        if (!error_is_clean(err)) return false;
+        double error = isnan(last.error) ? INFINITY : last.error;
+        if (found.error < error) {
+            double moved = fabs(found.value - last.value) / error;
             *point = refined;
             point->refined = true;
             point->moved = fmax(before[k].moved, moved);   // fmax of NaN and a number is the number
         }
-        point->settled = !(error < SMALLER * error_before);
+        point->settled = !(found.error < SMALLER * error);
     }
     return points_find_same(sweep, err);
 }

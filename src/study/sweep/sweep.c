@@ -39,32 +39,24 @@ static bool take_lock(int descriptor)
     return true;
 }
 
-static bool refuse_taken_figure(const char *folder, const char *name, Error *err)
-{
-    static const char *const endings[] = {"json", "h5", "png"};
-    char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
-    for (size_t k = 0; k < sizeof endings / sizeof endings[0]; k++) {
-        snprintf(path, sizeof path, "%s/figures/%.*s.%s", folder, STUDY_NAME_SIZE - 1, name,
-                 endings[k]);
-        if (!own_mark_check(path, err)) return false;
-    }
-    return true;
-}
-
 // What has the name of one of the sweep's tables or figures and is none is told before hours of
 // computing, not behind them.
 static bool refuse_taken(const Sweep *sweep, Error *err)
 {
     static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv"};
-    char path[POINT_PATH_SIZE];
+    static const char *const endings[] = {"json", "h5", "png"};
+    const Study *study = &sweep->study;
+    char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
         snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
         if (!own_mark_check(path, err)) return false;
     }
-    if (sweep->study.rank.wanted && !refuse_taken_figure(sweep->folder, "ranking", err))
-        return false;
-    for (int32_t k = 0; k < sweep->study.plot_count; k++)
-        if (!refuse_taken_figure(sweep->folder, sweep->study.plots[k].name, err)) return false;
+    for (int32_t k = study->rank.wanted ? -1 : 0; k < study->plot_count; k++)
+        for (size_t e = 0; e < sizeof endings / sizeof endings[0]; e++) {
+            snprintf(path, sizeof path, "%s/figures/%.*s.%s", sweep->folder, STUDY_NAME_SIZE - 1,
+                     k < 0 ? "ranking" : study->plots[k].name, endings[e]);
+            if (!own_mark_check(path, err)) return false;
+        }
     return true;
 }
 
@@ -112,52 +104,35 @@ static bool open_reports(Sweep *sweep, Error *err)
 // Reports of an earlier sweep, also of points that the study no longer has, or not yet.
 static bool list_reports(Sweep *sweep, Error *err)
 {
-    PointsByHash points = {0};
-    if (!sweep->study.keep_table) return true;
-    TRY(points_sort(sweep, &points, err));
-    TRY(reports_list(&sweep->reports, points_note_place, &points, err));
-    TRY(share_take_all(sweep, points_note_place, &points, err));
-cleanup:
-    memory_free(points.list);
-    return error_is_clean(err);
+    return !sweep->study.keep_table ||
+           (reports_list(&sweep->reports, points_note_place, sweep, err) &&
+            share_take_all(sweep, err));
 }
 
-// baseline of point `k`: the point whose scene is its own with the keys of `rank.against`.
-static bool find_baseline(const PointsByHash *sorted, int32_t k, Error *err)
-{
-    Sweep *sweep = sorted->sweep;
-    char hash[HASH_TEXT_SIZE];
-    if (!study_baseline_scene(&sweep->study, k, sweep->scene, err)) return false;
-    if (!point_hash(sweep, sweep->scene, hash, err)) return false;
-    sweep->points[k].baseline = points_look_up(sorted, hash);
-    return true;
-}
-
-// ERROR_INPUT where no point at all has a baseline: the ranking would have no gains.
+// The baseline of each point: the one whose scene is its own with the keys of `rank.against`.
+// ERROR_INPUT where no point at all has one: the ranking would have no gains.
 static bool find_baselines(Sweep *sweep, Error *err)
 {
     const Study *study = &sweep->study;
     bool found = false;
-    PointsByHash sorted = {0};
     if (study->rank.against != AGAINST_KEYS) return true;
-    TRY(points_sort(sweep, &sorted, err));
     for (int32_t k = 0; k < study->point_count; k++) {
-        TRY(find_baseline(&sorted, k, err));
+        char hash[HASH_TEXT_SIZE];
+        if (!study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err))
+            return false;
+        if (!point_hash(sweep, sweep->scene, hash, err)) return false;
+        sweep->points[k].baseline = points_look_up(sweep, hash);
         found = found || sweep->points[k].baseline >= 0;
     }
-    if (!found)
-        yaml_error(study->file, study->rank.baseline, err,
-                   "against: no point of the study has these values");
-cleanup:
-    memory_free(sorted.list);
-    return error_is_clean(err);
+    return found || yaml_error(study->file, study->rank.baseline, err,
+                               "against: no point of the study has these values");
 }
 
 static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 {
     const Scene *scene = point_scene(sweep, k, err);
     if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
-    if (!block_counts_note(scene, &sweep->mesh, &sweep->blocks, err)) return false;
+    if (!block_note(scene, &sweep->mesh, &sweep->points[k], err)) return false;
     if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
         return REFUSE(err,
@@ -172,12 +147,9 @@ static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 static bool plan_points(Sweep *sweep, Error *err)
 {
     int32_t count = sweep->study.point_count;
-    SweepPoint *points =
-        memory_resize(sweep->points, sweep->point_count, count, sizeof *points, err);
-    TRY(points);
-    sweep->points = points;
+    TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
     for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, err));
-    TRY(block_counts_set(&sweep->blocks, sweep->points, err));
+    TRY(blocks_count(sweep->points, count, err));
     TRY(points_find_same(sweep, err));
     TRY(find_baselines(sweep, err));
     sweep->point_count = sweep->planned = count;
@@ -212,8 +184,8 @@ cleanup:
 
 bool sweep_compute(Sweep *sweep, Error *err)
 {
-    PoolDef pool = {.workers = sweep->options->jobs, .step = 1};
-    bool whole = sweep->options->slurm ? slurm_run(sweep, err) : pool_run(sweep, &pool, err);
+    bool whole = sweep->options->slurm ? slurm_run(sweep, err)
+                                       : pool_run(sweep, sweep->options->jobs, 1, err);
     sweep_share_results(sweep);
     return whole;
 }
@@ -277,10 +249,22 @@ void sweep_close(Sweep *sweep)
     if (!sweep) return;
     if (sweep->lock >= 0) close(sweep->lock);
     reports_close(&sweep->reports);
-    block_counts_destroy(&sweep->blocks);
+    points_forget(&sweep->by_hash);
     memory_free_all(sweep->points, sweep->scene);
     study_destroy(&sweep->study);
     memory_free(sweep);
+}
+
+bool amontons_sweep_element(const char *path, const SweepOptions *options, int32_t element,
+                            Error *err)
+{
+    Sweep *sweep = NULL;
+    TRY(sweep_open(path, options, &sweep, err));
+    snprintf(sweep->folder, sizeof sweep->folder, "%s", options->folder);
+    TRY(share_run(sweep, element, err));
+cleanup:
+    sweep_close(sweep);
+    return error_is_clean(err);
 }
 
 // A stopped sweep still leaves its table, with what is not done marked as pending.

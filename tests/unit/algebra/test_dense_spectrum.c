@@ -299,44 +299,37 @@ TEST(test_lu_sign)
     assert_int_equal(dense_lu_sign(NULL, 0, NULL), 1);   // the empty product
 }
 
-// Q T Q' = A with Q'Q = 1; a product with such a matrix behind a border.
-TEST(test_tridiagonal)
+// A Y = B Y diag(values), Y'B Y = 1, for a definite B; none for another.
+TEST(test_pair)
 {
-    enum { SIZE = 7, BORDER = 3 };
+    enum { SIZE = 7 };
     Random random = {.state = 31};
     for (int32_t n = 0; n <= SIZE; n++) {
-        double a[SIZE * SIZE], q[SIZE * SIZE], t[SIZE * SIZE] = {0}, work[34 * SIZE + 64];
-        double diagonal[SIZE], beside[SIZE], x[SIZE], y[SIZE], through[SIZE], wanted[SIZE];
+        double a[SIZE * SIZE], b[SIZE * SIZE], y[SIZE * SIZE], factor[SIZE * SIZE];
+        double values[SIZE], work[26 * SIZE + 64], left[SIZE], right[SIZE];
         for (int32_t j = 0; j < n; j++)
             for (int32_t i = 0; i <= j; i++)
-                q[j * n + i] = q[i * n + j] = a[j * n + i] = a[i * n + j] =
+                b[j * n + i] = b[i * n + j] = random_between(&random, -0.3, 0.3) + (i == j ? 3 : 0);
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i <= j; i++)
+                y[j * n + i] = y[i * n + j] = a[j * n + i] = a[i * n + j] =
                     random_between(&random, -1, 1);
-        for (int32_t k = 0; k < n; k++) x[k] = k == 1 ? 0 : random_between(&random, -1, 1);
-        assert_true(dense_eigen_work(n) <= 34 * SIZE + 64);
-        assert_true(dense_tridiagonalise(q, n, diagonal, beside, work));
-        for (int32_t k = 0; k < n; k++) {
-            t[k * n + k] = diagonal[k];
-            if (k + 1 < n) t[k * n + k + 1] = t[(k + 1) * n + k] = beside[k];
-        }
-        dense_apply_transposed((DenseView){q, n, n}, x, 1, 0, y);
-        hand_apply(q, n, n, y, through);
-        assert_all_near("Q Q' x", through, x, n, 1e-14);
-        hand_apply(t, n, n, y, through);
-        hand_apply(q, n, n, through, y);
-        hand_apply(a, n, n, x, wanted);
-        assert_all_near("Q T Q' x", y, wanted, n, 1e-14);
-        for (int32_t border = n < BORDER ? n : BORDER; border >= 0; border--) {
-            for (int32_t j = border; j < n; j++)
-                for (int32_t i = border; i < n; i++)
-                    if (abs(i - j) > 1) a[j * n + i] = 0;
-            for (int32_t k = border; k < n; k++) {
-                diagonal[k] = a[k * n + k];
-                if (k + 1 < n) beside[k] = a[k * n + k + 1];
+        memcpy(factor, b, sizeof b);
+        assert_true(dense_eigen_work(n) <= 26 * SIZE + 64);
+        assert_true(dense_eigen_pair(y, factor, n, values, work));
+        for (int32_t j = 0; j < n; j++) {
+            hand_apply(a, n, n, y + j * n, left);
+            hand_apply(b, n, n, y + j * n, right);
+            for (int32_t i = 0; i < n; i++) {
+                double product = 0;
+                for (int32_t k = 0; k < n; k++) product += y[i * n + k] * right[k];
+                assert_near("Y'B Y", product, i == j, 1e-14);
+                assert_near("A Y", left[i], values[j] * right[i], 1e-14);
             }
-            hand_apply(a, n, n, x, wanted);
-            DenseBordered bordered = {a, n, border, diagonal + border, beside + border};
-            dense_bordered_apply(bordered, x, y);
-            assert_all_near("bordered", y, wanted, n, 1e-14);
+            if (j > 0) assert_true(values[j] >= values[j - 1]);
         }
+        if (n == 0) continue;
+        b[n * n - 1] = -1;
+        assert_false(dense_eigen_pair(a, b, n, values, work));
     }
 }

@@ -59,17 +59,18 @@ TEST(test_resize)
 {
     Error err = {0};
     int64_t live = memory_counters().live;
-    int32_t *list = memory_resize(NULL, 0, 3, sizeof(int32_t), &err);
+    int32_t *list = NULL;
+    assert_true(memory_resize(&list, 0, 3, sizeof(int32_t), &err));
     for (int32_t k = 0; k < 3; k++) list[k] = k + 1;
-    list = memory_resize(list, 3, 100, sizeof(int32_t), &err);
+    assert_true(memory_resize(&list, 3, 100, sizeof(int32_t), &err));
     for (int32_t k = 0; k < 100; k++) assert_int_equal(list[k], k < 3 ? k + 1 : 0);
-    list = memory_resize(list, 100, 2, sizeof(int32_t), &err);
+    assert_true(memory_resize(&list, 100, 2, sizeof(int32_t), &err));
     assert_int_equal(list[0], 1);
     assert_int_equal(list[1], 2);
     assert_int_equal(memory_counters().live, live + 1);
 
     memory_fail_after(0);   // the old items stay where they are
-    assert_null(memory_resize(list, 2, 50, sizeof(int32_t), &err));
+    assert_false(memory_resize(&list, 2, 50, sizeof(int32_t), &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     assert_int_equal(list[1], 2);
@@ -85,10 +86,8 @@ TEST(test_grow)
     MemoryCounters before = memory_counters();
     int32_t *list = NULL, room = 0;
     for (int32_t count = 0; count < 1000; count++) {
-        int32_t *longer = memory_grow(list, count, &room, sizeof(int32_t), &err);
-        assert_non_null(longer);
-        assert_true(room > count && longer[count] == 0);
-        list = longer;
+        assert_true(memory_grow(&list, count, &room, sizeof(int32_t), &err));
+        assert_true(room > count && list[count] == 0);
         list[count] = 3 * count + 1;
     }
     for (int32_t k = 0; k < 1000; k++) assert_int_equal(list[k], 3 * k + 1);
@@ -97,15 +96,17 @@ TEST(test_grow)
 
     memory_fail_after(0);
     int32_t full = room;
-    assert_ptr_equal(memory_grow(list, room - 1, &room, sizeof(int32_t), &err), list);
-    assert_null(memory_grow(list, room, &room, sizeof(int32_t), &err));
+    const int32_t *same = list;
+    assert_true(memory_grow(&list, room - 1, &room, sizeof(int32_t), &err) && list == same);
+    assert_false(memory_grow(&list, room, &room, sizeof(int32_t), &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     assert_int_equal(room, full);
     assert_int_equal(list[999], 2998);
     room = INT32_MAX;   // as full as a list can be: refused, nothing touched
     err = (Error){0};
-    assert_null(memory_grow(list, room, &room, sizeof(int32_t), &err));
+    assert_false(memory_grow(&list, room, &room, sizeof(int32_t), &err));
+    assert_true(list == same);
     assert_int_equal(err.code, ERROR_MEMORY);
     memory_free(list);
     assert_int_equal(memory_counters().live, before.live);

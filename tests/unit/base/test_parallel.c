@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Every piece is done once, in several threads where they are to be had, else one after the other;
-// signals stay with the caller's thread, and what pieces allocate is counted there.
+// pieces of pieces have the threads that are left; signals stay with the caller's thread, and what
+// pieces allocate is counted there.
 #include "base/parallel.h"
 
 #include "base/memory.h"
@@ -9,6 +10,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <time.h>
@@ -16,17 +18,26 @@
 enum { PIECES = 40, INNER = 5 };
 
 typedef struct Rig {
-    int32_t calls[PIECES], worker[PIECES], inner[PIECES];
+    int32_t calls[PIECES], worker[PIECES], left[PIECES];
+    atomic_int inner[PIECES];   // sums over pieces of a piece
+    atomic_int elsewhere;   // pieces of pieces that another thread did
     pthread_t thread[PIECES];
     bool masked[PIECES];
     double *kept[PIECES];
 } Rig;
 
+typedef struct Inner {
+    Rig *rig;
+    int32_t outer;
+} Inner;
+
 static void count_inner(void *context, int32_t k, int32_t worker)
 {
-    int32_t *sum = context;
-    assert_int_equal(worker, 0);   // in the thread of the piece that asked
-    *sum += k + 1;
+    const Inner *inner = context;
+    assert_true(worker >= 0 && worker < inner->rig->left[inner->outer]);
+    if (worker > 0) inner->rig->elsewhere++;
+    inner->rig->inner[inner->outer] += k + 1;
+    nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);   // or one thread might take all
 }
 
 static void piece(void *context, int32_t k, int32_t worker)
@@ -40,8 +51,8 @@ static void piece(void *context, int32_t k, int32_t worker)
     rig->worker[k] = worker;
     rig->calls[k]++;
     rig->kept[k] = NEW_ARRAY(double, 3, &err);
-    parallel_for(INNER, count_inner, &rig->inner[k]);
-    nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);   // or one thread might take all
+    rig->left[k] = parallel_workers();
+    parallel_for(INNER, count_inner, &(Inner){rig, k});
 }
 
 static Rig done(int32_t count)
@@ -56,6 +67,8 @@ static Rig done(int32_t count)
         assert_int_equal(rig.calls[k], k < count);
         if (k >= count) continue;
         assert_int_equal(rig.inner[k], INNER * (INNER + 1) / 2);
+        int32_t workers = parallel_workers(), most = count < workers ? count : workers;
+        assert_int_equal(rig.left[k], workers / most);
         assert_true(rig.worker[k] >= 0 && rig.worker[k] < parallel_workers());
         bool here = pthread_equal(rig.thread[k], pthread_self());
         assert_true(here == (rig.worker[k] == 0));
@@ -72,6 +85,13 @@ TEST(test_all_are_done)
         for (int32_t k = 0; k < count; k++) elsewhere += rig.worker[k] > 0;
     }
     assert_true(parallel_workers() == 1 || elsewhere > 0);
+}
+
+// One piece alone has them all.
+TEST(test_pieces_of_pieces)
+{
+    assert_true((done(1).elsewhere > 0) == (parallel_workers() > 1));
+    assert_int_equal(done(PIECES).elsewhere, 0);   // more pieces than threads
 }
 
 // As on a machine with one.

@@ -41,7 +41,8 @@ TEST(test_patch)
         Bulk bulk;
         block_build(&def, &mesh);
         for (int which = 0; which < 2; which++) {
-            assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+            assert_true(bulk_create(&mesh, &bulk, &err) &&
+                        bulk_assemble(&mesh, &material, &bulk, &err));
             double d[STRAINS_MAX][STRAINS_MAX], stress[3] = {0}, strain[3] = {0.4, -0.7, 0.5};
             moduli_matrix(which ? material_viscous(&material) : material_elastic(&material), 2, d);
             for (int r = 0; r < 3; r++)
@@ -57,7 +58,7 @@ TEST(test_patch)
                 u[2 * k + 1] = 2 + (strain[2] - 0.9) * x + strain[1] * z;
             }
             sparse_apply(&bulk.pattern, which ? bulk.damping : bulk.stiffness, u, force);
-            assert_all_near(element_name(def.kind), force, bulk.load, bulk.dof_count, 1e-13);
+            assert_all_near(ELEMENTS[def.kind].name, force, bulk.load, bulk.dof_count, 1e-13);
             free(u);
             free(force);
             bulk_destroy(&bulk);
@@ -79,7 +80,8 @@ TEST(test_dense_assembly)
         Mesh mesh;
         Bulk bulk;
         block_build(&def, &mesh);
-        assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+        assert_true(bulk_create(&mesh, &bulk, &err) &&
+                    bulk_assemble(&mesh, &material, &bulk, &err));
         int32_t n = 2 * mesh.node_count, stored = 0, needed = 0;
         assert_int_equal(bulk.dof_count, n);
         double *k_dense = hand_matrix(n, n), *c_dense = hand_matrix(n, n);
@@ -138,7 +140,8 @@ TEST(test_weights_and_tractions)
         Bulk bulk;
         MeshBoundary top;
         block_build(&def, &mesh);
-        assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+        assert_true(bulk_create(&mesh, &bulk, &err) &&
+                    bulk_assemble(&mesh, &material, &bulk, &err));
         for (int32_t k = 0; k < bulk.dof_count; k++) assert_true(bulk.load[k] == 0);
         assert_true(mesh_boundary(&mesh, "top", &top, &err));
         double *weight = hand_matrix(mesh.node_count, 1);
@@ -181,7 +184,7 @@ TEST(test_held)
     Mesh mesh;
     Bulk bulk;
     block_build(&def, &mesh);
-    assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+    assert_true(bulk_create(&mesh, &bulk, &err) && bulk_assemble(&mesh, &material, &bulk, &err));
     press_on(&mesh, "top", 0.3, -1, &bulk);
     int32_t n = bulk.dof_count;
     double *a[2] = {hand_matrix(n, n), hand_matrix(n, n)}, *x[2];
@@ -223,7 +226,7 @@ TEST(test_memory_faults)
         Error err = {0};
         Bulk bulk;
         memory_fail_after(k);
-        done = bulk_assemble(&mesh, &material, &bulk, &err);
+        done = bulk_create(&mesh, &bulk, &err) && bulk_assemble(&mesh, &material, &bulk, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         bulk_destroy(&bulk);

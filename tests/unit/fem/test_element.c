@@ -133,7 +133,7 @@ static void check_spectrum(ElementKind kind, const MeshPlace *position,
         hand_eigenvalues(a, dofs, values);
         for (int32_t k = 0; k < 3; k++) assert_near("rigid", values[k], 0, 1e-13);
         if (!(values[3] > 1e-3 * values[dofs - 1]))
-            fail_msg("%s: a fourth mode without energy (%g of %g)", element_name(kind), values[3],
+            fail_msg("%s: a fourth mode without energy (%g of %g)", ELEMENTS[kind].name, values[3],
                      values[dofs - 1]);
     }
 }
@@ -232,7 +232,7 @@ TEST(test_quadratic_motions)
             element_matrices(def.kind, (const MeshPlace *)position, &material, &matrices);
             energy += quadratic_form(matrices.stiffness, u, u, 2 * nodes);
         }
-        assert_near(element_name(def.kind), energy, axial * 4 * 1.5 * 1.5 * 1.5 * 0.6 / 3, 1e-13);
+        assert_near(ELEMENTS[def.kind].name, energy, axial * 4 * 1.5 * 1.5 * 1.5 * 0.6 / 3, 1e-13);
         mesh_destroy(&mesh);
     }
 }

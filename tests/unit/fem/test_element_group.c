@@ -102,7 +102,7 @@ static double least_energy(BlockDef def, Motion (*motion)(double x, double z), b
     Bulk bulk;
     block_build(&def, &mesh);
     if (grouped) assert_true(element_groups_find(ALL, &mesh, &err));
-    assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+    assert_true(bulk_create(&mesh, &bulk, &err) && bulk_assemble(&mesh, &material, &bulk, &err));
     int32_t n = bulk.dof_count, inner = 0, *inside = calloc((size_t)n, sizeof *inside);
     double *u = hand_matrix(n, 1), *force = hand_matrix(n, 1), energy = 0;
     const double *entries = viscous ? bulk.damping : bulk.stiffness;

@@ -108,7 +108,7 @@ TEST(test_linear)
         for (int wide = 0; wide < 2; wide++) {
             Material material = test_material(wide);
             double error = largest_error(&def, &material, false, linear_field);
-            assert_near(element_name(def.kind), error, 0, 1e-13);
+            assert_near(ELEMENTS[def.kind].name, error, 0, 1e-13);
         }
     }
 }
@@ -126,7 +126,7 @@ TEST(test_quadratic)
                         .seed = 12};
         Material material = test_material(true);
         double error = largest_error(&def, &material, false, quadratic_field);
-        assert_near(element_name(def.kind), error, 0, 1e-12);
+        assert_near(ELEMENTS[def.kind].name, error, 0, 1e-12);
     }
 }
 

@@ -174,6 +174,24 @@ TEST(test_constant_slip)
 }
 
 // No memory of ageing, and a state that stays.
+// What contacts remember that have rested for so long changes as the law says at rest; the slip law
+// changes nothing there, and takes the ageing law's state.
+TEST(test_rested)
+{
+    for (int k = 0; k < LAWS; k++) {
+        FrictionLaw law = law_of(k);
+        for (double t = 0.5; t < 20; t *= 2) {
+            double h = 1e-5 * t, rested = memory_rested(&MEMORIES[k], t);
+            double change = memory_rested(&MEMORIES[k], t + h) - memory_rested(&MEMORIES[k], t - h);
+            double rate = rates_at(&law, 0, rested).rate[0];
+            if (!MEMORIES[k].slip_law) assert_near("change", change / (2 * h), rate, 1e-8);
+            if (k > 1) assert_near("theta", memory_shown(&MEMORIES[k], rested), t, 1e-12 * t);
+        }
+    }
+    assert_near("at first", memory_rested(&MEMORIES[0], 0), 0, 0);
+    assert_near("at first", memory_rested(&MEMORIES[1], 0), 0, 0);
+}
+
 TEST(test_limits)
 {
     FrictionMemory memory = MEMORIES[0];

@@ -28,7 +28,9 @@ static ReducedPart make_part(Random *random, int32_t m, int32_t interior, int32_
                          .border_count = m,
                          .interior_count = interior,
                          .count = all,
-                         .mass = random_array(random, all * all),
+                         .mass = random_array(random, m * m),
+                         .coupling = random_array(random, interior * m),
+                         .masses = random_array(random, interior),
                          .damping = random_array(random, all * all),
                          .stiffness = random_array(random, m * m),
                          .load = random_array(random, all),
@@ -97,7 +99,9 @@ static void assert_same_bulk(const ReducedBulk *a, const ReducedBulk *b, bool wi
         size_t all = (size_t)wanted->count, m = (size_t)wanted->border_count;
         assert_true(part->interior_count == wanted->interior_count && part->count == wanted->count);
         assert_same_map(&part->border, &wanted->border);
-        assert_same(part->mass, wanted->mass, all * all);
+        assert_same(part->mass, wanted->mass, m * m);
+        assert_same(part->coupling, wanted->coupling, (all - m) * m);
+        assert_same(part->masses, wanted->masses, all - m);
         assert_same(part->damping, wanted->damping, all * all);
         assert_same(part->stiffness, wanted->stiffness, m * m);
         assert_same(part->load, wanted->load, all);

@@ -59,10 +59,10 @@ TEST(test_pads_by_turns)
     hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.1, ACROSS);
     for (int32_t k = 0; k < 5; k++) {
-        assert_false(answers_are_known(&hand.drops));
+        assert_false(answers_of(&hand.drops).enough);
         drop(&hand, k % 2 ? 0.3 + 0.001 * k : 0.25, 0.1, k % 2 ? ACROSS : LEFT);
     }
-    assert_true(answers_are_known(&hand.drops));
+    assert_true(answers_of(&hand.drops).enough);
     Answers found = answers_of(&hand.drops);
     assert_true(found.regime.period == 2 && found.regime.count == 4);
     assert_true(found.period == 1 && found.peaks == 3 && found.peaks_counted == 2);
@@ -106,7 +106,7 @@ TEST(test_stuck_pad)
     assert_near("one peak", answers_of(&hand.drops).mu_M.value, 0.31, 0);
     for (int32_t k = 0; k < 6; k++) {
         drop(&hand, 0.3, 0.1, LEFT);
-        assert_false(answers_are_known(&hand.drops));
+        assert_false(answers_of(&hand.drops).enough);
     }
     found = answers_of(&hand.drops);
     assert_true(found.regime.run_in == RUN_IN_LAGS && found.regime.period == 0);
@@ -180,7 +180,7 @@ TEST(test_without_period)
     assert_false(found.enough);   // 30 of them, but the mean is known to 2.2 % only
     for (int32_t k = 30; k < 80; k++)
         drop(&hand, 0.3 + 0.01 * ((7 * k * k) % 20), 0.1, k % 3 ? LEFT : ACROSS);
-    assert_true(answers_are_known(&hand.drops));
+    assert_true(answers_of(&hand.drops).enough);
     hand_drops_end(&hand);
 }
 

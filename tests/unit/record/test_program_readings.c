@@ -22,7 +22,7 @@ static void begin(Fixture *fixture, int32_t count, const double *at, const doubl
     *fixture = (Fixture){0};
     hand_seen_init(&fixture->hand);
     fixture->course = rod_course(&table, false, V);
-    fixture->readings = program_readings_of(&fixture->course);
+    fixture->readings = (ProgramReadings){.course = &fixture->course};
     assert_true(program_jumps(&fixture->course));
 }
 

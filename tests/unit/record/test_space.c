@@ -336,7 +336,7 @@ TEST_BETWEEN(test_turning, setup, teardown)
     Error err = {0};
     ContactArrays contact;
     assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
-    Turning turning = turning_of(&contact);
+    Turning turning = {.contact = &contact};
     for (int32_t k = 0; k < 3; k++) {
         double part = k == 1 ? 1 : 0.25 * k;   // it comes back half way
         for (int32_t i = 0; i < NODES; i++) {

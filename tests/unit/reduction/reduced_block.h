@@ -41,7 +41,8 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
     memset(block, 0, sizeof *block);
     block_build(shape, &block->mesh);
     mark_layer(&block->mesh, layer, &materials);
-    assert_true(bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
+    assert_true(bulk_create(&block->mesh, &block->bulk, &err) &&
+                bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
     assert_true(mesh_boundary(&block->mesh, "contact", &contact, &err));
     assert_true(mesh_boundary(&block->mesh, "rod", &rod, &err));
     assert_true(mesh_boundary(&block->mesh, "top", &top, &err));
@@ -132,6 +133,21 @@ static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms te
     interface_operator_destroy(rung);
     bulk_operator_destroy(&system);
     return schur;
+}
+
+// [count^2] M of a part as one matrix.
+static inline double *whole_mass(const ReducedPart *part)
+{
+    int32_t m = part->border_count, r = part->interior_count, count = part->count;
+    double *mass = hand_matrix(count, count);
+    memset(mass, 0, (size_t)count * (size_t)count * sizeof *mass);
+    for (int32_t j = 0; j < m; j++) {
+        for (int32_t i = 0; i < m; i++) mass[j * count + i] = part->mass[j * m + i];
+        for (int32_t i = 0; i < r; i++)
+            mass[j * count + m + i] = mass[(m + i) * count + j] = part->coupling[j * r + i];
+    }
+    for (int32_t k = 0; k < r; k++) mass[(m + k) * (count + 1)] = part->masses[k];
+    return mass;
 }
 
 #endif

@@ -22,7 +22,8 @@ static void fixture_build(ElementKind kind, Fixture *fixture)
     Material material = {.young = 1, .poisson = 0.34, .density = 1.3, .eta1 = 0.8, .eta2 = 0.5};
     BlockDef def = {.kind = kind, .nx = 3, .nz = 3, .length = 1, .height = 0.5, .distortion = 0.2};
     block_build(&def, &fixture->mesh);
-    assert_true(bulk_assemble(&fixture->mesh, &material, &fixture->bulk, &err));
+    assert_true(bulk_create(&fixture->mesh, &fixture->bulk, &err) &&
+                bulk_assemble(&fixture->mesh, &material, &fixture->bulk, &err));
     MeshBoundary contact, rod;
     assert_true(mesh_boundary(&fixture->mesh, "contact", &contact, &err));
     assert_true(mesh_boundary(&fixture->mesh, "rod", &rod, &err));

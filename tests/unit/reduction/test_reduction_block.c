@@ -35,14 +35,15 @@ static void build(Case what, Mesh *mesh, ReductionBlock *block, char name[HASH_T
     mesh->x_min = what.shift;
     mesh->x_max = what.length + what.shift;
     if (what.moved >= 0) mesh->position[2 * what.moved + 1] += 1e-6 * what.length;
-    assert_true(bulk_assemble(mesh, &what.material, &bulk, &err));
+    assert_true(bulk_create(mesh, &bulk, &err));
     assert_true(mesh_boundary(mesh, "top", &top, &err));
     bulk_add_traction(mesh, &top, traction, &bulk);
     if (what.held >= 0) bulk_hold(what.held, &bulk);
     double largest = 0;
     for (int32_t k = 0; k < bulk.dof_count; k++) largest = fmax(largest, fabs(bulk.load[k]));
     Materials materials = materials_of(&what.material);
-    if (!reduction_block_create(mesh, &bulk, &materials, largest, block, &err))
+    if (!reduction_block_create(mesh, &bulk, &materials, largest, block, &err) ||
+        !reduction_block_assemble(mesh, block, &err))
         fail_msg("%s", err.message);
     for (int32_t k = 0; k < what.interface; k++) dofs[k] = k;
     Hash hash = hash_start();
@@ -90,7 +91,7 @@ TEST(test_normalised)
     ReductionBlock block;
     char name[HASH_TEXT_SIZE];
     build(si, &mesh, &block, name);
-    assert_true(bulk_assemble(&mesh, &si.material, &bulk, &err));
+    assert_true(bulk_create(&mesh, &bulk, &err) && bulk_assemble(&mesh, &si.material, &bulk, &err));
     int32_t entries = bulk.pattern.start[bulk.dof_count];
     for (int32_t k = 0; k < entries; k++) {
         assert_near("K", block.bulk.stiffness[k], bulk.stiffness[k] / 3e9, 1e-6);
@@ -138,14 +139,15 @@ TEST(test_memory_faults)
     Bulk bulk;
     ReductionBlock block;
     block_build(&SHAPE, &mesh);
-    assert_true(bulk_assemble(&mesh, &MATERIAL, &bulk, &err));
+    assert_true(bulk_create(&mesh, &bulk, &err));
     int64_t live = memory_counters().live;
     bool done = false;
     Materials materials = materials_of(&MATERIAL);
     for (int32_t k = 0; !done; k++) {
         err = (Error){0};
         memory_fail_after(k);
-        done = reduction_block_create(&mesh, &bulk, &materials, 1, &block, &err);
+        done = reduction_block_create(&mesh, &bulk, &materials, 1, &block, &err) &&
+               reduction_block_assemble(&mesh, &block, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         reduction_block_destroy(&block);

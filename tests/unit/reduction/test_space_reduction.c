@@ -50,7 +50,8 @@ static void build(const SpaceCase *one, ReducedBlock *block)
     dense_use_one_thread();
     memset(block, 0, sizeof *block);
     space_build(&one->shape, &block->mesh);
-    assert_true(bulk_assemble(&block->mesh, &MATERIAL, &block->bulk, &err));
+    assert_true(bulk_create(&block->mesh, &block->bulk, &err) &&
+                bulk_assemble(&block->mesh, &MATERIAL, &block->bulk, &err));
     assert_true(mesh_boundary(&block->mesh, "top", &top, &err));
     bulk_add_traction(&block->mesh, &top, TRACTION, &block->bulk);
     list_interface(block);

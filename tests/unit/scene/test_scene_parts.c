@@ -11,8 +11,8 @@ static const BadScene bad_parts[] = {
     {5,
      "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: "
      "''}]}",
-     "s.yaml:5:89: friction.contacts: found ``",
-     {"a text"}},
+     "s.yaml:5:89: friction.contacts.group: found ``",
+     {"a name of 1 to 63 bytes"}},
     {5,
      "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{law: "
      "coulomb}]}",
@@ -21,8 +21,8 @@ static const BadScene bad_parts[] = {
     {5,
      "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
      "formula: ''}]}",
-     "s.yaml:5:101: friction.contacts: found ``",
-     {0}},
+     "s.yaml:5:101: friction.contacts.formula: found ``",
+     {"a text"}},
     {5,
      "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
      "mu: 1}]}",
@@ -126,8 +126,8 @@ static const BadScene bad_parts[] = {
     {5,
      "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: "
      "a2345678901234567890123456789012345678901234567890123456789012345}]}",
-     "s.yaml:5:89: friction.contacts: found `a23",
-     {"a text"}},
+     "s.yaml:5:89: friction.contacts.group: found `a23",
+     {"a name of 1 to 63 bytes"}},
     {1, "title: \"a\\tb\"", "s.yaml:1:8: title: found", {"a text of at most 511 bytes"}},
     {7, "rod: {velocity: 1e-4, program: {repeat: true}}", "s.yaml:", {"two points or more"}},
     {0, "output: {figures: [field]}", "s.yaml:9:", {"it needs output.fields"}},

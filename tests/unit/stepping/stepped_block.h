@@ -71,7 +71,8 @@ static inline void stepped_block_build(const SteppedDef *def, SteppedBlock *bloc
                              .rod_width = 0.1 * STEPPED_HEIGHT};
     Bulk *bulk = &block->bulk;
     Interface *interface = &block->interface;
-    bool built = bulk_assemble(&block->mesh, &block->material, bulk, &err) &&
+    bool built = bulk_create(&block->mesh, bulk, &err) &&
+                 bulk_assemble(&block->mesh, &block->material, bulk, &err) &&
                  mesh_boundary(&block->mesh, "top", &top, &err);
     if (built) bulk_add_traction(&block->mesh, &top, traction, bulk);
     built = built && interface_build(&block->mesh, &touching, interface, &err) &&

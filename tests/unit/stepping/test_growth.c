@@ -33,7 +33,8 @@ static void case_build_block(Case *test, const BlockDef *def, const Material *ma
     Error err = {0};
     dense_use_one_thread();
     block_build(def, &test->mesh);
-    assert_true(bulk_assemble(&test->mesh, material, &test->bulk, &err));
+    assert_true(bulk_create(&test->mesh, &test->bulk, &err) &&
+                bulk_assemble(&test->mesh, material, &test->bulk, &err));
     InterfaceDef where = {.has_rod = true,
                           .rod_name = "rod",
                           .rod_height = def->height / 2,

@@ -151,7 +151,8 @@ static void slab_build(double length, int32_t nx, int32_t nz, Slab *slab)
     dense_use_one_thread();
     friction_make_memory(&memory, &slab->law);
     block_build(&def, &slab->mesh);
-    assert_true(bulk_assemble(&slab->mesh, &material, &slab->assembled, &err));
+    assert_true(bulk_create(&slab->mesh, &slab->assembled, &err) &&
+                bulk_assemble(&slab->mesh, &material, &slab->assembled, &err));
     slab_wrap(slab, nx, nz);
     Interface *interface = &slab->interface;
     *interface = (Interface){.dim = 2, .contact_count = nx, .count = 2 * nx, .pad_count = 1};

@@ -7,10 +7,24 @@
 typedef struct Pushed {
     BlockRig rig;
     StepControl control;
+    FrictionLaw *laws;   // [contact_count]; owned
 } Pushed;
 
-// Half as high as long, the rod along its breadth.
-static void pushed_build(const int32_t cells[3], Pushed *pushed)
+// mu is rise[0] x + rise[1] y higher than at the corner.
+static void pushed_vary(const double rise[2], Pushed *pushed)
+{
+    Error err = {0};
+    const Interface *interface = &pushed->rig.interface;
+    pushed->laws = NEW_ARRAY(FrictionLaw, interface->contact_count, &err);
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        pushed->laws[i] = friction_scaled(&pushed->rig.law, 1 + rise[0] * interface->x[i] +
+                                                                rise[1] * interface->y[i]);
+    pushed->rig.law = friction_spread(pushed->laws, interface->contact_count);
+}
+
+// Half as high as long, the rod along its breadth. rise: of friction; NULL: it is the same
+// everywhere.
+static void pushed_build(const int32_t cells[3], const double *rise, Pushed *pushed)
 {
     Error err = {0};
     int64_t count = 0;
@@ -26,6 +40,8 @@ static void pushed_build(const int32_t cells[3], Pushed *pushed)
                             .use_certificate = true};
     space_rig_build(&shape, &def, (double[]){0, 0, -0.003}, &pushed->rig);
     BlockRig *rig = &pushed->rig;
+    pushed->laws = NULL;
+    if (rise) pushed_vary(rise, pushed);
     assert_true(step_control_create(&rig->block, &steps, &pushed->control, &err));
     RelaxationDef relaxation = {.speed_max = 1e-9, .duration_max = 1e5};
     assert_true(relax(&pushed->control, &relaxation, &count, &err));
@@ -43,6 +59,7 @@ static void pushed_destroy(Pushed *pushed)
 {
     step_control_destroy(&pushed->control);
     rig_destroy(&pushed->rig);
+    memory_free(pushed->laws);
 }
 
 static void compare_certificates(StepControl *control)
@@ -53,13 +70,13 @@ static void compare_certificates(StepControl *control)
     assert_int_equal(certificate_holds(&control->certificate, now, 0), even && odd);
 }
 
-static void same_steps(const int32_t cells[3])
+static void same_steps(const int32_t cells[3], const double *rise)
 {
     Error err = {0};
     Pushed half, whole;
     int32_t halved = 0, certified = 0, count = 0, slipping = 0;
-    pushed_build(cells, &half);
-    pushed_build(cells, &whole);
+    pushed_build(cells, rise, &half);
+    pushed_build(cells, rise, &whole);
     whole.control.lopsided = true;
     assert_true(half.control.half.exists);
     for (; half.control.now.time < 45; count++) {
@@ -87,8 +104,20 @@ static void same_steps(const int32_t cells[3])
 // With nodes on the middle line, and without.
 TEST(test_same_steps)
 {
-    same_steps((int32_t[]){4, 4, 2});
-    same_steps((int32_t[]){4, 3, 2});
+    same_steps((int32_t[]){4, 4, 2}, NULL);
+    same_steps((int32_t[]){4, 3, 2}, NULL);
+}
+
+TEST(test_friction_that_differs)
+{
+    Error err = {0};
+    Pushed across;
+    same_steps((int32_t[]){4, 4, 2}, (double[]){0.4, 0});
+    pushed_build((int32_t[]){4, 4, 2}, (double[]){0.4, 1e-12}, &across);
+    assert_true(step_control_advance(&across.control, INFINITY, &err));
+    assert_true(across.control.half.exists);
+    assert_int_equal(across.control.ladder.side, LADDER_WHOLE);   // not its own mirror image
+    pushed_destroy(&across);
 }
 
 // All of one side move by way * (1, 1, 0), those of the other by way * (-1, 1, 0).
@@ -111,8 +140,8 @@ TEST(test_pushed_aside)
     Error err = {0};
     Pushed half, whole;
     const int32_t cells[] = {4, 4, 2};
-    pushed_build(cells, &half);
-    pushed_build(cells, &whole);
+    pushed_build(cells, NULL, &half);
+    pushed_build(cells, NULL, &whole);
     whole.control.lopsided = true;
     Pushed *both[] = {&half, &whole};
     for (int32_t k = 0; k < 2; k++) {
@@ -143,8 +172,8 @@ TEST(test_odd_is_followed)
     double odd[2][STEPS], way[] = {3e-15, 1e-13};
     int32_t acting = 0;
     const int32_t cells[] = {4, 4, 2};
-    pushed_build(cells, &half);
-    pushed_build(cells, &whole);
+    pushed_build(cells, NULL, &half);
+    pushed_build(cells, NULL, &whole);
     whole.control.lopsided = true;
     while (half.control.odd_decays) {
         assert_true(half.control.now.time < 60);

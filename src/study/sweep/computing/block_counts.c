@@ -3,17 +3,10 @@
 // too (reduction/reduction_block), and are counted apart.
 #include "study/sweep/computing/block_counts.h"
 
-#include "base/memory.h"
 #include "scene/keys.h"
 
-#include <stdlib.h>
+#include <search.h>
 #include <string.h>
-
-void block_counts_destroy(BlockCounts *counts)
-{
-    memory_free(counts->blocks);
-    *counts = (BlockCounts){0};
-}
 
 // Where the block is, what it consists of, where it is held and pushed, how exactly it is reduced.
 static bool key_counts(const char *key)
@@ -28,41 +21,36 @@ static bool key_counts(const char *key)
 }
 
 // With tractions the pattern of the load depends on the pressure.
-bool block_counts_note(const Scene *scene, const PointMesh *mesh, BlockCounts *counts, Error *err)
+bool block_note(const Scene *scene, const PointMesh *mesh, SweepPoint *point, Error *err)
 {
-    Hash hash = hash_start();
-    hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
-    if (scene->load.traction_count > 0) hash_number(&hash, scene->load.pressure);
-    hash_number(&hash, scene->time.accuracy);   // the reduction's, where it says none itself
-    if (!scene_hash(scene, key_counts, &hash, err)) return false;
-    Hash *blocks = memory_grow(counts->blocks, counts->count, &counts->room, sizeof *blocks, err);
-    if (!blocks) return false;
-    counts->blocks = blocks;
-    counts->blocks[counts->count++] = hash;
-    return true;
+    point->block = hash_start();
+    hash_bytes(&point->block, &mesh->hash, sizeof mesh->hash);
+    if (scene->load.traction_count > 0) hash_number(&point->block, scene->load.pressure);
+    hash_number(&point->block,
+                scene->time.accuracy);   // the reduction's, where it says none itself
+    return scene_hash(scene, key_counts, &point->block, err);
 }
-
-typedef struct BlockOfPoint {
-    Hash block;
-    int32_t point;
-} BlockOfPoint;
 
 static int compare_blocks(const void *a, const void *b)
 {
-    return memcmp(a, b, sizeof(Hash));
+    const SweepPoint *one = a, *other = b;
+    return memcmp(&one->block, &other->block, sizeof one->block);
 }
 
-bool block_counts_set(const BlockCounts *counts, SweepPoint *points, Error *err)
+bool blocks_count(SweepPoint *points, int32_t count, Error *err)
 {
-    int32_t count = counts->count;
-    BlockOfPoint *sorted = NEW_ARRAY(BlockOfPoint, count, err);
-    if (!sorted) return false;
-    for (int32_t k = 0; k < count; k++) sorted[k] = (BlockOfPoint){counts->blocks[k], k};
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_blocks);
-    for (int32_t first = 0, end; first < count; first = end) {
-        for (end = first; end < count && compare_blocks(&sorted[first], &sorted[end]) == 0;) end++;
-        for (int32_t k = first; k < end; k++) points[sorted[k].point].runs = end - first;
+    void *tree = NULL;   // the first of each block, which counts for all
+    for (int32_t k = 0; k < count; k++) {
+        points[k].runs = 0;
+        SweepPoint *const *first = tsearch(&points[k], &tree, compare_blocks);
+        if (!first) FAIL(err, ERROR_MEMORY, "no memory for %d blocks", k);
+        (*first)->runs++;
     }
-    memory_free(sorted);
-    return true;
+    for (int32_t k = 0; k < count; k++) {
+        SweepPoint *const *first = tfind(&points[k], &tree, compare_blocks);
+        points[k].runs = (*first)->runs;
+    }
+cleanup:
+    points_forget(&tree);
+    return error_is_clean(err);
 }

@@ -6,13 +6,11 @@
 
 #include "study/sweep/computing/point.h"
 
-void block_counts_destroy(BlockCounts *counts);   // zeroed is fine, here and below
-
-// The next point's scene; `mesh`: the hash of its file, as point_hash has left it.
-bool block_counts_note(const Scene *scene, const PointMesh *mesh, BlockCounts *counts, Error *err);
+// The point's scene; `mesh`: the hash of its file, as point_hash has left it.
+bool block_note(const Scene *scene, const PointMesh *mesh, SweepPoint *point, Error *err);
 
 // Sets `runs` of all points: those with the same block, computed before or not, so that a study
 // that is taken up again goes on as it began.
-bool block_counts_set(const BlockCounts *counts, SweepPoint *points, Error *err);
+bool blocks_count(SweepPoint *points, int32_t count, Error *err);
 
 #endif

@@ -13,12 +13,16 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
+#include <search.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 enum { REPORT_BYTES_MAX = 1 << 28 };
+
+static const char RUN_REPORT[] = "run.json";   // whose presence makes a point finished
+static const char CHECKPOINT[] =
+    "checkpoint.bin";   // of a run that was cut off; short ones have none
 
 // The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
 // makes of it with this point's parameters, every time.
@@ -60,77 +64,64 @@ bool point_hash(Sweep *sweep, const Scene *scene, char text[HASH_TEXT_SIZE], Err
 
 static int compare_hashes(const void *a, const void *b)
 {
-    const HashedPoint *one = a, *other = b;
-    int order = strcmp(one->hash, other->hash);
-    return order != 0 ? order : one->point - other->point;
+    const SweepPoint *one = a, *other = b;
+    return strcmp(one->hash, other->hash);
+}
+
+static void keep_point(void *point)
+{
+    (void)point;   // the tree does not own it
+}
+
+void points_forget(void **tree)
+{
+    if (*tree) tdestroy(*tree, keep_point);
+    *tree = NULL;
 }
 
 // A study may have a million points: none is compared with all others.
-bool points_sort(Sweep *sweep, PointsByHash *points, Error *err)
+bool points_find_same(Sweep *sweep, Error *err)
 {
-    int32_t count = sweep->study.point_count;
-    *points = (PointsByHash){.sweep = sweep, .list = NEW_ARRAY(HashedPoint, count, err)};
-    if (!points->list) return false;
-    for (int32_t k = 0; k < count; k++) points->list[k] = (HashedPoint){sweep->points[k].hash, k};
-    qsort(points->list, (size_t)count, sizeof *points->list, compare_hashes);
+    points_forget(&sweep->by_hash);
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *const *first = tsearch(&sweep->points[k], &sweep->by_hash, compare_hashes);
+        if (!first) return FAULT(err, ERROR_MEMORY, "no memory for %d points", k);
+        sweep->points[k].same_as = (int32_t)(*first - sweep->points);
+    }
     return true;
 }
 
-int32_t points_look_up(const PointsByHash *points, const char *hash)
+int32_t points_look_up(const Sweep *sweep, const char *hash)
 {
-    int32_t low = 0, count = points->sweep->study.point_count, high = count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (strcmp(points->list[middle].hash, hash) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    bool found = low < count && strcmp(points->list[low].hash, hash) == 0;
-    return found ? points->list[low].point : -1;
+    SweepPoint like = {0};
+    snprintf(like.hash, sizeof like.hash, "%s", hash);
+    SweepPoint *const *first = tfind(&like, &sweep->by_hash, compare_hashes);
+    return first ? (int32_t)(*first - sweep->points) : -1;
 }
 
 void points_note_place(void *context, const char *hash, ReportPlace place)
 {
-    const PointsByHash *points = context;
-    int32_t point = points_look_up(points, hash);
-    if (point >= 0) points->sweep->points[point].place = place;
-}
-
-bool points_find_same(Sweep *sweep, Error *err)
-{
-    PointsByHash sorted;
-    if (!points_sort(sweep, &sorted, err)) return false;
-    for (int32_t k = 0, first = 0; k < sweep->study.point_count; k++) {
-        const HashedPoint *list = sorted.list;
-        if (strcmp(list[k].hash, list[first].hash) != 0) first = k;
-        sweep->points[list[k].point].same_as = list[first].point;
-    }
-    memory_free(sorted.list);
-    return true;
+    Sweep *sweep = context;
+    int32_t point = points_look_up(sweep, hash);
+    if (point >= 0) sweep->points[point].place = place;
 }
 
 const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
 {
     Scene *scene = sweep->scene;
     double accuracy = sweep->points[point].accuracy;
-    if (!study_point_scene(&sweep->study, point, scene, err)) return NULL;
+    if (!study_scene(&sweep->study, &(PointChoice){.point = point}, scene, err)) return NULL;
     scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
     return scene;
 }
 
 // By hash, not by number: a study that is changed finds its old points again.
-static void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
+void point_path(const Sweep *sweep, int32_t point, const char *file,
+                char path[POINT_PATH_SIZE + 16])
 {
-    snprintf(folder, POINT_PATH_SIZE, "%s/points/%s", sweep->folder, sweep->points[point].hash);
-}
-
-// The file whose presence makes a point finished.
-void point_report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
-{
-    point_folder(sweep, point, path);
-    strcat(path, "/run.json");
+    snprintf(path, POINT_PATH_SIZE + 16, "%s/points/%s%s%s", sweep->folder,
+             sweep->points[point].hash, *file ? "/" : "", file);
 }
 
 // Missing is no error; unreadable is.
@@ -141,32 +132,34 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
         return first->place.size > 0 ? reports_read(&sweep->reports, first->place, err) : NULL;
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
     int32_t size = 0;
-    point_report_path(sweep, point, path);
+    point_path(sweep, point, RUN_REPORT, path);
     if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
     return bytes;
 }
 
 PointValue point_value(const char *report, const char *path)
 {
-    PointValue found = {NAN, NAN, NAN};
+    PointValue found = {NAN, NAN, NAN, NAN};
     char beside[STUDY_NAME_SIZE + 16];
-    double error = NAN;
     if (!report) return found;
     json_find_number(report, path, &found.value);
     snprintf(beside, sizeof beside, "%s_error", path);
-    json_find_number(report, beside, &error);
+    json_find_number(report, beside, &found.error);
     snprintf(beside, sizeof beside, "%s_known_to", path);
     if (!json_find_number(report, beside, &found.known_to))
-        found.known_to = isnan(error) ? 0 : error;
-    if (error == found.known_to) found.bar = error;
+        found.known_to = isnan(found.error) ? 0 : found.error;
+    if (found.error == found.known_to) found.bar = found.error;
     return found;
 }
 
-// An interrupted run is not finished, though it left a run.json.
+// An interrupted run is not finished, though it left a run.json; nor is one whose run.json a disk
+// lost in part.
 PointStatus point_status(const char *report)
 {
     char status[20] = "", failure[40] = "";
-    if (!report || !json_find_text(report, "status", status, sizeof status)) return POINT_PENDING;
+    if (!report || !json_is_whole(report) ||
+        !json_find_text(report, "status", status, sizeof status))
+        return POINT_PENDING;
     if (strcmp(status, "done") == 0) return POINT_DONE;
     json_find_text(report, "failure", failure, sizeof failure);
     return strcmp(failure, amontons_error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING
@@ -180,23 +173,16 @@ const char *point_status_name(PointStatus status)
     return names[status];
 }
 
-// Of a run that was cut off. Short ones have none.
-static void checkpoint_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
-{
-    point_folder(sweep, point, path);
-    strcat(path, "/checkpoint.bin");
-}
-
 // run.json, which alone makes a point finished; anew: and what it could be gone on with from.
 void point_remove(Sweep *sweep, int32_t point, bool anew)
 {
     sweep->points[point].place = (ReportPlace){0};
     if (sweep->reports.open) return;
     char path[POINT_PATH_SIZE + 16];
-    point_report_path(sweep, point, path);
+    point_path(sweep, point, RUN_REPORT, path);
     unlink(path);   // the rest is the next run's to overwrite
     if (!anew) return;
-    checkpoint_path(sweep, point, path);
+    point_path(sweep, point, CHECKPOINT, path);
     unlink(path);
 }
 
@@ -232,18 +218,18 @@ bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err)
 // have left in the folder.
 bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
 {
-    char folder[POINT_PATH_SIZE], checkpoint[POINT_PATH_SIZE + 16];
+    char folder[POINT_PATH_SIZE + 16], checkpoint[POINT_PATH_SIZE + 16];
     RunSummary summary;
     RunOptions options = {.folder = folder, .overwrite = true};
     const Scene *scene = point_scene(sweep, point, err);
     *report = NULL;
     TRY(scene);
-    point_folder(sweep, point, folder);
+    point_path(sweep, point, "", folder);
     if (sweep->reports.open) {
         TRY(run_for_table(scene, report, err));
         goto cleanup;
     }
-    checkpoint_path(sweep, point, checkpoint);
+    point_path(sweep, point, CHECKPOINT, checkpoint);
     options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
     if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;
     if (err->code != ERROR_INPUT) goto cleanup;
@@ -258,14 +244,14 @@ cleanup:
 bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const char *message,
                          Error *err)
 {
-    char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16], *report = NULL;
+    char folder[POINT_PATH_SIZE + 16], path[POINT_PATH_SIZE + 16], *report = NULL;
     bool table = sweep->reports.open;
     const Scene *scene = point_scene(sweep, point, err);
     JsonWriter *json = NULL;
     TRY(scene);
-    point_folder(sweep, point, folder);
+    point_path(sweep, point, "", folder);
     if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
-    point_report_path(sweep, point, path);
+    point_path(sweep, point, RUN_REPORT, path);
     TRY((json = json_create(table ? NULL : path, err)));
     json_begin_object(json, NULL);
     json_text(json, "status", "failed");
@@ -284,18 +270,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What does not fit into POINT_WORDS_SIZE is left out, key by key.
 void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE])
 {
-    size_t used = 0;
     words[0] = 0;
-    for (int32_t k = 0; k < sweep->study.column_count; k++) {
-        char text[160];
-        double number = 0;
-        study_scene_value(scene, sweep->study.columns[k], text, sizeof text, &number);
-        int length = snprintf(words + used, POINT_WORDS_SIZE - used, "%s%s=%s", used ? " " : "",
-                              sweep->study.columns[k], *text ? text : "none");
-        if (length < 0 || (size_t)length >= POINT_WORDS_SIZE - used) break;
-        used += (size_t)length;
-    }
+    for (int32_t k = 0; k < sweep->study.column_count; k++)
+        study_add_words(scene, sweep->study.columns[k], words, POINT_WORDS_SIZE);
 }

@@ -28,6 +28,7 @@ typedef struct SweepPoint {
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
     ReportPlace place;   // of its report, with `keep: table`
+    Hash block;   // what its basis depends on
     int32_t runs;   // points that step on the same basis, this one too (block_counts)
     double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
     bool settled;   // a smaller accuracy is of no use
@@ -42,12 +43,6 @@ typedef struct PointMesh {
     char path[SCENE_TEXT_SIZE];
 } PointMesh;
 
-// What the basis of each point depends on, in the study's order (block_counts).
-typedef struct BlockCounts {
-    Hash *blocks;   // [room] owned
-    int32_t count, room;   // noted so far
-} BlockCounts;
-
 typedef struct Sweep {
     const SweepOptions *options;   // not owned
     Study study;   // owned
@@ -58,7 +53,7 @@ typedef struct Sweep {
     int32_t point_count;   // points so far: a search adds some in each round
     Scene *scene;   // of the point that point_scene was asked for last; owned
     PointMesh mesh;
-    BlockCounts blocks;   // owned
+    void *by_hash;   // tree of points (tsearch), the first of each hash; owned
     double started;   // wall clock, s
     bool checked;   // what the study records is in run.json
     int32_t planned;   // points to compute or to find: all, and those computed again; of a search
@@ -74,35 +69,26 @@ enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
 const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(Sweep *sweep, const Scene *scene, char hash[HASH_TEXT_SIZE], Error *err);
-// The points sorted by hash, equal ones by number.
-typedef struct HashedPoint {
-    const char *hash;   // not owned
-    int32_t point;
-} HashedPoint;
-
-typedef struct PointsByHash {
-    Sweep *sweep;   // not owned
-    HashedPoint *list;   // [study.point_count]; memory_free
-} PointsByHash;
-
-bool points_sort(Sweep *sweep, PointsByHash *points, Error *err);
-int32_t points_look_up(const PointsByHash *points, const char *hash);   // the first; -1: none
-// For a ReportFound; context: PointsByHash.
-void points_note_place(void *points, const char *hash, ReportPlace place);
-// Of points with the same hash the first one is `same_as` of all.
+// Of points with the same hash the first one is `same_as` of all, from then on found by its hash.
 bool points_find_same(Sweep *sweep, Error *err);
+int32_t points_look_up(const Sweep *sweep, const char *hash);   // -1: none
+void points_note_place(void *sweep, const char *hash, ReportPlace place);   // for a ReportFound
+void points_forget(void **tree);   // of tsearch, whose points stay
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
-// The number at `path` in a run.json, and its error: `bar` with the mesh's part, `known_to` with
-// what a mesh usually leaves where that is not known. NaN: none, also where `report` is NULL.
+// The number at `path` in a run.json, its error as it stands there, and how far it is known: `bar`
+// with the mesh's part, `known_to` with what a mesh usually leaves where that is not known. NaN:
+// none, also where `report` is NULL.
 typedef struct PointValue {
-    double value, bar, known_to;
+    double value, error, bar, known_to;
 } PointValue;
 PointValue point_value(const char *report, const char *path);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
 void point_remove(Sweep *sweep, int32_t point, bool anew);
-void point_report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16]);
+// Of a file of the point's, "run.json"; "": of its folder.
+void point_path(const Sweep *sweep, int32_t point, const char *file,
+                char path[POINT_PATH_SIZE + 16]);
 // In this process. *report: with `keep: table` what run.json would hold, but for the scene and the
 // list of events, on one line (memory_free); else NULL.
 bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err);

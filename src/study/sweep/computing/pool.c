@@ -51,19 +51,6 @@ typedef struct Pool {
     int32_t next, step;   // point to look at for the next worker; to the one behind it
 } Pool;
 
-static bool send_whole(int socket, const void *bytes, size_t size)
-{
-    const char *next = bytes;
-    while (size > 0) {
-        ssize_t count = send(socket, next, size, MSG_NOSIGNAL);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
-        next += count;
-        size -= (size_t)count;
-    }
-    return true;
-}
-
 // --- in the child -------------------------------------------------------------------------------
 
 // Never returns. The child dies with its parent, and by the signals that the parent handles.
@@ -83,8 +70,8 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
         if (!point_run(sweep, point, &report, &err))
             memcpy(reply.message, err.message, sizeof reply.message);
         reply.size = report ? (int32_t)strlen(report) : 0;
-        bool sent = send_whole(socket, &reply, sizeof reply) &&
-                    send_whole(socket, report, (size_t)reply.size);
+        bool sent = transfer_write(socket, &reply, sizeof reply, -1) == 0 &&
+                    transfer_write(socket, report, reply.size, -1) == 0;
         memory_free(report);
         if (!sent) _exit(1);
     }
@@ -239,10 +226,10 @@ static void end_workers(Pool *pool)
 }
 
 // Children are watched by poll, not by signals: a pipe closes however its child ends.
-bool pool_run(Sweep *sweep, const PoolDef *def, Error *err)
+bool pool_run(Sweep *sweep, int32_t workers, int32_t step, Error *err)
 {
     int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;
-    Pool pool = {.sweep = sweep, .size = def->workers, .step = def->step};
+    Pool pool = {.sweep = sweep, .size = workers, .step = step};
     if (pool.size < 1) pool.size = cores > 0 ? cores : 1;
     if (pool.size > JOBS_MAX) pool.size = JOBS_MAX;
     TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));

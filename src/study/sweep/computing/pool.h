@@ -5,11 +5,7 @@
 
 #include "study/sweep/computing/point.h"
 
-typedef struct PoolDef {
-    int32_t workers;   // points at a time; 0: as many as there are cores
-    int32_t step;   // every so many points are looked at; 1: all
-} PoolDef;
-
-bool pool_run(Sweep *sweep, const PoolDef *def, Error *err);
+// workers: points at a time; 0: as many as there are cores. Every step-th point is looked at.
+bool pool_run(Sweep *sweep, int32_t workers, int32_t step, Error *err);
 
 #endif

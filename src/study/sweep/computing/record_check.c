@@ -55,13 +55,12 @@ bool record_check(const Study *study, const char *report, Error *err)
             yaml_error(study->file, record->node, err,
                        "%s: `%s` of run.json has many values: name one, as in %s.%s",
                        record->given_by, record->path, record->path, first);
-        else if (nearest_path(report, record->path, known))
-            yaml_error(study->file, record->node, err,
-                       "%s: run.json has no `%s`; did you mean `%s`?", record->given_by,
-                       record->path, known);
-        else
-            yaml_error(study->file, record->node, err, "%s: run.json has no `%s`", record->given_by,
-                       record->path);
+        else {
+            bool near = nearest_path(report, record->path, known);
+            yaml_error(study->file, record->node, err, "%s: run.json has no `%s`%s%s%s",
+                       record->given_by, record->path, near ? "; did you mean `" : "",
+                       near ? known : "", near ? "`?" : "");
+        }
         return false;
     }
     return true;

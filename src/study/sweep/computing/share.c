@@ -4,9 +4,10 @@
 #include "study/sweep/computing/share.h"
 
 #include "base/memory.h"
-#include "io/files/part_file.h"
 #include "io/files/text_file.h"
+#include "io/text/text_writer.h"
 #include "study/sweep/computing/pool.h"
+#include "study/sweep/reading/study_vary.h"
 
 #include <dirent.h>
 #include <stdlib.h>
@@ -24,54 +25,81 @@ static void share_path(const Sweep *sweep, int32_t share, const char *what,
 bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
                  int32_t step, Error *err)
 {
-    char path[SHARE_PATH_SIZE], *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
+    char path[SHARE_PATH_SIZE];
+    TextWriter out = {0};
     share_path(sweep, share, "points", path);
-    if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    for (int32_t k = share; k < count; k += step)
-        fprintf(file, "%d %s %d %.17g\n", points[k], sweep->points[points[k]].hash,
-                sweep->points[points[k]].runs, sweep->points[points[k]].accuracy);
-    if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    TRY(part_file_put(path, text, (int64_t)size, err));
-cleanup:
-    free(text);
+    if (text_writer_open(&out, path, false, err)) {
+        for (int32_t k = share; k < count; k += step) {
+            const SweepPoint *point = &sweep->points[points[k]];
+            fprintf(out.out, "%d %s %d %.17g\n", points[k], point->hash, point->runs,
+                    point->accuracy);
+        }
+        text_writer_finish(&out, err);
+    }
+    text_writer_close(&out);
+    return error_is_clean(err);
+}
+
+bool share_write_designs(const Sweep *sweep, Error *err)
+{
+    const Study *study = &sweep->study;
+    char path[SHARE_PATH_SIZE];
+    TextWriter out = {0};
+    snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
+    if (text_writer_open(&out, path, false, err)) {
+        for (int32_t k = 0; k < study->design_count; k++)
+            fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, out.out);
+        text_writer_finish(&out, err);
+    }
+    text_writer_close(&out);
     return error_is_clean(err);
 }
 
 // --- in the process of the element --------------------------------------------------------------
 
+static bool read_designs(Sweep *sweep, Error *err)
+{
+    char path[SHARE_PATH_SIZE], *text = NULL;
+    int32_t size = 0;
+    snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
+    TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
+    for (const char *design = text; design < text + size; design += strlen(design) + 1)
+        TRY(study_add_designs(&sweep->study, design, err));
+cleanup:
+    memory_free(text);
+    return error_is_clean(err);
+}
+
 // Marks the point of a line as waiting. Its scene must have the hash that it had when the sweep
 // began: a study that was changed meanwhile would answer another question.
-static bool add_point(Sweep *sweep, char **line, Error *err)
+static bool add_point(Sweep *sweep, const char *line, Error *err)
 {
-    char *hash = NULL, *rest = NULL;
-    long point = strtol(*line, &hash, 10);
-    if (*hash != ' ' || point < 0 || point >= sweep->study.point_count)
+    char hash[HASH_TEXT_SIZE] = "";
+    int point = -1, runs = 0;
+    double accuracy = 0;
+    if (sscanf(line, "%d %32s %d %lf", &point, hash, &runs, &accuracy) < 2 || point < 0 ||
+        point >= sweep->study.point_count)
         return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     SweepPoint *at = &sweep->points[point];
-    char *end = strchr(hash, '\n');
-    if (strlen(hash) > HASH_TEXT_SIZE) {
-        at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, &rest, 10);
-        at->accuracy = strtod(rest, NULL);
-    }
-    const Scene *scene = point_scene(sweep, (int32_t)point, err);
+    at->runs = runs;
+    at->accuracy = accuracy;
+    const Scene *scene = point_scene(sweep, point, err);
     if (!scene || !point_hash(sweep, scene, at->hash, err)) return false;
-    if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
+    if (strcmp(hash, at->hash) != 0)
         return REFUSE(err, "the study, its scene or a mesh was changed after the sweep began");
-    at->same_as = (int32_t)point;
-    *line = end ? end + 1 : hash + strlen(hash);
+    at->same_as = point;
     return true;
 }
 
 static bool read_points(Sweep *sweep, const char *path, Error *err)
 {
-    char *text = NULL;
+    char *text = NULL, *rest = NULL;
     int32_t size = 0;
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) sweep->points[k].same_as = -1;
     TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
-    for (char *line = text; *line;) TRY(add_point(sweep, &line, err));
+    for (const char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
+        TRY(add_point(sweep, line, err));
 cleanup:
     memory_free(text);
     return error_is_clean(err);
@@ -80,13 +108,13 @@ cleanup:
 bool share_run(Sweep *sweep, int32_t share, Error *err)
 {
     char path[SHARE_PATH_SIZE];
-    PoolDef one = {.workers = 1, .step = 1};
     share_path(sweep, share, "points", path);
+    TRY(sweep->study.search.node == YAML_NO_NODE || read_designs(sweep, err));
     TRY(read_points(sweep, path, err));
     share_path(sweep, share, "reports", path);
     if (sweep->study.keep_table) TRY(reports_open(&sweep->reports, path, true, err));
     sweep->checked = true;   // what is recorded: by the sweep
-    TRY(pool_run(sweep, &one, err));
+    TRY(pool_run(sweep, 1, 1, err));
 cleanup:
     reports_close(&sweep->reports);
     return error_is_clean(err);
@@ -97,8 +125,6 @@ cleanup:
 typedef struct Taking {
     Sweep *sweep;
     Reports from;
-    ReportFound found;
-    void *context;
     Error *err;
 } Taking;
 
@@ -110,13 +136,13 @@ static void take_line(void *context, const char *hash, ReportPlace place)
     if (!error_is_clean(taking->err)) return;
     report = reports_read(&taking->from, place, taking->err);
     if (report && reports_add(&taking->sweep->reports, hash, report, &place, taking->err))
-        taking->found(taking->context, hash, place);
+        points_note_place(taking->sweep, hash, place);
     memory_free(report);
 }
 
-bool share_take(Sweep *sweep, int32_t share, ReportFound found, void *context, Error *err)
+bool share_take(Sweep *sweep, int32_t share, Error *err)
 {
-    Taking taking = {.sweep = sweep, .found = found, .context = context, .err = err};
+    Taking taking = {.sweep = sweep, .err = err};
     char path[SHARE_PATH_SIZE];
     share_path(sweep, share, "reports", path);
     if (access(path, F_OK) == 0) {
@@ -131,7 +157,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool share_take_all(Sweep *sweep, ReportFound found, void *context, Error *err)
+bool share_take_all(Sweep *sweep, Error *err)
 {
     char path[POINT_PATH_SIZE];
     snprintf(path, sizeof path, "%s/slurm", sweep->folder);
@@ -140,7 +166,7 @@ bool share_take_all(Sweep *sweep, ReportFound found, void *context, Error *err)
     for (const struct dirent *entry; (entry = readdir(folder));) {
         int share = -1;
         if (sscanf(entry->d_name, "share-%d.points", &share) == 1 && share >= 0)
-            TRY(share_take(sweep, share, found, context, err));
+            TRY(share_take(sweep, share, err));
     }
 cleanup:
     closedir(folder);

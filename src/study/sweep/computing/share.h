@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The points that an element of a Slurm array computes. One; many where `keep: table` says
-// that they take less time than the start of an element.
+// The points that an element of a Slurm array computes, `amontons sweep --element`. One; many where
+// `keep: table` says that they take less time than the start of an element.
 //
+//     DIR/slurm/designs           of a search: the cases that it has added to the study, round by
+//                                 round, each text with a zero byte at its end
 //     DIR/slurm/share-7.points    a line a point: its number, hash, runs and accuracy
 //     DIR/slurm/share-7.reports   what it has computed, as DIR/reports, with `keep: table`
 #ifndef AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H
@@ -13,12 +15,11 @@
 // points near to each other take as long.
 bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
                  int32_t step, Error *err);
+bool share_write_designs(const Sweep *sweep, Error *err);
 // In the element. The sweep has a study, a folder and options, and nothing else.
 bool share_run(Sweep *sweep, int32_t share, Error *err);
-// What the share has left goes to the sweep's reports, and its files go. found: as in reports_list,
-// with places in the sweep's.
-bool share_take(Sweep *sweep, int32_t share, ReportFound found, void *context, Error *err);
-// The same for shares of an earlier sweep that was killed.
-bool share_take_all(Sweep *sweep, ReportFound found, void *context, Error *err);
+// What the share has left goes to the sweep's reports, and its files go.
+bool share_take(Sweep *sweep, int32_t share, Error *err);
+bool share_take_all(Sweep *sweep, Error *err);   // also of an earlier sweep that was killed
 
 #endif

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An element computes a share of the points (study/sweep/computing/share): one, whose result is its
-// run.json, as with the pool; only for an element that left none the state that Slurm reports
-// decides (slurm_jobs). With `keep: table` points are far shorter than the start of an element: a
-// share is so many as take some minutes, and what it left undone stays pending, for the next sweep.
+// An element computes a share of the points (study/sweep/computing/share): one, or more where there
+// are more points than Slurm's array may have elements. A point's result is its run.json, as with
+// the pool; only for an element that left one without it the state that Slurm reports decides
+// (slurm_jobs): the point it was at has failed, those behind it wait for the next sweep. With
+// `keep: table` points are far shorter than the start of an element: a share is so many as take
+// some minutes, and all that it left undone waits.
 #include "study/sweep/computing/slurm.h"
 
 #include "base/clock.h"
@@ -11,7 +13,6 @@
 #include "io/files/open_file.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"
-#include "study/sweep/computing/element.h"
 #include "study/sweep/computing/pool.h"
 #include "study/sweep/computing/share.h"
 #include "study/sweep/computing/slurm_jobs.h"
@@ -29,71 +30,45 @@ static const double REPORT_PAUSE = 10;   // s that a file system shared by nodes
     // run.json after its element has ended
 
 typedef struct Element {
-    int32_t point;   // with `keep: table` the first of its share
     bool taken;   // its result is counted
     bool listed, ended;   // by squeue, at the last look
     char state[SLURM_WORD_SIZE], reason[SLURM_REASON_SIZE];   // as squeue lists them
     double gone_since;   // wall clock, s; 0: not gone
 } Element;
 
-typedef struct SlurmArray {
-    char id[SLURM_WORD_SIZE];
-    int32_t first, count;   // elements
-} SlurmArray;
-
 typedef struct SlurmRun {
     Sweep *sweep;
     SlurmJobs jobs;   // owned, like the rest
+    char id[SLURM_WORD_SIZE];   // of the array
     int32_t waiting_count, *waiting;   // points to compute
     int32_t count, left;   // elements; those not taken
     Element *elements;   // [count]; element k computes waiting[k], waiting[k + count], ...
-    PointsByHash points;   // with `keep: table`
     int32_t undone;   // points that elements left so
     char cause[ERROR_MESSAGE_SIZE];   // of the first of them
-    int32_t array_count;
-    SlurmArray *arrays;   // [array_count]
 } SlurmRun;
 
-// As many arrays as MaxArraySize requires; array k's elements are `count` from `first` on.
-static bool submit_all(SlurmRun *run, Error *err)
+static bool submit(SlurmRun *run, Error *err)
 {
-    int32_t limit = slurm_array_limit(&run->jobs);
-    char script[POINT_PATH_SIZE], list[POINT_PATH_SIZE], name[40];
-    run->array_count = (run->count + limit - 1) / limit;
-    if (!(run->arrays = NEW_ARRAY(SlurmArray, run->array_count, err))) return false;
+    const Sweep *sweep = run->sweep;
+    char script[POINT_PATH_SIZE];
+    slurm_path(&run->jobs, "array.sh", script, sizeof script);
+    if (!share_write_designs(sweep, err)) return false;
     for (int32_t k = 0; k < run->count; k++)
-        if (!share_write(run->sweep, k, run->waiting, run->waiting_count, run->count, err))
-            return false;
-    for (int32_t k = 0; k < run->array_count; k++) {
-        SlurmArray *array = &run->arrays[k];
-        array->first = k * limit;
-        array->count = run->count - array->first < limit ? run->count - array->first : limit;
-        snprintf(name, sizeof name, "array-%d.json", k);
-        slurm_path(&run->jobs, name, list, sizeof list);
-        snprintf(name, sizeof name, "array-%d.sh", k);
-        slurm_path(&run->jobs, name, script, sizeof script);
-        if (!elements_write(run->sweep, list, array->first, err)) return false;
-        if (!slurm_write_script(script, list, err)) return false;
-        if (!slurm_submit(&run->jobs, script, array->count, run->sweep->options, array->id, err))
-            return false;
-    }
-    return true;
+        if (!share_write(sweep, k, run->waiting, run->waiting_count, run->count, err)) return false;
+    return slurm_write_script(&run->jobs, script, sweep->study.path, sweep->options, err) &&
+           slurm_submit(&run->jobs, script, run->count, sweep->options, run->id, err);
 }
 
 // --- waiting ------------------------------------------------------------------------------------
 
 static void note_line(SlurmRun *run, const SlurmLine *line)
 {
-    for (int32_t k = 0; k < run->array_count; k++) {
-        const SlurmArray *array = &run->arrays[k];
-        if (strcmp(array->id, line->id) != 0 || line->index < 0 || line->index >= array->count)
-            continue;
-        Element *element = &run->elements[array->first + line->index];
-        element->listed = true;
-        element->ended = slurm_is_end(line->state);
-        memcpy(element->state, line->state, sizeof element->state);
-        memcpy(element->reason, line->reason, sizeof element->reason);
-    }
+    if (strcmp(run->id, line->id) != 0 || line->index < 0 || line->index >= run->count) return;
+    Element *element = &run->elements[line->index];
+    element->listed = true;
+    element->ended = slurm_is_end(line->state);
+    memcpy(element->state, line->state, sizeof element->state);
+    memcpy(element->reason, line->reason, sizeof element->reason);
 }
 
 static bool look_at_queue(SlurmRun *run, bool *answered, Error *err)
@@ -106,16 +81,6 @@ static bool look_at_queue(SlurmRun *run, bool *answered, Error *err)
         run->elements[k].listed = run->elements[k].ended = false;
     while (slurm_next_line(&run->jobs, &rest, &line)) note_line(run, &line);
     return error_is_clean(err);
-}
-
-// "123_4", what Slurm calls element `k`.
-static void job_name(const SlurmRun *run, int32_t k, char name[SLURM_JOB_SIZE])
-{
-    for (int32_t a = 0; a < run->array_count; a++) {
-        const SlurmArray *array = &run->arrays[a];
-        if (k < array->first || k >= array->first + array->count) continue;
-        snprintf(name, SLURM_JOB_SIZE, "%s_%d", array->id, k - array->first);
-    }
 }
 
 // The last line of what the element printed; "" where there is none.
@@ -139,10 +104,10 @@ static void last_words(const SlurmRun *run, const char *job, char *words, size_t
 static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SIZE])
 {
     const Element *element = &run->elements[k];
-    char state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100], job[SLURM_JOB_SIZE] = "";
+    char state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100], job[SLURM_JOB_SIZE];
     bool has_reason = *element->reason && strcmp(element->reason, "None") != 0;
     bool waited = strcmp(element->state, "PENDING") == 0;
-    job_name(run, k, job);
+    snprintf(job, sizeof job, "%s_%d", run->id, k);   // what Slurm calls it
     int number = slurm_signal(&run->jobs, job);
     const char *last = *element->state ? element->state : "unknown";
     if (number > 0)
@@ -160,31 +125,30 @@ static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SI
                  waited ? ": cancelled before it began" : words);
 }
 
-// Element `k` has ended without a run.json: its failure is recorded.
-static bool take_lost(SlurmRun *run, int32_t k, Error *err)
+// Element `k` has ended without a run.json of `point`, which it was at: its failure is recorded.
+static bool take_lost(SlurmRun *run, int32_t k, int32_t point, Error *err)
 {
     const Element *element = &run->elements[k];
     char message[ERROR_MESSAGE_SIZE];
     bool cancelled = strcmp(element->state, "PENDING") == 0 ||
                      strcmp(element->state, "CANCELLED") == 0;
     describe_end(run, k, message);
-    return sweep_take_lost(run->sweep, element->point, NAN, cancelled ? "cancelled" : "crashed",
-                           message, err);
+    return sweep_take_lost(run->sweep, point, NAN, cancelled ? "cancelled" : "crashed", message,
+                           err);
 }
 
-// The points of element `k` that have a result. *undone: how many have none.
-static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, Error *err)
+// The points of element `k` that have a result. *undone: how many have none; *first: of them.
+static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, int32_t *first, Error *err)
 {
     Sweep *sweep = run->sweep;
     bool left = false;
     *undone = 0;
-    if (sweep->study.keep_table && !share_take(sweep, k, points_note_place, &run->points, err))
-        return false;
+    if (sweep->study.keep_table && !share_take(sweep, k, err)) return false;
     for (int32_t i = k; i < run->waiting_count; i += run->count) {
         int32_t point = run->waiting[i];
         if (!sweep_is_waiting(sweep, point)) continue;
         if (!sweep_take_ended(sweep, point, NAN, &left, err)) return false;
-        *undone += !left;
+        if (!left && (*undone)++ == 0) *first = point;
     }
     return true;
 }
@@ -193,19 +157,20 @@ static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, Error *err)
 static bool take_element(SlurmRun *run, int32_t k, Error *err)
 {
     Element *element = &run->elements[k];
-    int32_t undone = 0;
-    TRY(take_points(run, k, &undone, err));
+    int32_t undone = 0, first = 0;
+    TRY(take_points(run, k, &undone, &first, err));
     if (undone > 0) {
         // Unless Slurm ended it, it wrote one.
         bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
                      strcmp(element->reason, "NonZeroExitCode") == 0;
         if (element->gone_since == 0) element->gone_since = clock_seconds();
         if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) goto cleanup;
-        if (!run->sweep->study.keep_table)
-            TRY(take_lost(run, k, err));
-        else if (run->undone == 0)
-            describe_end(run, k, run->cause);
-        if (run->sweep->study.keep_table) run->undone += undone;
+        if (!run->sweep->study.keep_table) {
+            TRY(take_lost(run, k, first, err));
+            undone--;
+        }
+        if (undone > 0 && run->undone == 0) describe_end(run, k, run->cause);
+        run->undone += undone;
     }
     element->taken = true;
     run->left--;
@@ -238,18 +203,12 @@ static void take_finished(SlurmRun *run)
 {
     for (int32_t k = 0; k < run->count; k++) {
         Error ignored = {0};   // the caller tells why the sweep ends
-        int32_t undone = 0;
-        if (!run->elements[k].taken) take_points(run, k, &undone, &ignored);
+        int32_t undone = 0, first = 0;
+        if (!run->elements[k].taken) take_points(run, k, &undone, &first, &ignored);
     }
 }
 
 // --- the whole ----------------------------------------------------------------------------------
-
-static void end(SlurmRun *run)
-{
-    memory_free_all(run->waiting, run->elements, run->arrays, run->points.list);
-    slurm_jobs_close(&run->jobs);
-}
 
 // The file `running` exists as long as jobs may be in the queue.
 static bool mark_running(const SlurmRun *run, Error *err)
@@ -313,32 +272,20 @@ static bool count_shares(const SlurmRun *run, int32_t *shares, Error *err)
     return true;
 }
 
-static bool list_waiting(SlurmRun *run, Error *err)
+static bool list_elements(SlurmRun *run, Error *err)
 {
     const Sweep *sweep = run->sweep;
+    int32_t limit = 0;
     if (!(run->waiting = NEW_ARRAY(int32_t, sweep->study.point_count, err))) return false;
     for (int32_t k = 0; k < sweep->study.point_count; k++)
         if (sweep_is_waiting(sweep, k)) run->waiting[run->waiting_count++] = k;
-    return true;
-}
-
-static bool list_elements(SlurmRun *run, Error *err)
-{
-    if (!list_waiting(run, err)) return false;
     run->count = run->waiting_count;
-    if (run->sweep->study.keep_table && run->count > 0 && !count_shares(run, &run->count, err))
-        return false;
-    if (!(run->elements = NEW_ARRAY(Element, run->count, err))) return false;
-    for (int32_t k = 0; k < run->count; k++) run->elements[k].point = run->waiting[k];
+    if (run->count == 0) return true;
+    if (sweep->study.keep_table && !count_shares(run, &run->count, err)) return false;
+    if (!slurm_array_limit(&run->jobs, &limit, err)) return false;
+    if (run->count > limit) run->count = limit;
     run->left = run->count;
-    return true;
-}
-
-// How long points take is found out here, before shares are cut: some of them, from all over.
-static bool try_some(Sweep *sweep, Error *err)
-{
-    PoolDef some = {.workers = 1, .step = 1 + sweep->study.point_count / TRIED_MAX};
-    return pool_run(sweep, &some, err);
+    return (run->elements = NEW_ARRAY(Element, run->count, err)) != NULL;
 }
 
 // Also after an error no job of ours stays in the queue: the file `running` is removed only when
@@ -350,14 +297,14 @@ bool slurm_run(Sweep *sweep, Error *err)
     char path[POINT_PATH_SIZE];
     bool out = false;   // jobs may be
     TRY(slurm_jobs_open(sweep->folder, sweep->study.point_count, &run.jobs, err));
-    if (sweep->study.keep_table) TRY(try_some(sweep, err));
-    if (sweep->study.keep_table) TRY(points_sort(sweep, &run.points, err));
+    // How long points take is found out here, before shares are cut: some of them, from all over.
+    if (sweep->study.keep_table)
+        TRY(pool_run(sweep, 1, 1 + sweep->study.point_count / TRIED_MAX, err));
     TRY(list_elements(&run, err));
     if (run.count == 0) goto cleanup;
-    TRY(slurm_jobs_check(&run.jobs, err));
     TRY(mark_running(&run, err));
     out = true;
-    TRY(submit_all(&run, err));
+    TRY(submit(&run, err));
     TRY(wait_for_all(&run, err));
     if (run.undone > 0)
         FAIL(err, ERROR_INTERRUPT, "%d points are not computed, the same command goes on: %.1500s",
@@ -371,6 +318,7 @@ cleanup:
     }
     slurm_path(&run.jobs, "running", path, sizeof path);
     if (run.jobs.folder[0] && !out) unlink(path);
-    end(&run);
+    memory_free_all(run.waiting, run.elements);
+    slurm_jobs_close(&run.jobs);
     return error_is_clean(err);
 }

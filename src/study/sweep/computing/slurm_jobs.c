@@ -58,43 +58,38 @@ void slurm_path(const SlurmJobs *jobs, const char *name, char *path, size_t size
 static bool ask(SlurmJobs *jobs, const char *const *words, int *status, Error *err)
 {
     if (!program_run(words, jobs->answer, jobs->answer_size, status, err))
-        error_context(err, "--slurm needs Slurm's commands (sbatch, squeue, scancel) in PATH");
+        error_context(err,
+                      "--slurm needs Slurm's commands (sbatch, squeue, scancel, scontrol) in PATH");
     for (size_t used = strlen(jobs->answer); used && jobs->answer[used - 1] == '\n';)
         jobs->answer[--used] = 0;
     return error_is_clean(err);
 }
 
-bool slurm_jobs_check(SlurmJobs *jobs, Error *err)
-{
-    static const char *const version[] = {"sbatch", "--version", NULL};
-    int status = 0;
-    return ask(jobs, version, &status, err);
-}
-
 // What follows `label` in the answer to a question of scontrol; NULL: no answer.
-static const char *find_answer(SlurmJobs *jobs, const char *const *words, const char *label)
+static const char *find_answer(SlurmJobs *jobs, const char *const *words, const char *label,
+                               Error *err)
 {
-    Error ignored = {0};
     int status = 0;
-    if (!program_run(words, jobs->answer, jobs->answer_size, &status, &ignored)) return NULL;
-    const char *at = strstr(jobs->answer, label);
+    const char *at = ask(jobs, words, &status, err) ? strstr(jobs->answer, label) : NULL;
     return at ? at + strlen(label) : NULL;
 }
 
 // MaxArraySize of this Slurm: the largest index is one below, and ours begin at 0.
-int32_t slurm_array_limit(SlurmJobs *jobs)
+bool slurm_array_limit(SlurmJobs *jobs, int32_t *limit, Error *err)
 {
     static const char *const words[] = {"scontrol", "show", "config", NULL};
-    const char *at = find_answer(jobs, words, "MaxArraySize");
-    int limit = 0;
-    return at && sscanf(at, " = %d", &limit) == 1 && limit >= 2 ? limit - 1 : ARRAY_STANDARD;
+    const char *at = find_answer(jobs, words, "MaxArraySize", err);
+    bool said = at && sscanf(at, " = %d", limit) == 1 && *limit >= 2;
+    *limit = said ? *limit - 1 : ARRAY_STANDARD;
+    return error_is_clean(err);
 }
 
 // "ExitCode=0:11": the second number.
 int slurm_signal(SlurmJobs *jobs, const char *job)
 {
     const char *const words[] = {"scontrol", "-o", "show", "job", job, NULL};
-    const char *at = find_answer(jobs, words, "ExitCode=");
+    Error ignored = {0};
+    const char *at = find_answer(jobs, words, "ExitCode=", &ignored);
     int code = 0, number = 0;
     return at && sscanf(at, "%d:%d", &code, &number) == 2 ? number : 0;
 }
@@ -102,9 +97,9 @@ int slurm_signal(SlurmJobs *jobs, const char *job)
 // --- submitting ---------------------------------------------------------------------------------
 
 // `'` inside quotes of a shell is '\''.
-static void print_quoted(FILE *file, const char *text)
+static void print_quoted(FILE *file, const char *before, const char *text)
 {
-    fputc('\'', file);
+    fprintf(file, "%s'", before);
     for (; *text; text++) {
         if (*text == '\'') fputs("'\\'", file);
         fputc(*text, file);
@@ -130,21 +125,25 @@ cleanup:
     return false;
 }
 
-bool slurm_write_script(const char *path, const char *list, Error *err)
+bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *study,
+                        const SweepOptions *options, Error *err)
 {
-    char program[PATH_MAX] = "", *text = NULL;
+    char program[PATH_MAX] = "", *text = NULL, *here = getcwd(NULL, 0);
     size_t size = 0;
     TRY(find_program(program, err));
-    FILE *file = open_memstream(&text, &size);
+    FILE *file = here ? open_memstream(&text, &size) : NULL;
     if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    fprintf(file, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\nexec ");
-    print_quoted(file, program);
-    fprintf(file, " sweep --element ");
-    print_quoted(file, list);
+    print_quoted(file, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\ncd ", here);
+    print_quoted(file, " && exec ", program);
+    print_quoted(file, " sweep --element -o ", jobs->folder);
+    for (int32_t k = 0; k < options->override_count; k++)
+        print_quoted(file, " --set ", options->overrides[k]);
+    print_quoted(file, " -- ", study);
     fprintf(file, "\n");
     if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
     TRY(part_file_put(path, text, (int64_t)size, err));
 cleanup:
+    free(here);
     free(text);
     return error_is_clean(err);
 }

@@ -28,13 +28,15 @@ typedef struct SlurmLine {
 // count: elements for which squeue may have a line. Nothing is asked yet.
 bool slurm_jobs_open(const char *folder, int32_t count, SlurmJobs *jobs, Error *err);
 void slurm_jobs_close(SlurmJobs *jobs);   // zeroed is fine
-bool slurm_jobs_check(SlurmJobs *jobs, Error *err);   // is there a Slurm at all?
 
 // A path in the folder's slurm/.
 void slurm_path(const SlurmJobs *jobs, const char *name, char *path, size_t size);
-int32_t slurm_array_limit(SlurmJobs *jobs);   // elements that an array may have
-// Writes the script that every element of an array runs: this program with the list of elements.
-bool slurm_write_script(const char *path, const char *list, Error *err);
+// Elements that an array may have. ERROR_LIBRARY: there is no Slurm, here and below.
+bool slurm_array_limit(SlurmJobs *jobs, int32_t *limit, Error *err);
+// Writes the script that every element of an array runs: this program in this folder, with the same
+// study and --set words; `sweep --element` takes its number from Slurm.
+bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *study,
+                        const SweepOptions *options, Error *err);
 // options->slurm: the user's words for sbatch; options->jobs: elements at a time. id: of the job.
 bool slurm_submit(SlurmJobs *jobs, const char *script, int32_t count, const SweepOptions *options,
                   char id[SLURM_WORD_SIZE], Error *err);

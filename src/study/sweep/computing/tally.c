@@ -31,7 +31,7 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     if (!sweep->options->on_point) return;
     const Scene *scene = point_scene(sweep, k, &ignored);
     if (scene) point_words(sweep, scene, words);
-    point_report_path(sweep, k, path);
+    point_path(sweep, k, "run.json", path);
     SweepView view = {.point = k,
                       .words = words,
                       .run = sweep->reports.open ? NULL : path,

@@ -18,6 +18,26 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
            isfinite(*value);
 }
 
+bool study_pair(const Study *study, YamlNode node, double pair[2])
+{
+    YamlNode first = yaml_first(study->file, node);
+    return yaml_kind(study->file, node) == YAML_LIST && yaml_count(study->file, node) == 2 &&
+           study_plain_number(study, first, &pair[0]) &&
+           study_plain_number(study, yaml_next(study->file, first), &pair[1]);
+}
+
+bool study_whole(const Study *study, const WantedKey *key, int32_t most, int32_t *value, Error *err)
+{
+    double number = 0;
+    char allowed[60];
+    if (key->node == YAML_NO_NODE) return true;
+    bool good = study_plain_number(study, key->node, &number) && number == floor(number) &&
+                number >= 1 && number <= most;
+    *value = good ? (int32_t)number : 0;
+    snprintf(allowed, sizeof allowed, "a whole number from 1 to %d", most);
+    return good || yaml_refuse(study->file, key->node, key->name, allowed, err);
+}
+
 // -1: no key of this name varies.
 int32_t study_column(const Study *study, const char *name)
 {
@@ -27,32 +47,23 @@ int32_t study_column(const Study *study, const char *name)
 }
 
 // A key that is given in several places is one column.
-bool study_add_column(Study *study, const char *key, Error *err)
+int32_t study_add_column(Study *study, const char *key, Error *err)
 {
-    if (study_column(study, key) >= 0) return true;
-    if (study->column_count == STUDY_COLUMNS_MAX)
-        return REFUSE(err, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
-    snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
-    return true;
-}
-
-// `key` itself, or a map that it is in.
-static bool sets(const char *given, const char *key)
-{
-    size_t length = strlen(given);
-    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
+    int32_t column = study_column(study, key);
+    if (column >= 0) return column;
+    if (study->column_count < STUDY_COLUMNS_MAX) {
+        snprintf(study->columns[study->column_count], STUDY_NAME_SIZE, "%s", key);
+        return study->column_count++;
+    }
+    FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+cleanup:
+    return -1;
 }
 
 bool study_is_chosen(const Study *study, const char *key)
 {
-    for (int32_t k = 0; k < study->axis_count; k++)
-        if (sets(study->axes[k].key, key)) return true;
-    for (int32_t k = 0; study->case_list && k < study->case_count; k++) {
-        const YamlDocument *document = study->case_list[k].document;
-        YAML_EACH (item, document, study->case_list[k].map)
-            if (sets(yaml_key(document, item), key)) return true;
-    }
-    return false;
+    int32_t column = study_column(study, key);
+    return column >= 0 && study->chosen[column];
 }
 
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err)
@@ -69,10 +80,10 @@ void study_destroy(Study *study)
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
     for (int32_t k = 0; k < STUDY_AXES_MAX; k++) memory_free(study->axes[k].values);
     for (int32_t k = 0; k < study->design_count; k++) {
-        memory_free(study->designs[k]);
-        yaml_destroy(study->design_files[k]);
+        memory_free(study->designs[k].text);
+        yaml_destroy(study->designs[k].file);
     }
-    memory_free_all(study->designs, study->design_files, study->case_list);
+    memory_free_all(study->designs, study->case_list);
     yaml_destroy(study->file);
     scene_source_close(study->source);
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};

@@ -27,6 +27,7 @@
 #include "scene/scene.h"
 #include "study/sweep/reading/plot_words.h"
 #include "study/sweep/reading/study_goal.h"
+#include "study/sweep/reading/wanted_keys.h"
 
 enum {
     STUDY_AXES_MAX = 16,
@@ -56,6 +57,12 @@ typedef struct StudyCase {
     const YamlDocument *document;   // not owned
     YamlNode map;   // of the scene's keys
 } StudyCase;
+
+// Cases that a search adds.
+typedef struct StudyDesigns {
+    char *text;   // a list of maps; owned, like the next
+    YamlDocument *file;   // what it says
+} StudyDesigns;
 
 typedef struct StudyAxis {
     char key[STUDY_NAME_SIZE];
@@ -99,14 +106,14 @@ typedef struct Study {
     int32_t case_count;   // at least 1
     StudyCase *case_list;   // [case_count] NULL: none; owned
     int32_t case_room;
-    char *
-        *designs;   // [design_count] of a search: texts of its cases, in the order they came; owned
-    YamlDocument **design_files;   // [design_count] what they say; owned
-    int32_t design_count, design_room, design_file_room;
+    int32_t design_count, design_room;
+    StudyDesigns *designs;   // [design_room] of a search, in the order they came; owned
     int32_t axis_count;
     StudyAxis axes[STUDY_AXES_MAX];
     int32_t column_count;   // scene keys that vary, in the order of the file
     char columns[STUDY_COLUMNS_MAX][STUDY_NAME_SIZE];
+    bool varied[STUDY_COLUMNS_MAX];   // by `vary`
+    bool chosen[STUDY_COLUMNS_MAX];   // by `vary` or `cases`, not by a formula of `set`
     int32_t record_count;
     StudyRecord records[STUDY_RECORDS_MAX];
     int32_t point_count;
@@ -120,14 +127,17 @@ typedef struct Study {
 void study_destroy(Study *study);   // also of one half read
 
 // --- what the files that read a study share
-// Makes `key` a column, once.
-bool study_add_column(Study *study, const char *key, Error *err);
+// Makes `key` a column, once; its index; -1: the error says why not.
+int32_t study_add_column(Study *study, const char *key, Error *err);
 // The index in `columns` of the key `name`; -1: it does not vary.
 int32_t study_column(const Study *study, const char *name);
-// Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.
 bool study_is_chosen(const Study *study, const char *key);
 // *values: the children of a list, to be found by number at once (memory_free).
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
+bool study_pair(const Study *study, YamlNode node, double pair[2]);   // [from, to]; false: is none
+// A whole number from 1 to `most`; *value stays where the key is missing.
+bool study_whole(const Study *study, const WantedKey *key, int32_t most, int32_t *value,
+                 Error *err);
 
 #endif

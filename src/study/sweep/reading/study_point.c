@@ -41,6 +41,17 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
     if (index >= 0 && keys[index].type == KEY_FLAG) *number = strcmp(words, "true") == 0;
 }
 
+void study_add_words(const Scene *scene, const char *key, char *words, int32_t size)
+{
+    char text[160];
+    double number = 0;
+    size_t used = strlen(words), room = (size_t)size - used;
+    study_scene_value(scene, key, text, sizeof text, &number);
+    int length =
+        snprintf(words + used, room, "%s%s=%s", used ? " " : "", key, *text ? text : "none");
+    if (length < 0 || (size_t)length >= room) words[used] = 0;   // what does not fit is left out
+}
+
 // --- gathering ----------------------------------------------------------------------------------
 
 // Formulas are put aside, to be worked out when all plain values are in.
@@ -80,13 +91,6 @@ static void drop_replaced(const Study *study, PointSettings *settings)
     settings->formula_count = kept;
 }
 
-// What one scene differs by from the study's others.
-typedef struct PointChoice {
-    int32_t point;   // counts through cases, then the axes, the last one fastest
-    const StudyCase *in_place;   // of the case of `point`; NULL: none
-    YamlNode changes;   // a map of the study's file that replaces what varies; YAML_NO_NODE: none
-} PointChoice;
-
 // Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`.
 static bool gather(const Study *study, const PointChoice *choice, PointSettings *settings,
                    Error *err)
@@ -101,7 +105,7 @@ static bool gather(const Study *study, const PointChoice *choice, PointSettings 
     drop_replaced(study, settings);
     for (int32_t k = 0; k < study->override_count; k++)
         if (!add(settings, &study->overrides[k], err)) return false;
-    const StudyCase *one = choice->in_place   ? choice->in_place
+    const StudyCase *one = choice->trial      ? choice->trial
                            : study->case_list ? &study->case_list[point]
                                               : NULL;
     if (one && !add_map(settings, one->document, one->map, err)) return false;
@@ -111,7 +115,7 @@ static bool gather(const Study *study, const PointChoice *choice, PointSettings 
             .key = axis->key, .document = axis->document, .node = axis->values[index[k]]};
         if (!add(settings, &setting, err)) return false;
     }
-    return add_map(settings, study->file, choice->changes, err);
+    return !choice->baseline || add_map(settings, study->file, study->rank.baseline, err);
 }
 
 // Formula `k` over `scene`, which gets its value.
@@ -131,7 +135,7 @@ static bool work_out(const Study *study, PointSettings *settings, int32_t k, Sce
 }
 
 // The scene is made anew after each formula: the next one may use its value.
-static bool make_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err)
+bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err)
 {
     PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
     TRY(settings);
@@ -144,20 +148,4 @@ cleanup:
         yaml_destroy(settings->values[k]);
     memory_free(settings);
     return error_is_clean(err);
-}
-
-bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err)
-{
-    return make_scene(study, &(PointChoice){point, NULL, YAML_NO_NODE}, scene, err);
-}
-
-bool study_trial_scene(const Study *study, const StudyCase *trial, int32_t condition, Scene *scene,
-                       Error *err)
-{
-    return make_scene(study, &(PointChoice){condition, trial, YAML_NO_NODE}, scene, err);
-}
-
-bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err)
-{
-    return make_scene(study, &(PointChoice){point, NULL, study->rank.baseline}, scene, err);
 }

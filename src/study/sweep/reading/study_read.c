@@ -3,10 +3,11 @@
 // the rest.
 #include "study/sweep/reading/study_read.h"
 
-#include "base/text.h"
+#include "io/files/folder.h"
 #include "study/sweep/reading/study_search.h"
 #include "study/sweep/reading/study_vary.h"
 #include "study/sweep/reading/study_wanted.h"
+#include "study/sweep/reading/wanted_keys.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -14,28 +15,11 @@
 // A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)
 {
-    static const char *const known[] = {"title",  "scene", "set",  "cases",  "vary",
-                                        "record", "keep",  "rank", "search", "where",
-                                        "best",   "fit",   "plot"};
-    enum { COUNT = sizeof known / sizeof known[0] };
-    YAML_EACH (item, study->file, YAML_ROOT) {
-        const char *key = yaml_key(study->file, item);
-        bool is_known = false;
-        for (int32_t k = 0; k < COUNT; k++) is_known = is_known || strcmp(key, known[k]) == 0;
-        if (is_known) continue;
-        int32_t nearest = text_nearest(key, known, COUNT);
-        if (nearest >= 0)
-            yaml_key_error(study->file, item, err,
-                           "%.60s: unknown key of a study; did you mean `%s`?", key,
-                           known[nearest]);
-        else
-            yaml_key_error(study->file, item, err,
-                           "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record, keep, rank, plot, search, where, best, fit",
-                           key);
-        return false;
-    }
-    return true;
+    WantedKey keys[] = {{.name = "title"}, {.name = "scene"},  {.name = "set"},   {.name = "cases"},
+                        {.name = "vary"},  {.name = "record"}, {.name = "keep"},  {.name = "rank"},
+                        {.name = "plot"},  {.name = "search"}, {.name = "where"}, {.name = "best"},
+                        {.name = "fit"}};
+    return wanted_find(study->file, YAML_ROOT, "study", keys, sizeof keys / sizeof *keys, err);
 }
 
 // text stays as it is where the key is missing.
@@ -59,26 +43,22 @@ static bool read_scene_path(Study *study, Error *err)
         return yaml_error(
             study->file, YAML_ROOT, err,
             "scene: must be given: the scene that is varied, as in `scene: fig1.yaml`");
-    const char *slash = strrchr(study->path, '/');
-    int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
-    if (snprintf(study->scene, sizeof study->scene, "%.*s%s", folder, study->path, given) >=
-        (int)sizeof study->scene)
+    if (!folder_beside(study->path, given, study->scene, sizeof study->scene))
         return REFUSE(err, "%s: the path of the scene is longer than 511 bytes", study->path);
     return error_is_clean(err);
 }
 
 static bool read_keep(Study *study, Error *err)
 {
-    YamlNode node = yaml_look_up(study->file, "keep");
-    if (node == YAML_NO_NODE) return true;
-    const char *word = yaml_kind(study->file, node) == YAML_SCALAR ? yaml_text(study->file, node)
-                                                                   : "";
-    study->keep_table = strcmp(word, "table") == 0;
-    if (study->keep_table || strcmp(word, "points") == 0) return true;
-    return yaml_refuse(study->file, node, "keep", "points or table", err);
+    static const char *const words[] = {"points", "table"};
+    WantedKey keep = {"keep", yaml_look_up(study->file, "keep")};
+    int32_t choice = 0;
+    if (!wanted_choice(study->file, &keep, words, 2, &choice, err)) return false;
+    study->keep_table = choice == 1;
+    return true;
 }
 
-// What is wrong with values shows when scenes are made, point by point (study_point_scene).
+// What is wrong with values shows when scenes are made, point by point (study_point).
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
                 Study *study, Error *err)
 {

@@ -27,11 +27,10 @@ static bool read_key(Study *study, YamlNode item, Error *err)
     bool good = yaml_kind(study->file, item) == YAML_MAP && yaml_count(study->file, item) == 1;
     while (good && scale < 3 && strcmp(yaml_key(study->file, range), scales[scale]) != 0) scale++;
     if (!good || scale == 3) return yaml_refuse(study->file, item, key->key, KEY_ALLOWED, err);
-    YamlNode least = yaml_first(study->file, range);
+    double ends[2] = {0, 0};
     key->scale = (SearchScale)scale;
-    good = yaml_kind(study->file, range) == YAML_LIST && yaml_count(study->file, range) == 2 &&
-           study_plain_number(study, least, &key->least) &&
-           study_plain_number(study, yaml_next(study->file, least), &key->most);
+    good = study_pair(study, range, ends);
+    key->least = ends[0], key->most = ends[1];
     if (!good || !(key->least < key->most) || (key->scale == SEARCH_LOG && key->least <= 0))
         return yaml_refuse(study->file, range, key->key,
                            "two numbers, the smaller one first (of log: above 0)", err);
@@ -42,7 +41,7 @@ static bool read_key(Study *study, YamlNode item, Error *err)
     if (study_is_chosen(study, key->key))
         return yaml_key_error(study->file, item, err, "%s: searched, and given by `vary` as well",
                               key->key);
-    return study_add_column(study, key->key, err);
+    return study_add_column(study, key->key, err) >= 0;
 }
 
 // {value: = mesh.set.n * mesh.set.pad_height, least: 0.1, most: 0.6}
@@ -78,18 +77,6 @@ static bool read_where(Study *study, Error *err)
     return error_is_clean(err);
 }
 
-static bool read_whole(const Study *study, const WantedKey *key, int32_t most, double *value,
-                       Error *err)
-{
-    if (key->node == YAML_NO_NODE) return true;
-    if (study_plain_number(study, key->node, value) && *value == floor(*value) && *value >= 1 &&
-        *value <= most)
-        return true;
-    char allowed[60];
-    snprintf(allowed, sizeof allowed, "a whole number from 1 to %d", most);
-    return yaml_refuse(study->file, key->node, key->name, allowed, err);
-}
-
 static bool read_sure(const Study *study, const WantedKey *key, double *sure, Error *err)
 {
     static const char *const shares[] = {"95%", "68%", "90%", "99%"};
@@ -107,20 +94,19 @@ static bool read_goal(Study *study, Error *err)
     StudySearch *search = &study->search;
     WantedKey keys[] = {{.name = "designs"}, {.name = "seed"}, {.name = "over"}, {.name = "sure"}};
     YamlNode goal = yaml_look_up(study->file, search->fits ? "fit" : "best");
-    double designs = DESIGNS_FEWEST + DESIGNS_A_KEY * search->key_count, seed = 1;
-    int32_t choice = 0;
+    int32_t choice = 0, seed = 1;
+    search->designs = DESIGNS_FEWEST + DESIGNS_A_KEY * search->key_count;
     if (search->fits) keys[2].name = "measured";
     if (goal != YAML_NO_NODE) {
         if (!wanted_find(study->file, goal, search->fits ? "fit" : "best", keys,
                          search->fits ? 4 : 3, err))
             return false;
-        if (!read_whole(study, &keys[0], STUDY_DESIGNS_MAX, &designs, err)) return false;
-        if (!read_whole(study, &keys[1], INT32_MAX, &seed, err)) return false;
+        if (!study_whole(study, &keys[0], STUDY_DESIGNS_MAX, &search->designs, err)) return false;
+        if (!study_whole(study, &keys[1], INT32_MAX, &seed, err)) return false;
         if (!search->fits && !wanted_choice(study->file, &keys[2], over, 4, &choice, err))
             return false;
     }
     search->over = (SearchOver)choice;
-    search->designs = (int32_t)designs;
     search->seed = (uint32_t)seed;
     if (!search->fits) return true;
     search->measured = keys[2].node;

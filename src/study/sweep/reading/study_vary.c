@@ -16,19 +16,54 @@ static const char AXIS_ALLOWED[] = "a list of values, {log: [from, to], points: 
 
 // The keys that a value given under `key` sets: itself, or those of the map below it.
 static bool add_columns(Study *study, const char *key, const YamlDocument *document, YamlNode node,
-                        Error *err)
+                        bool varied, Error *err)
 {
     bool opens = yaml_kind(document, node) == YAML_MAP;
     bool is_map_of_keys = strcmp(key, "mesh.set") == 0 || strcmp(key, "output.fields") == 0 ||
                           strcmp(key, "materials") == 0 || strncmp(key, "materials.", 10) == 0 ||
                           (scene_key_is_group(key) && scene_key_index(key) < 0);
-    if (!opens || !is_map_of_keys) return study_add_column(study, key, err);
+    if (!opens || !is_map_of_keys) {
+        int32_t column = study_add_column(study, key, err);
+        if (column < 0) return false;
+        study->chosen[column] = true;
+        study->varied[column] = study->varied[column] || varied;
+        return true;
+    }
     YAML_EACH (item, document, node) {
         char path[STUDY_NAME_SIZE];
         snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        if (!add_columns(study, path, document, item, err)) return false;
+        if (!add_columns(study, path, document, item, varied, err)) return false;
     }
     return error_is_clean(err);
+}
+
+// The first column that a value given under `key` sets, by itself or in the map it is, and that is
+// one of `among`; NULL: none.
+static const char *find_given(const Study *study, const bool *among, const char *key,
+                              const YamlDocument *document, YamlNode node)
+{
+    int32_t column = study_column(study, key);
+    if (column >= 0 && among[column]) return study->columns[column];
+    YAML_EACH (item, document, node) {
+        char path[STUDY_NAME_SIZE];
+        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
+        const char *found = find_given(study, among, path, document, item);
+        if (found) return found;
+    }
+    return NULL;
+}
+
+// Refuses an item of `what` that gives a key that varies. A formula of `cases` over that key itself
+// (= 2 * load.pressure) takes what varies, and is no second value.
+static bool check_given(const Study *study, const char *what, YamlNode item, bool takes, Error *err)
+{
+    const char *found =
+        find_given(study, study->varied, yaml_key(study->file, item), study->file, item);
+    if (!found || (takes && scene_is_formula(study->file, item) &&
+                   strstr(yaml_text(study->file, item), found)))
+        return true;
+    return yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`", found,
+                          what);
 }
 
 // Whether the key can be set is known here; whether its value is right when a scene is made.
@@ -39,14 +74,11 @@ bool study_check_key(const YamlDocument *document, YamlNode item, Error *err)
                     scene_key_above(key, &part) >= 0;
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
-    else if (!is_known && nearest)
-        yaml_key_error(
-            document, item, err,
-            "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists them all)",
-            key, nearest);
     else if (!is_known)
         yaml_key_error(document, item, err,
-                       "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
+                       "%s: unknown key of a scene%s%s%s (`amontons info keys` lists them all)",
+                       key, nearest ? "; did you mean `" : "", nearest ? nearest : "",
+                       nearest ? "`?" : "");
     return error_is_clean(err);
 }
 
@@ -59,8 +91,9 @@ static bool read_set(Study *study, Error *err)
         return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
     YAML_EACH (item, study->file, study->set) {
         if (!study_check_key(study->file, item, err)) return false;
+        if (!check_given(study, "set", item, false, err)) return false;
         if (scene_is_formula(study->file, item) &&
-            !study_add_column(study, yaml_key(study->file, item), err))
+            study_add_column(study, yaml_key(study->file, item), err) < 0)
             return false;
     }
     return error_is_clean(err);
@@ -69,14 +102,13 @@ static bool read_set(Study *study, Error *err)
 static bool add_case(Study *study, const YamlDocument *document, YamlNode map, Error *err)
 {
     int32_t count = study->case_list ? study->case_count : 0;   // without cases there is one point
-    StudyCase *list = memory_grow(study->case_list, count, &study->case_room, sizeof *list, err);
-    if (!list) return false;
-    study->case_list = list;
+    if (!memory_grow(&study->case_list, count, &study->case_room, sizeof *study->case_list, err))
+        return false;
     study->case_list[count] = (StudyCase){document, map};
     study->case_count = count + 1;
     YAML_EACH (item, document, map) {
         if (!study_check_key(document, item, err)) return false;
-        if (!add_columns(study, yaml_key(document, item), document, item, err)) return false;
+        if (!add_columns(study, yaml_key(document, item), document, item, false, err)) return false;
     }
     return error_is_clean(err);
 }
@@ -131,37 +163,22 @@ static bool write_range(const double bounds[2], bool is_log, int32_t points, cha
 // place.
 static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
 {
-    YamlNode ends = YAML_NO_NODE, points = YAML_NO_NODE;
-    bool is_log = false, is_known = true;
-    double bounds[2] = {0, 0}, count = 0;
+    WantedKey keys[] = {{.name = "log"}, {.name = "linear"}, {.name = "points"}};
+    double bounds[2] = {0, 0};
+    int32_t count = 0;
     char *text = NULL, name[SCENE_TEXT_SIZE + 80];
-    YAML_EACH (item, study->file, node) {
-        const char *key = yaml_key(study->file, item);
-        if (strcmp(key, "log") == 0 || strcmp(key, "linear") == 0) {
-            is_known = is_known && ends == YAML_NO_NODE;
-            ends = item;
-            is_log = key[1] == 'o';
-        } else if (strcmp(key, "points") == 0) {
-            points = item;
-        } else {
-            is_known = false;
-        }
-    }
-    if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
+    if (!wanted_find(study->file, node, axis->key, keys, 3, err)) return false;
+    bool is_log = keys[0].node != YAML_NO_NODE;
+    YamlNode ends = keys[is_log ? 0 : 1].node;
+    if (yaml_count(study->file, node) != 2 || ends == YAML_NO_NODE || keys[2].node == YAML_NO_NODE)
         return yaml_refuse(study->file, node, axis->key, AXIS_ALLOWED, err);
-    YamlNode first = yaml_first(study->file, ends);
-    bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
-                study_plain_number(study, first, &bounds[0]) &&
-                study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
-    if (!good) return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
+    if (!study_pair(study, ends, bounds))
+        return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
     if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
         return yaml_refuse(study->file, ends, axis->key, "two numbers > 0 in a range of logarithms",
                            err);
-    if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
-        count > STUDY_RANGE_MAX)
-        return yaml_refuse(study->file, points, axis->key,
-                           "a whole number of points, from 1 to 10000", err);
-    TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
+    if (!study_whole(study, &keys[2], STUDY_RANGE_MAX, &count, err)) return false;
+    TRY(write_range(bounds, is_log, count, &text, err));
     snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
              yaml_line(study->file, node), yaml_column(study->file, node));
     TRY(yaml_parse(name, text, 0, &study->made[study->made_count], err));
@@ -190,8 +207,12 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
         return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
     if (!study_list(axis->document, axis->list, &axis->values, err)) return false;
     study->axis_count++;
+    YAML_EACH (value, axis->document, axis->list) {
+        const char *found = find_given(study, study->varied, axis->key, axis->document, value);
+        if (found) return yaml_key_error(study->file, item, err, "%s: varied twice", found);
+    }
     YAML_EACH (value, axis->document, axis->list)
-        if (!add_columns(study, axis->key, axis->document, value, err)) return false;
+        if (!add_columns(study, axis->key, axis->document, value, true, err)) return false;
     return error_is_clean(err);
 }
 
@@ -206,65 +227,14 @@ static bool read_vary(Study *study, Error *err)
     return error_is_clean(err);
 }
 
-// Whether `node`, given under `key`, gives the key `wanted`: by itself, or in the map it is.
-static bool gives(const YamlDocument *document, const char *key, YamlNode node, const char *wanted)
-{
-    size_t length = strlen(key);
-    char path[STUDY_NAME_SIZE];
-    if (strcmp(key, wanted) == 0) return true;
-    if (strncmp(wanted, key, length) != 0 || wanted[length] != '.') return false;
-    YAML_EACH (item, document, node) {
-        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        if (gives(document, path, item, wanted)) return true;
-    }
-    return false;
-}
-
-// Whether any of its values gives it; the values of a range are numbers.
-static bool axis_gives(const StudyAxis *axis, const char *wanted)
-{
-    YAML_EACH (value, axis->document, axis->list)
-        if (gives(axis->document, axis->key, value, wanted)) return true;
-    return false;
-}
-
-// Refuses a key of `map` (under `what`) that gives the varied key `wanted` once more. A formula
-// over that key itself (= 2 * load.pressure) takes what varies, and is no second value.
-static bool check_map(const Study *study, const char *what, YamlNode map, const char *wanted,
-                      Error *err)
-{
-    if (map == YAML_NO_NODE) return true;
-    YAML_EACH (item, study->file, map) {
-        if (!gives(study->file, yaml_key(study->file, item), item, wanted)) continue;
-        if (strcmp(what, "cases") == 0 && scene_is_formula(study->file, item) &&
-            strstr(yaml_text(study->file, item), wanted))
-            continue;
-        return yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`",
-                              wanted, what);
-    }
-    return true;
-}
-
 // A key has one value at a point, from one place. Cases may replace what `set` gives: it is what
 // the other cases have.
-static bool check_twice(const Study *study, Error *err)
+static bool check_cases(const Study *study, Error *err)
 {
-    YamlNode vary = yaml_look_up(study->file, "vary"), item = YAML_NO_NODE;
-    for (int32_t c = 0; c < study->column_count; c++) {
-        const char *wanted = study->columns[c];
-        int32_t given = 0;
-        if (vary != YAML_NO_NODE) item = yaml_first(study->file, vary);
-        for (int32_t k = 0; k < study->axis_count; k++, item = yaml_next(study->file, item)) {
-            given += axis_gives(&study->axes[k], wanted);
-            if (given < 2) continue;
-            return yaml_key_error(study->file, item, err, "%s: varied twice", wanted);
-        }
-        if (given == 0) continue;
-        if (!check_map(study, "set", study->set, wanted, err)) return false;
-        if (study->cases == YAML_NO_NODE) continue;
-        YAML_EACH (one, study->file, study->cases)
-            if (!check_map(study, "cases", one, wanted, err)) return false;
-    }
+    if (study->cases == YAML_NO_NODE) return true;
+    YAML_EACH (one, study->file, study->cases)
+        YAML_EACH (item, study->file, one)
+            if (!check_given(study, "cases", item, true, err)) return false;
     return error_is_clean(err);
 }
 
@@ -281,9 +251,8 @@ static bool read_override(Study *study, const char *text, Error *err)
     YamlDocument **document = &study->made[study->made_count];
     if (!yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err)) return false;
     study->made_count++;
-    for (int32_t c = 0; c < study->column_count; c++)
-        if (gives(*document, key, YAML_ROOT, study->columns[c]))
-            return REFUSE(err, "--set %s: %s varies %s", key, study->path, study->columns[c]);
+    const char *found = find_given(study, study->chosen, key, *document, YAML_ROOT);
+    if (found) return REFUSE(err, "--set %s: %s varies %s", key, study->path, found);
     study->overrides[study->override_count++] =
         (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
     return true;
@@ -315,21 +284,18 @@ bool study_read_vary(Study *study, const char *const *overrides, int32_t overrid
     if (!read_vary(study, err)) return false;
     for (int32_t k = 0; k < override_count; k++)
         if (!read_override(study, overrides[k], err)) return false;
-    return read_set(study, err) && check_twice(study, err) && count_points(study, err);
+    return read_set(study, err) && check_cases(study, err) && count_points(study, err);
 }
 
 bool study_add_designs(Study *study, const char *text, Error *err)
 {
     int32_t count = study->design_count;
-    char **texts = memory_grow(study->designs, count, &study->design_room, sizeof *texts, err);
-    if (!texts) return false;
-    study->designs = texts;
-    YamlDocument **files =
-        memory_grow(study->design_files, count, &study->design_file_room, sizeof *files, err);
-    if (!files) return false;
-    study->design_files = files;
-    if (!(texts[count] = memory_text(text, err))) return false;
+    if (!memory_grow(&study->designs, count, &study->design_room, sizeof *study->designs, err))
+        return false;
+    StudyDesigns *one = &study->designs[count];
+    *one = (StudyDesigns){.text = memory_text(text, err)};
+    if (!one->text) return false;
     study->design_count++;   // half of it is freed as well
-    return yaml_parse("designs of the search", text, 0, &files[count], err) &&
-           read_cases(study, files[count], YAML_ROOT, err) && count_points(study, err);
+    return yaml_parse("designs of the search", text, 0, &one->file, err) &&
+           read_cases(study, one->file, YAML_ROOT, err) && count_points(study, err);
 }

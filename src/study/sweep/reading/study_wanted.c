@@ -8,7 +8,6 @@
 #include "study/sweep/reading/study_records.h"
 #include "study/sweep/reading/wanted_keys.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,40 +39,12 @@ static void add_record(Study *study, const char *name, const char *path, const c
     snprintf(record->path, sizeof record->path, "%s", path);
 }
 
-// Results of earlier versions, and what they are called now.
-static const struct {
-    const char *old, *name;
-} RENAMED[] = {
-    {"mu_trusted", "mu_hold"},
-    {"mu_trusted_error", "mu_hold_error"},
-    {"mu_falls", "mu_drops"},
-    {"mu_falls_error", "mu_drops_error"},
-    {"falls", "drops"},
-    {"falls_period", "drops_period"},
-    {"falls_enough", "drops_enough"},
-    {"falls.period", "drops_period"},
-    {"falls.enough", "drops_enough"},
-    {"falls.counted", "drops"},
-    {"falls.mean", "mu_drops"},
-    {"falls.mean_error", "mu_drops_error"},
-    {"mu_peaks_low", "low"},
-    {"mu_peaks_high", "high"},
-};
-
-// NULL: `name` was never another's. Also as a path in run.json.
-static const char *new_name(const char *name)
-{
-    const char *old = strncmp(name, "results.", 8) == 0 ? name + 8 : name;
-    for (size_t k = 0; k < sizeof RENAMED / sizeof RENAMED[0]; k++)
-        if (strcmp(old, RENAMED[k].old) == 0) return RENAMED[k].name;
-    return NULL;
-}
-
 // The column of `name`, which stands at `node` under the key `what` (static storage): a name of
 // STUDY_RECORDS or a path in run.json. What no column holds yet gets one.
 static bool find_record(Study *study, const WantedName *wanted, int32_t *column, Error *err)
 {
     const char *name = wanted->name, *what = wanted->what, *names[KNOWN_RECORD_COUNT];
+    char hint[TEXT_HINT_SIZE];
     YamlNode node = wanted->node;
     const char *path = strchr(name, '.') && strlen(name) < STUDY_NAME_SIZE ? name : NULL;
     for (*column = 0; *column < study->record_count; ++*column)
@@ -82,9 +53,6 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
         names[k] = KNOWN_RECORDS[k].name;
         if (strcmp(name, names[k]) == 0) path = KNOWN_RECORDS[k].path;
     }
-    if (new_name(name))
-        return yaml_error(study->file, node, err, "%s: `%.60s` is called `%s` now", what, name,
-                          new_name(name));
     if (path && study->record_count == STUDY_RECORDS_MAX)
         return yaml_error(study->file, node, err, "%s: more than %d columns", what,
                           STUDY_RECORDS_MAX);
@@ -92,16 +60,12 @@ static bool find_record(Study *study, const WantedName *wanted, int32_t *column,
         add_record(study, name, path, what, node);
         return true;
     }
-    int32_t nearest = text_nearest(name, names, KNOWN_RECORD_COUNT);
-    if (nearest >= 0)
-        yaml_error(study->file, node, err, "%s: unknown name `%.60s`; did you mean `%s`?", what,
-                   name, names[nearest]);
-    else
-        yaml_error(study->file, node, err,
-                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` lists, "
-                   "or a path in run.json, as in results.mu_max",
-                   what, name);
-    return false;
+    return yaml_error(
+        study->file, node, err, "%s: unknown name `%.60s`%s", what, name,
+        text_hint(name, names, KNOWN_RECORD_COUNT,
+                  "; allowed: a name that `amontons sweep --help` lists, or a path in "
+                  "run.json, as in results.mu_max",
+                  hint));
 }
 
 const char *study_record_path(const char *name)
@@ -186,7 +150,7 @@ static bool read_refine(Study *study, const WantedKey *key, Error *err)
     if (length == 0 || (text[length] && !percent) || !(*share > 0 && *share < 1))
         return yaml_refuse(study->file, key->node, key->name,
                            "the smallest error bar worth computing, as in 0.5%", err);
-    return study_add_column(study, "accuracy.mu", err);
+    return study_add_column(study, "accuracy.mu", err) >= 0;
 }
 
 // {mu_first_pad: highest, scene.mesh.set.pad_height: lowest}
@@ -235,14 +199,10 @@ static bool read_rank(Study *study, Error *err)
     if (!read_against(study, &keys[3], err)) return false;
     if (!read_refine(study, &keys[4], err)) return false;
     if (!read_also(study, &keys[5], err)) return false;
-    double top = TOP_STANDARD;
-    bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
-    if (!good || top != floor(top) || top < 1 || top > TOP_MAX)
-        return yaml_refuse(study->file, keys[2].node, "top", "a whole number from 1 to 1000", err);
     rank->wanted = true;
     rank->lowest = order == 1;
-    rank->top = (int32_t)top;
-    return error_is_clean(err);
+    rank->top = TOP_STANDARD;
+    return study_whole(study, &keys[2], TOP_MAX, &rank->top, err);
 }
 
 // --- plots --------------------------------------------------------------------------------------
@@ -278,12 +238,12 @@ static bool check_quantity(Study *study, const StudyPlot *plot, PlotKey key, Err
     QuantityRead read = {
         study, {NULL, plot_key_name(key), plot->node[key]}, key != PLOT_CONTOURS, err};
     FormulaNames names = {.look_up = find_quantity, .context = &read, .unknown = "is no column"};
-    const char *text = plot->text[key];
+    const char *text = plot->text[key], *equals = strchr(text, '=');
     Formula formula;
     Error found = {0};
     double ignored = 0;
-    if (text[0] != '=') return !text[0] || find_quantity(&read, text, &ignored);
-    if (formula_read(text + 1, &names, &formula, &found)) return true;
+    if (!equals) return !text[0] || find_quantity(&read, text, &ignored);
+    if (formula_read(equals + 1, &names, &formula, &found)) return true;
     return error_is_clean(err) &&   // else it was a name
            yaml_error(study->file, plot->node[key], err, "%s: %.200s", plot_key_name(key),
                       found.message);

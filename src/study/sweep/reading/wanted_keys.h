@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Maps of few keys. Called by study_wanted and plot_words.
+// Maps of few keys. Called by all that read a study.
 #ifndef AMONTONS_STUDY_SWEEP_READING_WANTED_KEYS_H
 #define AMONTONS_STUDY_SWEEP_READING_WANTED_KEYS_H
 
@@ -9,6 +9,8 @@ typedef struct WantedKey {
     const char *name;   // "by"
     YamlNode node;   // found under it; YAML_NO_NODE: not given
 } WantedKey;
+
+enum { WANTED_KEYS_MAX = 16 };
 
 // Finds `keys` ([count]) in `map`, called `what`; refuses every other key.
 bool wanted_find(const YamlDocument *file, YamlNode map, const char *what, WantedKey *keys,

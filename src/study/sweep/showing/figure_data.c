@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { DOUBTS_MAX = 31 };   // names; the last one stands for all that are more
+
 static const double LOG_SUITS = 0.75;   // scatter of ratios (their logarithms) over that of steps
 
 // ERROR_INPUT: too many.
@@ -45,26 +47,31 @@ static bool find_quantities(Source *source, const StudyPlot *plot, Error *err)
     return error_is_clean(err);
 }
 
-// The errors that count are those of what is shown: of y, or of a map's colour.
-static bool find_doubts(Source *source, bool is_map, Error *err)
+// Bits of the sweep's own names of warnings become those of all sweeps' names. The errors that
+// count are those of what is shown: of y, or of a map's colour.
+static bool find_doubts(Source *source, bool is_map, WordList *doubts, Error *err)
 {
-    PlotTable *table = &source->table;
+    const PlotTable *table = &source->table;
     const Quantity *shown = source->quantity[is_map ? PLOT_COLOR : PLOT_Y];
-    double unknown = 0;
-    if (!words_index(&table->kinds, DOUBT_NO_ERROR, &unknown, err)) return false;
+    double place[DOUBTS_MAX];
+    int32_t kinds = table->kinds.count < DOUBTS_MAX ? table->kinds.count : DOUBTS_MAX;
     if (!(source->doubts = NEW_ARRAY(uint32_t, table->count, err))) return false;
+    for (int32_t kind = 0; kind < kinds; kind++)
+        if (!words_index(doubts, table->kinds.words[kind], &place[kind], err)) return false;
     for (int32_t k = 0; k < table->count; k++) {
-        source->doubts[k] = (uint32_t)table->warned[k];
-        if (shown->errors && isnan(shown->errors[k]))
-            source->doubts[k] |= (uint32_t)1 << (int32_t)unknown;
+        for (int32_t kind = 0; kind < kinds; kind++)
+            if ((uint32_t)table->warned[k] >> kind & 1)
+                source->doubts[k] |= (uint32_t)1 << (int32_t)fmin(place[kind], DOUBTS_MAX - 1);
+        if (shown->errors && isnan(shown->errors[k])) source->doubts[k] |= DOUBT_NO_ERROR;
     }
     return true;
 }
 
-bool source_open(const char *folder, const StudyPlot *plot, Source *source, Error *err)
+bool source_open(const char *folder, const StudyPlot *plot, WordList *doubts, Source *source,
+                 Error *err)
 {
     return plot_table_open(folder, &source->table, err) && find_quantities(source, plot, err) &&
-           find_doubts(source, plot->text[PLOT_COLOR][0], err) &&
+           find_doubts(source, plot->text[PLOT_COLOR][0], doubts, err) &&
            find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
                        &source->series, err) &&
            find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],

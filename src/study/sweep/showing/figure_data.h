@@ -21,13 +21,14 @@ typedef struct Source {
     Quantity made[PLOT_KEYS];   // of formulas
     const Quantity *quantity[PLOT_KEYS];   // NULL: not asked for
     Values series, panels;
-    uint32_t
-        *doubts;   // [table.count] bits: of table.kinds, and the last one: error not known; owned
+    uint32_t *doubts;   // [table.count] bits: of the names in source_open, and the last one: error
+        // not known; owned
 } Source;
 
-// ERROR_INPUT: a name that the table does not have, words where numbers are needed, too many
-// values of a key.
-bool source_open(const char *folder, const StudyPlot *plot, Source *source, Error *err);
+// doubts: names of what its runs are warned of are added where they lack. ERROR_INPUT: a name that
+// the table does not have, words where numbers are needed, too many values of a key.
+bool source_open(const char *folder, const StudyPlot *plot, WordList *doubts, Source *source,
+                 Error *err);
 void source_close(Source *source);   // zeroed is fine
 
 bool values_hold(const Values *values, int32_t which, int32_t point);   // of the which-th value?

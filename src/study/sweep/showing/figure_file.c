@@ -143,17 +143,10 @@ bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
 }
 
 // One entry: one symbol has one meaning, of which there may be several reasons.
-uint32_t figure_no_error(const WordList *names)
-{
-    for (int32_t k = 0; k < names->count; k++)
-        if (strcmp(names->words[k], DOUBT_NO_ERROR) == 0) return (uint32_t)1 << k;
-    return 0;
-}
-
 bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
                          Error *err)
 {
-    uint32_t no_error = figure_no_error(names), warned = doubts & ~no_error;
+    uint32_t warned = doubts & ~DOUBT_NO_ERROR;
     int32_t all = __builtin_popcount(warned), shown = 0;
     char label[LABEL_SIZE] = "open: ";
     for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
@@ -164,10 +157,10 @@ bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts,
                  names->words[k], has_more ? ", others" : "");
     }
     Curve entry = {.label = label, .line = "none", .marker = "circle"};
-    Curve bare = {.label = map ? DOUBT_NO_ERROR : "without a bar: " DOUBT_NO_ERROR,
+    Curve bare = {.label = map ? "error not known" : "without a bar: error not known",
                   .line = "none",
                   .marker = map ? "square" : NULL};
     if (shown > 0 && !figure_write_entry(figure, &entry, err)) return false;
-    if (doubts & no_error && !figure_write_entry(figure, &bare, err)) return false;
+    if (doubts & DOUBT_NO_ERROR && !figure_write_entry(figure, &bare, err)) return false;
     return true;
 }

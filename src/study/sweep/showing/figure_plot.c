@@ -7,6 +7,8 @@
 
 #include "base/memory.h"
 #include "base/order.h"
+#include "io/files/folder.h"
+#include "io/text/picture_options.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -15,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CURVES_MAX = 15, COLORS = 7, MARKERS = 4, DOUBTS_MAX = 32 };
+enum { CURVES_MAX = 15, COLORS = 7, MARKERS = 4 };
 
 typedef struct PlotFigure {
     Figure figure;
@@ -35,30 +37,8 @@ typedef struct PlotFigure {
 static bool folder_of(const char *beside, const char *given, char folder[AMONTONS_PATH_SIZE],
                       Error *err)
 {
-    const char *slash = beside ? strrchr(beside, '/') : NULL;
-    int length = slash && given[0] != '/' ? (int)(slash - beside) + 1 : 0;
-    if (snprintf(folder, AMONTONS_PATH_SIZE, "%.*s%s", length, length ? beside : "", given) >=
-        AMONTONS_PATH_SIZE)
-        return REFUSE(err, "plot: the path %.60s is too long", given);
-    return true;
-}
-
-// Bits of the sweep's own names become those of all sweeps' names.
-static bool join_doubts(PlotFigure *self, Source *source, Error *err)
-{
-    double place[DOUBTS_MAX] = {0};
-    const WordList *kinds = &source->table.kinds;
-    for (int32_t k = 0; k < kinds->count && k < DOUBTS_MAX; k++) {
-        if (!words_index(&self->doubts, kinds->words[k], &place[k], err)) return false;
-        place[k] = fmin(place[k], DOUBTS_MAX - 1);
-    }
-    for (int32_t point = 0; point < source->table.count; point++) {
-        uint32_t bits = source->doubts[point];
-        source->doubts[point] = 0;
-        for (int32_t k = 0; k < kinds->count && k < DOUBTS_MAX; k++)
-            if (bits >> k & 1) source->doubts[point] |= (uint32_t)1 << (int32_t)place[k];
-    }
-    return true;
+    return folder_beside(beside, given, folder, AMONTONS_PATH_SIZE) ||
+           REFUSE(err, "plot: the path %.60s is too long", given);
 }
 
 // The title of its study; where another sweep has the same, its folder.
@@ -108,8 +88,8 @@ static bool open_sources(PlotFigure *self, const char *folder, const char *besid
         char path[AMONTONS_PATH_SIZE];
         Source *source = &self->sources[k];
         if (k > 0 && !folder_of(beside, self->plot->with[k - 1], path, err)) return false;
-        if (!source_open(k > 0 ? path : folder, self->plot, source, err)) return false;
-        if (!join_doubts(self, source, err)) return false;
+        if (!source_open(k > 0 ? path : folder, self->plot, &self->doubts, source, err))
+            return false;
         if (source->table.count > largest) largest = source->table.count;
         curves += source->series.count;
     }
@@ -150,14 +130,13 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
                          Error *err)
 {
     double *x = self->work, *y = x + count, *error = y + count, *open = error + count;
-    uint32_t found = 0, warned = 0, no_error = figure_no_error(&self->doubts);
+    uint32_t found = 0;
     for (int32_t k = 0; k < count; k++) {
         x[k] = points[k].x;
         y[k] = points[k].y;
         error[k] = points[k].error;
-        open[k] = points[k].doubts & ~no_error ? y[k] : NAN;
+        open[k] = points[k].doubts & ~DOUBT_NO_ERROR ? y[k] : NAN;
         found |= points[k].doubts;
-        warned |= points[k].doubts & ~no_error;
     }
     curve.count = count;
     curve.x = x;
@@ -165,7 +144,7 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
     curve.error = error;
     if (!figure_write_curve(&self->figure, &curve, err)) return false;
     self->found |= found;
-    if (warned) {
+    if (found & ~DOUBT_NO_ERROR) {
         curve.label = "";
         curve.line = "none";
         curve.filled = false;
@@ -271,7 +250,6 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
     const Quantity *const *quantity = source->quantity;
     const Quantity *lines = quantity[PLOT_CONTOURS];
     int32_t all = source->table.count, count = 0;
-    uint32_t no_error = figure_no_error(&self->doubts);
     double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
     double *open = contour + all;
     for (int32_t k = 0; k < all; k++) {
@@ -282,9 +260,9 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
         value[count] = quantity[PLOT_COLOR]->values[k];
         contour[count] = lines ? lines->values[k] : 0;
         bool has_value = isfinite(value[count]);
-        uint32_t doubts = has_value ? source->doubts[k] : 0;
-        open[count++] = doubts & ~no_error ? 1 : doubts ? 2 : 0;
-        if (has_value) self->found |= doubts & ~no_error ? doubts & ~no_error : doubts;
+        uint32_t doubts = has_value ? source->doubts[k] : 0, warned = doubts & ~DOUBT_NO_ERROR;
+        open[count++] = warned ? 1 : doubts ? 2 : 0;
+        self->found |= warned ? warned : doubts;
         self->some_missing |= !has_value;
     }
     if (!check_places(self, x, y, count, err)) return false;
@@ -314,12 +292,16 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
 static bool write_map_entries(PlotFigure *self, Error *err)
 {
     const Quantity *const *quantity = self->sources[0].quantity;
-    char label[QUANTITY_LABEL_SIZE + 8];
+    char label[QUANTITY_LABEL_SIZE + 40];
     if (quantity[PLOT_CONTOURS]) {
-        Curve line = {.label = quantity[PLOT_CONTOURS]->label.words, .line = "solid"};
+        bool many = self->sources[0].table.count / self->panels.count > MAP_MANY;
+        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+                 quantity[PLOT_CONTOURS]->label.words, MAP_MEDIANS, MAP_MEDIANS);
+        Curve line = {.label = label, .line = "solid"};
         if (!figure_write_entry(&self->figure, &line, err)) return false;
     }
-    snprintf(label, sizeof label, "no %s", quantity[PLOT_COLOR]->label.words);
+    bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
+    snprintf(label, sizeof label, "no %s", formula ? "value" : quantity[PLOT_COLOR]->label.words);
     Curve missing = {.label = label, .line = "none", .marker = "cross"};
     return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
 }
@@ -337,7 +319,8 @@ static bool write_axes(PlotFigure *self, Error *err)
             !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
             return false;
         QuantityLabel label = quantity->label;
-        label.column = plot->text[key] + strspn(plot->text[key], "= ");
+        const char *equals = strchr(plot->text[key], '=');
+        label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
         figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }

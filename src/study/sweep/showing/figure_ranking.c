@@ -3,7 +3,6 @@
 // error is not known; the legend says which.
 #include "study/sweep/showing/figure_ranking.h"
 
-#include "base/memory.h"
 #include "study/sweep/reading/study_point.h"
 #include "study/sweep/showing/figure_file.h"
 
@@ -18,10 +17,8 @@ typedef struct RankingFigure {
     Figure figure;
     const Sweep *sweep;
     const Ranking *ranking;
+    const SweepTable *table;
     int32_t shown;   // rows
-    WordList doubts;   // names of what a mark may be open for; owned, as the next
-    double *bits;   // [points] of them
-    uint32_t found;   // among the rows shown
 } RankingFigure;
 
 static void join(char *text, size_t size, const char *word)
@@ -44,7 +41,7 @@ static bool write_names(RankingFigure *self, Error *err)
         const Scene *scene = point_scene(self->sweep, self->ranking->rows[k].point, err);
         if (!scene) return false;
         for (int32_t c = 0; c < study->column_count; c++) {
-            if (!study_is_chosen(study, study->columns[c])) continue;
+            if (!study->chosen[c]) continue;
             study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
             join(name, sizeof name, cell);
         }
@@ -52,11 +49,19 @@ static bool write_names(RankingFigure *self, Error *err)
     }
     json_end(json);
     for (int32_t c = 0; c < study->column_count; c++)
-        if (study_is_chosen(study, study->columns[c]))
+        if (study->chosen[c])
             join(label, sizeof label, label_of_key(study->columns[c], false).words);
     json_text(json, "label", label);
     json_end(json);
     return true;
+}
+
+// Why the mark of a row is open, as bits.
+static uint32_t doubts_of(const RankingFigure *self, int32_t k)
+{
+    const RankRow *row = &self->ranking->rows[k];
+    uint32_t warned = (uint32_t)self->table->kinds->values[row->point];
+    return warned | (self->ranking->has_error && isnan(row->error) ? DOUBT_NO_ERROR : 0);
 }
 
 // Marks and bars of all rows, or open marks of those that are doubtful.
@@ -65,7 +70,7 @@ static bool write_marks(RankingFigure *self, bool open, Error *err)
     double x[ROWS_MAX], y[ROWS_MAX], error[ROWS_MAX];
     for (int32_t k = 0; k < self->shown; k++) {
         const RankRow *row = &self->ranking->rows[k];
-        bool warned = (uint32_t)self->bits[row->point] & ~figure_no_error(&self->doubts);
+        bool warned = doubts_of(self, k) & ~DOUBT_NO_ERROR;
         x[k] = !open || warned ? row->value : NAN;
         y[k] = self->shown - k;
         error[k] = row->error;
@@ -97,25 +102,11 @@ static bool write_baseline(RankingFigure *self, Error *err)
     return figure_write_curve(&self->figure, &line, err);
 }
 
-static bool find_doubts(RankingFigure *self, const SweepTable *table, Error *err)
-{
-    double unknown = 0;
-    if (!(self->bits = NEW_ARRAY(double, table->warned.all, err))) return false;
-    if (!warned_bits(&table->warned, &self->doubts, self->bits, err)) return false;
-    if (!words_index(&self->doubts, DOUBT_NO_ERROR, &unknown, err)) return false;
-    for (int32_t k = 0; k < self->shown; k++) {
-        const RankRow *row = &self->ranking->rows[k];
-        uint32_t bits = (uint32_t)self->bits[row->point];
-        if (self->ranking->has_error && isnan(row->error)) bits |= (uint32_t)1 << (int32_t)unknown;
-        self->bits[row->point] = bits;
-        self->found |= bits;
-    }
-    return true;
-}
-
 static bool write_figure(RankingFigure *self, Error *err)
 {
     const Study *study = &self->sweep->study;
+    uint32_t found = 0;
+    for (int32_t k = 0; k < self->shown; k++) found |= doubts_of(self, k);
     QuantityLabel label = label_of_record(study->records[study->rank.record].name);
     if (!figure_begin(&self->figure, err)) return false;
     JsonWriter *json = self->figure.json;
@@ -125,8 +116,9 @@ static bool write_figure(RankingFigure *self, Error *err)
     json_begin_list(json, "series");
     if (!write_baseline(self, err)) return false;
     if (!write_marks(self, false, err)) return false;
-    if (self->found && !write_marks(self, true, err)) return false;
-    if (!figure_write_doubts(&self->figure, &self->doubts, self->found, false, err)) return false;
+    if (found && !write_marks(self, true, err)) return false;
+    if (!figure_write_doubts(&self->figure, &self->table->kinds->words, found, false, err))
+        return false;
     json_end(json);
     return true;
 }
@@ -138,16 +130,12 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
     RankingFigure self = {
         .figure = {.folder = sweep->folder, .name = "ranking", .title = sweep->study.title},
         .sweep = sweep,
+        .table = table,
         .ranking = ranking,
         .shown = ranking->ranked};
     if (self.shown > sweep->study.rank.top) self.shown = sweep->study.rank.top;
     if (self.shown > ROWS_MAX) self.shown = ROWS_MAX;
     if (self.shown == 0) return true;
-    TRY(find_doubts(&self, table, err));
     write_figure(&self, err);
-    figure_end(&self.figure, err);
-cleanup:
-    memory_free(self.bits);
-    words_destroy(&self.doubts);
-    return error_is_clean(err);
+    return figure_end(&self.figure, err);
 }

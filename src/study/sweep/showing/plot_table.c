@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { WORDS_SIZE = 1 << 16, NAMES_MAX = 2 * PLOT_COLUMNS_MAX };
+enum { WORDS_SIZE = 1 << 16 };
 
 // --- reading ------------------------------------------------------------------------------------
 
@@ -95,21 +95,15 @@ void plot_table_close(PlotTable *table)
 static void refuse_name(PlotTable *table, const char *name, Error *err)
 {
     WordList known = {0};
-    const char *names[NAMES_MAX];
+    char hint[TEXT_HINT_SIZE];
     if (!read_words(table, "columns", &known, err)) return;
-    int32_t count = known.count < NAMES_MAX ? known.count : NAMES_MAX;
-    for (int32_t k = 0; k < count; k++) names[k] = known.words[k];
-    int32_t nearest = text_nearest(name, names, count);
     char *all = words_join(&known, err);
     for (char *at = all; at && *at; at++)
         if (*at == '|') *at = ' ';
-    if (nearest >= 0)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s has no column `%.60s`; did you mean `%s`?", table->path, name,
-                  names[nearest]);
-    else if (all)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`; it has: %s",
-                  table->path, name, all);
+    const char *near = text_hint(name, (const char *const *)known.words, known.count, NULL, hint);
+    if (all)
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`%s%s", table->path,
+                  name, near ? near : "; it has: ", near ? "" : all);
     memory_free(all);
     words_destroy(&known);
 }
@@ -221,6 +215,11 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
 
 const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *made, Error *err)
 {
-    if (text[0] != '=') return find_column(table, text, err);
-    return work_out(table, text + 1, made, err) ? made : NULL;
+    const char *equals = strchr(text, '=');
+    if (!equals) return find_column(table, text, err);
+    if (!work_out(table, equals + 1, made, err)) return NULL;
+    int length = (int)(equals - text);
+    while (length > 0 && text[length - 1] == ' ') --length;
+    if (length > 0) snprintf(made->label.words, sizeof made->label.words, "%.*s", length, text);
+    return made;
 }

@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_SIZE = 80, CELLS_MAX = STUDY_COLUMNS_MAX + 6, BLOCK = 256 };
+enum { CELL_SIZE = 80, CELLS_MAX = STUDY_COLUMNS_MAX + 6 };
 
 // --- order --------------------------------------------------------------------------------------
 
@@ -50,65 +50,39 @@ static bool is_decided(const RankRow *a, const RankRow *b)
     return difference * difference > a->error * a->error + b->error * b->error;
 }
 
-// What is known of BLOCK rows one after the other: so a point of a long ranking is compared with
-// the rows near to it, and with the others by the block.
-typedef struct RankBlock {
-    int32_t known;   // errors that are
-    double least, greatest;   // of their squares; infinite, 0: none is known
-} RankBlock;
-
-static RankBlock look_at_block(const RankRow *rows, int32_t count)
+static bool is_beyond(double value, double largest_error, const RankRow *row)
 {
-    RankBlock block = {.least = INFINITY};
-    for (int32_t i = 0; i < count; i++) {
-        double square = rows[i].error * rows[i].error;
-        block.known += !isnan(square);
-        block.least = fmin(block.least, square);
-        block.greatest = fmax(block.greatest, square);
-    }
-    return block;
+    return is_decided(&(RankRow){.value = value, .error = largest_error}, row);
 }
 
-// How many of the rows `first` to `last` - 1, all of a block or a part of it, are decided against
-// `row`. Squares and sums are rounded alike for all, so the bounds are exact.
-static int32_t count_decided(const Ranking *ranking, const RankBlock *block, int32_t first,
-                             int32_t last, const RankRow *row)
-{
-    const RankRow *rows = ranking->rows;
-    if (first >= last) return 0;
-    double one = fabs(rows[first].value - row->value), own = row->error * row->error;
-    double other = fabs(rows[last - 1].value - row->value);
-    double near = fmin(one, other), far = fmax(one, other);
-    int32_t count = 0;
-    if (isnan(own) || far * far <= block->least + own) return 0;
-    if (last - first == BLOCK && near * near > block->greatest + own) return block->known;
-    for (int32_t i = first; i < last; i++) count += is_decided(&rows[i], row);
-    return count;
-}
-
-// rows: sorted. The ranks that each may have.
+// rows: sorted. The ranks that each may have. A row that even the largest error decides is decided
+// wherever its own error is known, and so are all that are further off: squares and sums are
+// rounded alike for all.
 static bool find_places(Ranking *ranking, Error *err)
 {
-    int32_t count = ranking->ranked, block_count = (count + BLOCK - 1) / BLOCK;
-    RankBlock *blocks = NEW_ARRAY(RankBlock, block_count, err);
-    TRY(blocks);
-    for (int32_t b = 0, first = 0; b < block_count; b++, first += BLOCK)
-        blocks[b] =
-            look_at_block(&ranking->rows[first], count - first < BLOCK ? count - first : BLOCK);
+    int32_t count = ranking->ranked;
+    int32_t *known = NEW_ARRAY(int32_t, count + 1, err);   // errors of the rows before
+    double largest = 0;
+    if (!known) return false;
     for (int32_t k = 0; k < count; k++) {
-        RankRow *row = &ranking->rows[k];
+        known[k + 1] = known[k] + !isnan(ranking->rows[k].error);
+        largest = fmax(largest, ranking->rows[k].error);
+    }
+    for (int32_t k = 0; k < count; k++) {
+        RankRow *rows = ranking->rows, *row = &rows[k];
+        int32_t before = k, after = k + 1;
         row->from = 1;
         row->to = count;
-        for (int32_t b = 0, first = 0; b < block_count; b++, first += BLOCK) {
-            int32_t last = count - first < BLOCK ? count : first + BLOCK;
-            int32_t before = k < last ? k : last, after = k >= first ? k + 1 : first;
-            row->from += count_decided(ranking, &blocks[b], first, before, row);
-            row->to -= count_decided(ranking, &blocks[b], after, last, row);
-        }
+        if (isnan(row->error)) continue;
+        for (; before > 0 && !is_beyond(rows[before - 1].value, largest, row); before--)
+            row->from += is_decided(&rows[before - 1], row);
+        for (; after < count && !is_beyond(rows[after].value, largest, row); after++)
+            row->to -= is_decided(&rows[after], row);
+        row->from += known[before];
+        row->to -= known[count] - known[after];
     }
-cleanup:
-    memory_free(blocks);
-    return error_is_clean(err);
+    memory_free(known);
+    return true;
 }
 
 static void look_at_refined(const Sweep *sweep, Ranking *ranking)
@@ -126,11 +100,11 @@ static RankRow row_of(const Sweep *sweep, const SweepTable *table, const Ranking
                       int32_t point)
 {
     int32_t record = sweep->study.rank.record;
-    double error = table_errors(sweep, table, record)[point];
-    double known_to = table_known_to(sweep, table, record)[point];
+    double error = table_error(table, record, point);
+    double known_to = table_known_to(table, record, point);
     double times = sweep->points[point].refined ? 1 : fmax(ranking->moved, 1);
     return (RankRow){.point = point,
-                     .value = table_values(sweep, table, record)[point],
+                     .value = table_value(table, record, point),
                      .error = times * known_to,
                      .bar = error == known_to ? error : (double)NAN};
 }
@@ -141,7 +115,7 @@ static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking
     int32_t base = baseline_of(sweep, ranking, row->point), record = sweep->study.rank.record;
     row->gain = row->gain_error = NAN;
     if (base < 0) return;
-    double value = table_values(sweep, table, record)[base];
+    double value = table_value(table, record, base);
     double error = row_of(sweep, table, ranking, base).error;
     bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
     row->gain = row->value / value - 1;
@@ -155,7 +129,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     const Study *study = &sweep->study;
     double sign = study->rank.lowest ? -1 : 1;
     *ranking =
-        (Ranking){.count = study->point_count, .has_error = table->has_error[study->rank.record]};
+        (Ranking){.count = study->point_count, .has_error = table->error[study->rank.record] >= 0};
     if (!(ranking->rows = NEW_ARRAY(RankRow, study->point_count, err))) return false;
     look_at_refined(sweep, ranking);
     for (int32_t k = 0; k < ranking->count; k++) {
@@ -166,7 +140,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
     if (ranking->has_error && !find_places(ranking, err)) return false;
     int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
-    ranking->base = base < 0 ? (double)NAN : table_values(sweep, table, study->rank.record)[base];
+    ranking->base = base < 0 ? (double)NAN : table_value(table, study->rank.record, base);
     for (int32_t k = 0; k < ranking->count; k++) {
         ranking->rows[k].value *= sign;
         find_gain(sweep, table, ranking, &ranking->rows[k]);
@@ -222,12 +196,12 @@ static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *tabl
         csv_text(csv, cell);
     }
     csv_number(csv, row->value);
-    csv_number(csv, table_errors(sweep, table, study->rank.record)[row->point]);
+    csv_number(csv, table_error(table, study->rank.record, row->point));
     csv_number(csv, row->error);
     csv_number(csv, 100 * row->gain);
     csv_number(csv, 100 * row->gain_error);
     csv_text(csv, note);
-    csv_text(csv, table->warning_words.words[(int32_t)table->warnings[row->point]]);
+    csv_text(csv, table->warnings->words.words[(int32_t)table->warnings->values[row->point]]);
     csv_end_row(csv);
 cleanup:
     return error_is_clean(err);
@@ -282,8 +256,7 @@ static void print_head(const Study *study, PrintedRow *row, int32_t *count)
     *count = 0;
     snprintf(add_cell(row, count), CELL_SIZE, "rank");
     for (int32_t k = 0; k < study->column_count; k++)
-        if (study_is_chosen(study, study->columns[k]))
-            snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
+        if (study->chosen[k]) snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
     snprintf(add_cell(row, count), CELL_SIZE, "%.79s", ranked_by(study)->name);
     snprintf(add_cell(row, count), CELL_SIZE, "gain");
 }
@@ -300,7 +273,7 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
     TRY(scene);
     snprintf(add_cell(row, &count), CELL_SIZE, "%d", k + 1);
     for (int32_t c = 0; c < study->column_count; c++)
-        if (study_is_chosen(study, study->columns[c]))
+        if (study->chosen[c])
             study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
     text_estimate(from->value, from->bar, ranking->has_error ? from->error : 0,
                   add_cell(row, &count));
@@ -367,10 +340,10 @@ static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranki
     const Study *study = &sweep->study;
     bool found = false;
     for (int32_t c = 0; c < study->column_count; c++) {
-        const double *values = &table->keys[(int64_t)c * study->point_count];
+        const double *values = table->columns[c].values;
         double ends[2], best = values[ranking->rows[0].point];
         int32_t distinct;
-        if (!study_is_chosen(study, study->columns[c]) || table->words[c].count > 0) continue;
+        if (!study->chosen[c] || table->columns[c].words.count > 0) continue;
         ends_of(values, study->point_count, ends, &distinct);
         if (distinct < 3 || (best > ends[0] && best < ends[1])) continue;
         fprintf(out, "%s%s = %.6g",

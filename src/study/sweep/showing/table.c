@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, PATH_SIZE = STUDY_NAME_SIZE + 16 };
+enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE };
 
 typedef struct TableWriter {
     const Sweep *sweep;
@@ -28,77 +28,120 @@ typedef struct TableWriter {
     char *cell;   // [CELL_SIZE] work
 } TableWriter;
 
-// --- errors -------------------------------------------------------------------------------------
+// --- columns ------------------------------------------------------------------------------------
 
-// What stands beside a record: NAME_error, NAME_known_to.
-typedef struct Beside {
-    const char *ending;
-    const bool *has;   // [record_count] run.json has it
-    double *values;   // as in the table
-    const char *description;
-} Beside;
+// What may stand beside a result.
+static const struct {
+    const char *ending, *description;
+} BESIDES[] = {{"error", "error of the column without `_error`"},
+               {"known_to", "how far the column without `_known_to` is known"}};
+enum { BESIDE_COUNT = sizeof BESIDES / sizeof BESIDES[0] };
 
-enum { BESIDES = 2 };
-
-static void find_besides(const SweepTable *table, Beside besides[BESIDES])
+static void beside(const char *name, int32_t b, char text[TABLE_PATH_SIZE])
 {
-    besides[0] =
-        (Beside){"error", table->has_error, table->errors, "error of the column without `_error`"};
-    besides[1] = (Beside){"known_to", table->has_known_to, table->known_to,
-                          "how far the column without `_known_to` is known"};
+    snprintf(text, TABLE_PATH_SIZE, "%s_%s", name, BESIDES[b].ending);
 }
 
-static void name_beside(const char *name, const Beside *beside, char text[PATH_SIZE])
+static bool is_recorded(const Study *study, const char *path)
 {
-    snprintf(text, PATH_SIZE, "%s_%s", name, beside->ending);
+    for (int32_t k = 0; k < study->record_count; k++)
+        if (strcmp(study->records[k].path, path) == 0) return true;
+    return false;
 }
 
-// Whether the table gets a column for it: run.json has it, and the study does not record it by
-// itself.
-static bool is_added(const Study *study, const Beside *beside, int32_t k)
+static TableColumn *add_column(SweepTable *table, const char *group, const char *name,
+                               const char *path, const char *description)
 {
-    char path[PATH_SIZE];
-    name_beside(study->records[k].path, beside, path);
-    for (int32_t i = 0; i < study->record_count; i++)
-        if (strcmp(study->records[i].path, path) == 0) return false;
-    return beside->has[k];
+    TableColumn *column = &table->columns[table->count++];
+    *column = (TableColumn){.group = group, .of = -1, .description = description};
+    snprintf(column->name, sizeof column->name, "%s", name);
+    snprintf(column->path, sizeof column->path, "%s", path);
+    return column;
 }
 
-// Every run.json of one version has the same keys, so the first that is done tells for all.
-static bool find_errors(const Sweep *sweep, SweepTable *table, Error *err)
+// report: of a point that is done; NULL: none is.
+static void add_record(const Study *study, int32_t k, const char *report, SweepTable *table)
+{
+    const StudyRecord *record = &study->records[k];
+    char name[TABLE_PATH_SIZE], path[TABLE_PATH_SIZE];
+    table->value[k] = table->count;
+    add_column(table, "result", record->name, record->path, record->path);
+    for (int32_t b = 0; report && b < BESIDE_COUNT; b++) {
+        beside(record->name, b, name);
+        beside(record->path, b, path);
+        if (!is_recorded(study, path) && json_may_hold(report, path))
+            add_column(table, "result", name, path, BESIDES[b].description)->of = table->value[k];
+    }
+}
+
+// -1: the table has no such column.
+static int32_t find_beside(const SweepTable *table, const StudyRecord *record, int32_t b)
+{
+    char path[TABLE_PATH_SIZE];
+    beside(record->path, b, path);
+    for (int32_t c = 0; c < table->count; c++)
+        if (strcmp(table->columns[c].path, path) == 0) return c;
+    return -1;
+}
+
+static void list_columns(const Study *study, const char *report, SweepTable *table)
+{
+    for (int32_t k = 0; k < study->column_count; k++)
+        add_column(table, "scene", study->columns[k], "",
+                   "key of the scene; a word is its index in the attribute `KEY words`");
+    for (int32_t k = 0; k < study->record_count; k++) add_record(study, k, report, table);
+    for (int32_t k = 0; k < study->record_count; k++) {
+        table->error[k] = find_beside(table, &study->records[k], 0);
+        table->known_to[k] = find_beside(table, &study->records[k], 1);
+    }
+    table->status = add_column(table, "result", "status", "", "0 pending, 1 done, 2 failed");
+    table->warnings = add_column(table, "result", "warnings", "",
+                                 "0 none; else an index in the attribute `warnings words`");
+    table->kinds = add_column(table, "result", "warned", "",
+                              "bit k: the run has a warning of the kind that is the k-th in the "
+                              "attribute `warned words`");
+}
+
+// Every run.json of one version has the same keys, so the first that is done tells for all. On
+// failure the table is the caller's to destroy.
+static bool make_columns(const Sweep *sweep, SweepTable *table, Error *err)
 {
     const Study *study = &sweep->study;
-    char *report = NULL, path[PATH_SIZE];
+    int32_t most = study->column_count + (1 + BESIDE_COUNT) * study->record_count + 3;
+    double none = 0;
+    char *report = NULL;
+    TRY((table->columns = NEW_ARRAY(TableColumn, most, err)));
     for (int32_t k = 0; k < study->point_count && !report; k++) {
         if (sweep->points[k].status != POINT_DONE) continue;
         report = point_report(sweep, k, err);
         TRY(error_is_clean(err));
     }
-    for (int32_t k = 0; report && k < study->record_count; k++) {
-        snprintf(path, sizeof path, "%s_error", study->records[k].path);
-        table->has_error[k] = json_may_hold(report, path);
-        snprintf(path, sizeof path, "%s_known_to", study->records[k].path);
-        table->has_known_to[k] = json_may_hold(report, path);
-    }
+    list_columns(study, report, table);
+    for (int32_t c = 0; c < table->count; c++)
+        TRY((table->columns[c].values = NEW_ARRAY(double, study->point_count, err)));
+    TRY(words_index(&table->warnings->words, "", &none, err));
+    TRY(warned_make(study->point_count, &table->warned, err));
 cleanup:
     memory_free(report);
     return error_is_clean(err);
 }
 
-const double *table_values(const Sweep *sweep, const SweepTable *table, int32_t record)
+double table_value(const SweepTable *table, int32_t record, int32_t point)
 {
-    return table->records + (int64_t)record * sweep->study.point_count;
+    return table->columns[table->value[record]].values[point];
 }
 
-const double *table_errors(const Sweep *sweep, const SweepTable *table, int32_t record)
+double table_error(const SweepTable *table, int32_t record, int32_t point)
 {
-    return table->errors + (int64_t)record * sweep->study.point_count;
+    int32_t error = table->error[record];
+    return error < 0 ? (double)NAN : table->columns[error].values[point];
 }
 
-const double *table_known_to(const Sweep *sweep, const SweepTable *table, int32_t record)
+double table_known_to(const SweepTable *table, int32_t record, int32_t point)
 {
-    const double *known = table->has_known_to[record] ? table->known_to : table->errors;
-    return known + (int64_t)record * sweep->study.point_count;
+    int32_t known_to = table->known_to[record];
+    return known_to < 0 ? table_error(table, record, point)
+                        : table->columns[known_to].values[point];
 }
 
 // --- sweep.csv ----------------------------------------------------------------------------------
@@ -106,19 +149,10 @@ const double *table_known_to(const Sweep *sweep, const SweepTable *table, int32_
 // Names as the study has them: `record` may rename a path.
 static void write_head(TableWriter *writer)
 {
-    const Study *study = &writer->sweep->study;
     csv_text(writer->csv, "point");
-    for (int32_t k = 0; k < study->column_count; k++) csv_text(writer->csv, study->columns[k]);
-    for (int32_t k = 0; k < study->record_count; k++) {
-        Beside besides[BESIDES];
-        char name[PATH_SIZE];
-        csv_text(writer->csv, study->records[k].name);
-        find_besides(writer->table, besides);
-        for (int32_t b = 0; b < BESIDES; b++) {
-            name_beside(study->records[k].name, &besides[b], name);
-            if (is_added(study, &besides[b], k)) csv_text(writer->csv, name);
-        }
-    }
+    for (const TableColumn *column = writer->table->columns; column < writer->table->status;
+         column++)
+        csv_text(writer->csv, column->name);
     csv_text(writer->csv, "status");
     csv_text(writer->csv, "message");
     csv_text(writer->csv, "warnings");
@@ -133,12 +167,11 @@ static bool write_keys(TableWriter *writer, int32_t point, const Scene *scene, E
 {
     const Study *study = &writer->sweep->study;
     for (int32_t k = 0; k < study->column_count; k++) {
-        double number = NAN;
-        study_scene_value(scene, study->columns[k], writer->cell, CELL_SIZE, &number);
+        TableColumn *column = &writer->table->columns[k];
+        double *number = &column->values[point];
+        study_scene_value(scene, study->columns[k], writer->cell, CELL_SIZE, number);
         csv_text(writer->csv, writer->cell);
-        WordList *words = &writer->table->words[k];
-        if (isnan(number) && !words_index(words, writer->cell, &number, err)) return false;
-        writer->table->keys[k * study->point_count + point] = number;
+        if (isnan(*number) && !words_index(&column->words, writer->cell, number, err)) return false;
     }
     return true;
 }
@@ -167,52 +200,47 @@ static bool is_steady(const char *path, const char *report)
            json_find_text(report, "results.mu_M_is", is, sizeof is) && strcmp(is, STEADY) == 0;
 }
 
-// report: of a finished point, or NULL.
-static void write_besides(TableWriter *writer, int32_t point, int32_t k, const char *report)
+// Of a point with a value that may have a bar, and of which more is open than its error says.
+static bool lacks_bar(const SweepTable *table, int32_t record, int32_t point)
 {
-    const Study *study = &writer->sweep->study;
-    Beside besides[BESIDES];
-    char path[PATH_SIZE];
-    find_besides(writer->table, besides);
-    for (int32_t b = 0; b < BESIDES; b++) {
-        double *value = &besides[b].values[k * study->point_count + point];
-        name_beside(study->records[k].path, &besides[b], path);
-        *value = NAN;
-        if (report) json_find_number(report, path, value);
-        if (is_added(study, &besides[b], k)) csv_number(writer->csv, *value);
+    double known_to = table_known_to(table, record, point);
+    return table->error[record] >= 0 && isfinite(table_value(table, record, point)) &&
+           isfinite(known_to) && known_to != table_error(table, record, point);
+}
+
+// What stands beside a result that is none is none. report: of a finished point, or NULL.
+static void write_results(TableWriter *writer, int32_t point, const char *report)
+{
+    TableColumn *columns = writer->table->columns;
+    for (TableColumn *column = columns + writer->sweep->study.column_count;
+         column < writer->table->status; column++) {
+        bool is_none = column->of >= 0 && !isfinite(columns[column->of].values[point]);
+        const char *from = is_none ? NULL : report;
+        double *number = &column->values[point];
+        *number = NAN;
+        bool is_number = !from || json_find_number(from, column->path, number);
+        if (!is_number && json_find_text(from, column->path, writer->cell, CELL_SIZE))
+            csv_text(writer->csv, writer->cell);
+        else
+            csv_number(writer->csv, *number);
     }
 }
 
-// Of a point with a value that may have a bar, and of which more is open than its error says.
-static bool lacks_bar(const SweepTable *table, int32_t record, int64_t at)
-{
-    return table->has_error[record] && isfinite(table->records[at]) &&
-           isfinite(table->known_to[at]) && table->known_to[at] != table->errors[at];
-}
-
-static void write_records(TableWriter *writer, int32_t point, const char *report)
+// Points without the result that is ranked or drawn, or with another one in its place.
+static void note_missing(TableWriter *writer, int32_t point, const char *report)
 {
     const Study *study = &writer->sweep->study;
     SweepTable *table = writer->table;
     char text[RUN_WARNING_SIZE];
     bool no_bar = false;
     for (int32_t k = 0; k < study->record_count; k++) {
-        const char *path = study->records[k].path;
-        double number = NAN;
-        int64_t at = (int64_t)k * study->point_count + point;
-        bool is_number = !report || json_find_number(report, path, &number);
-        if (!is_number && json_find_text(report, path, writer->cell, CELL_SIZE))
-            csv_text(writer->csv, writer->cell);
-        else
-            csv_number(writer->csv, number);
-        table->records[at] = number;
-        write_besides(writer, point, k, isfinite(number) ? report : NULL);
-        no_bar |= lacks_bar(table, k, at);
-        if (!report || !study->records[k].is_shown) continue;
-        if (!isfinite(number)) {
-            why_missing(&study->records[k], report, text);
+        const StudyRecord *record = &study->records[k];
+        no_bar |= lacks_bar(table, k, point);
+        if (!report || !record->is_shown) continue;
+        if (!isfinite(table_value(table, k, point))) {
+            why_missing(record, report, text);
             warned_add(&table->warned, point, text);
-        } else if (is_steady(path, report))
+        } else if (is_steady(record->path, report))
             warned_add(
                 &table->warned, point,
                 "steady sliding: mu_M is F_T/F_N at which the block slides slowly as a whole");
@@ -236,7 +264,7 @@ static bool write_warnings(TableWriter *writer, int32_t point, const char *repor
                                  sentence);
     }
     csv_text(writer->csv, writer->cell);
-    return words_index(&table->warning_words, writer->cell, &table->warnings[point], err);
+    return words_index(&table->warnings->words, writer->cell, &table->warnings->values[point], err);
 }
 
 // A failed point keeps its keys and its message, and has no results.
@@ -254,7 +282,8 @@ static bool write_row(TableWriter *writer, int32_t point, Error *err)
     csv_number(writer->csv, point);
     TRY(write_keys(writer, point, scene, err));
     if (at->status == POINT_DONE) results = report;
-    write_records(writer, point, results);
+    write_results(writer, point, results);
+    note_missing(writer, point, results);
     csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
     if (at->status == POINT_FAILED && report)
@@ -264,7 +293,7 @@ static bool write_row(TableWriter *writer, int32_t point, Error *err)
     snprintf(run, sizeof run, "%s%s", sweep->reports.open ? "" : "points/", at->hash);
     csv_text(writer->csv, run);
     csv_end_row(writer->csv);
-    writer->table->status[point] = at->status;
+    writer->table->status->values[point] = at->status;
 cleanup:
     memory_free(report);
     return error_is_clean(err);
@@ -272,23 +301,20 @@ cleanup:
 
 // --- sweep.h5 -----------------------------------------------------------------------------------
 
-// series: name and description of the column; the rest is the same for all.
-static bool write_column(ArrayFile *file, ArraySeries series, const double *values, int32_t count,
-                         Error *err)
+// The words of a column are an attribute, "push|bonded": the word of index k is the k-th.
+static bool write_column(ArrayFile *file, const TableColumn *column, int32_t count, Error *err)
 {
-    series.type = ARRAY_FLOAT64;
-    series.width = 1;
-    series.unit = "of the scene";
-    return array_file_write(file, &series, values, 0, count, err);
-}
-
-// "push|bonded": the word of index k is the k-th.
-static bool write_words(ArrayFile *file, const char *column, const WordList *list, Error *err)
-{
-    char name[STUDY_NAME_SIZE + 16], *text = NULL;
-    if (list->count == 0) return true;
-    snprintf(name, sizeof name, "%s words", column);
-    TRY((text = words_join(list, err)));
+    char name[TABLE_PATH_SIZE + 8], *text = NULL;
+    ArraySeries series = {.name = name,
+                          .type = ARRAY_FLOAT64,
+                          .width = 1,
+                          .unit = "of the scene",
+                          .description = column->description};
+    snprintf(name, sizeof name, "%s/%s", column->group, column->name);
+    TRY(array_file_write(file, &series, column->values, 0, count, err));
+    if (column->words.count == 0) goto cleanup;
+    snprintf(name, sizeof name, "%s words", column->name);
+    TRY((text = words_join(&column->words, err)));
     TRY(array_file_set_text(file, name, text, err));
 cleanup:
     memory_free(text);
@@ -296,74 +322,26 @@ cleanup:
 }
 
 // Names of all columns but errors, warnings and status, as plots take them.
-static bool write_names(const Study *study, ArrayFile *file, Error *err)
+static bool write_names(const SweepTable *table, ArrayFile *file, Error *err)
 {
     char names[(STUDY_COLUMNS_MAX + STUDY_RECORDS_MAX) * (STUDY_NAME_SIZE + 1)] = "";
     size_t used = 0;
-    for (int32_t k = 0; k < study->column_count; k++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
-                                 study->columns[k]);
-    for (int32_t k = 0; k < study->record_count; k++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
-                                 study->records[k].name);
+    for (const TableColumn *column = table->columns; column < table->status; column++)
+        if (column->of < 0)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
+                                     column->name);
     return array_file_set_text(file, "columns", names, err);
-}
-
-static bool write_warned(const SweepTable *table, int32_t count, ArrayFile *file, Error *err)
-{
-    ArraySeries series = {.name = "result/warned",
-                          .description = "bit k: the run has a warning of the kind that is the "
-                                         "k-th in the attribute `warned words`"};
-    WordList names = {0};
-    double *bits = NEW_ARRAY(double, count, err);
-    TRY(bits);
-    TRY(warned_bits(&table->warned, &names, bits, err));
-    TRY(write_column(file, series, bits, count, err));
-    TRY(write_words(file, "warned", &names, err));
-cleanup:
-    memory_free(bits);
-    words_destroy(&names);
-    return error_is_clean(err);
 }
 
 // Groups scene/ and result/, a column each, [points].
 static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile *file, Error *err)
 {
-    int32_t count = study->point_count;
     if (!array_file_set_text(file, "title", study->title, err)) return false;
     if (!array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err)) return false;
-    if (!write_names(study, file, err)) return false;
-    char name[STUDY_NAME_SIZE + 16];
-    for (int32_t k = 0; k < study->column_count; k++) {
-        ArraySeries series = {.name = name,
-                              .description = "key of the scene; a word is its index "
-                                             "in the attribute `KEY words`"};
-        snprintf(name, sizeof name, "scene/%s", study->columns[k]);
-        if (!write_column(file, series, &table->keys[k * count], count, err)) return false;
-        if (!write_words(file, study->columns[k], &table->words[k], err)) return false;
-    }
-    for (int32_t k = 0; k < study->record_count; k++) {
-        ArraySeries series = {.name = name, .description = study->records[k].path};
-        snprintf(name, sizeof name, "result/%s", study->records[k].name);
-        if (!write_column(file, series, &table->records[k * count], count, err)) return false;
-        Beside besides[BESIDES];
-        find_besides(table, besides);
-        for (int32_t b = 0; b < BESIDES; b++) {
-            if (!is_added(study, &besides[b], k)) continue;
-            snprintf(name, sizeof name, "result/%s_%s", study->records[k].name, besides[b].ending);
-            series.description = besides[b].description;
-            if (!write_column(file, series, &besides[b].values[k * count], count, err))
-                return false;
-        }
-    }
-    ArraySeries status = {.name = "result/status", .description = "0 pending, 1 done, 2 failed"};
-    if (!write_column(file, status, table->status, count, err)) return false;
-    ArraySeries warnings = {.name = "result/warnings",
-                            .description = "0 none; else an index in the attribute "
-                                           "`warnings words`"};
-    return write_column(file, warnings, table->warnings, count, err) &&
-           write_words(file, "warnings", &table->warning_words, err) &&
-           write_warned(table, count, file, err);
+    if (!write_names(table, file, err)) return false;
+    for (int32_t c = 0; c < table->count; c++)
+        if (!write_column(file, &table->columns[c], study->point_count, err)) return false;
+    return true;
 }
 
 // Written after sweep.csv: the arrays are filled by its rows.
@@ -380,36 +358,19 @@ cleanup:
     return false;
 }
 
-// On failure the table is the caller's to destroy.
-static bool make_room(const Study *study, SweepTable *table, Error *err)
-{
-    int64_t count = study->point_count;
-    double none = 0;
-    if (!(table->keys = NEW_ARRAY(double, count * study->column_count, err))) return false;
-    if (!(table->records = NEW_ARRAY(double, count * study->record_count, err))) return false;
-    if (!(table->status = NEW_ARRAY(double, count, err))) return false;
-    if (!(table->errors = NEW_ARRAY(double, count * study->record_count, err))) return false;
-    if (!(table->known_to = NEW_ARRAY(double, count * study->record_count, err))) return false;
-    if (!(table->warnings = NEW_ARRAY(double, count, err))) return false;
-    table->column_count = study->column_count;
-    return (table->words = NEW_ARRAY(WordList, study->column_count, err)) &&
-           warned_make(study->point_count, &table->warned, err) &&
-           words_index(&table->warning_words, "", &none, err);
-}
-
 // Both files get their names when they are complete; an older table is kept until then.
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
 {
     char path[POINT_PATH_SIZE];
     TableWriter writer = {.sweep = sweep, .table = table};
     *table = (SweepTable){0};
-    TRY(make_room(&sweep->study, table, err));
-    TRY(find_errors(sweep, table, err));
+    TRY(make_columns(sweep, table, err));
     TRY((writer.cell = NEW_ARRAY(char, CELL_SIZE, err)));
     snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
     TRY((writer.csv = csv_create(path, err)));
     write_head(&writer);
     for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, err));
+    TRY(warned_bits(&table->warned, &table->kinds->words, table->kinds->values, err));
 cleanup:
     memory_free(writer.cell);
     if (error_is_clean(err)) return csv_finish(writer.csv, err) && write_h5(sweep, table, err);
@@ -419,12 +380,11 @@ cleanup:
 
 void table_destroy(SweepTable *table)
 {
-    memory_free_all(table->keys, table->records, table->errors, table->known_to, table->status,
-                    table->warnings);
-    for (int32_t k = 0; table->words && k < table->column_count; k++)
-        words_destroy(&table->words[k]);
-    memory_free(table->words);
-    words_destroy(&table->warning_words);
+    for (int32_t c = 0; c < table->count; c++) {
+        words_destroy(&table->columns[c].words);
+        memory_free(table->columns[c].values);
+    }
+    memory_free(table->columns);
     warned_destroy(&table->warned);
     *table = (SweepTable){0};
 }

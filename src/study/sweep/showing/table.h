@@ -7,30 +7,38 @@
 #include "study/sweep/showing/warned.h"
 #include "study/sweep/showing/words.h"
 
-// The numbers of the table, column after column; NaN where there is none.
+enum { TABLE_PATH_SIZE = STUDY_NAME_SIZE + 16 };
+
+typedef struct TableColumn {
+    char name[TABLE_PATH_SIZE], path[TABLE_PATH_SIZE];   // in the table; of a result in run.json
+    const char *group, *description;   // in sweep.h5; static storage, or the study's
+    int32_t of;   // the column of the result beside which run.json has it; -1: none
+    double *values;   // [points] NaN where there is none; owned, like the next
+    WordList words;   // where a value is a word, it is the word's index
+} TableColumn;
+
 typedef struct SweepTable {
-    double *keys;   // [column_count][point_count]; owned, like all below
-    double *records;   // [record_count][point_count]
-    double *errors;   // of the records, alike: what run.json has as NAME_error beside them
-    double *known_to;   // alike: NAME_known_to
-    double *status;   // [point_count] a PointStatus
-    double *warnings;   // [point_count] index in warning_words
-    bool has_error[STUDY_RECORDS_MAX];   // run.json has an error beside this record
-    bool has_known_to[STUDY_RECORDS_MAX];
-    int32_t column_count;
-    WordList *words;   // [column_count] where a key has words, the table has their index
-    WordList warning_words;   // the first is "": no warning
-    Warned warned;   // also of points without the result that is ranked or drawn
+    int32_t count;
+    TableColumn
+        *columns;   // [count] keys that vary, what is recorded, each with what stands beside
+    // it in run.json, and the next three; owned
+    TableColumn *status;   // a PointStatus
+    TableColumn *warnings;   // all of a run in one text; the first word is "": none
+    TableColumn *kinds;   // of warnings, as bits; words: their names
+    // Columns of the study's records: the value, and what run.json has as NAME_error and
+    // NAME_known_to beside it; -1: nothing.
+    int32_t value[STUDY_RECORDS_MAX], error[STUDY_RECORDS_MAX], known_to[STUDY_RECORDS_MAX];
+    Warned warned;   // also of points without the result that is ranked or drawn; owned
     bool is_si;   // scenes have units of SI
     int32_t no_bar;   // points whose mesh leaves an error that is not known
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
-// The values of a record, [point_count], and how far they are known: their errors, where run.json
+// Of a record at a point: its value, its error, and how far it is known: the error, where run.json
 // does not tell what a mesh usually leaves. Where both are alike it is an error bar.
-const double *table_values(const Sweep *sweep, const SweepTable *table, int32_t record);
-const double *table_errors(const Sweep *sweep, const SweepTable *table, int32_t record);
-const double *table_known_to(const Sweep *sweep, const SweepTable *table, int32_t record);
+double table_value(const SweepTable *table, int32_t record, int32_t point);
+double table_error(const SweepTable *table, int32_t record, int32_t point);
+double table_known_to(const SweepTable *table, int32_t record, int32_t point);
 void table_destroy(SweepTable *table);   // zeroed is fine
 
 #endif

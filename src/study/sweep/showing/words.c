@@ -22,9 +22,8 @@ static int32_t *find_slot(const WordList *list, const char *word)
 static bool make_room(WordList *list, Error *err)
 {
     if (list->slots && list->count < list->capacity) return true;
-    char **words = memory_grow(list->words, list->count, &list->capacity, sizeof *words, err);
-    if (!words) return false;
-    list->words = words;
+    if (!memory_grow(&list->words, list->count, &list->capacity, sizeof *list->words, err))
+        return false;
     memory_free(list->slots);
     list->slots = NEW_ARRAY(int32_t, 2 * (int64_t)list->capacity, err);
     if (!list->slots) return false;

@@ -5,11 +5,12 @@
 
 #include "base/memory.h"
 #include "io/cache/store.h"
+#include "io/files/part_file.h"
 #include "cache_fixture.h"
 
 #include <fcntl.h>
 
-// "aaaa...a.shape", 32 times the letter.
+// "aaaa...a.mesh", 32 times the letter.
 static const char *name_of(char letter, const char *ending)
 {
     static char name[64];
@@ -41,7 +42,7 @@ TEST_BETWEEN(test_longest_unused_goes_first, cache_begin, cache_end)
     int64_t live = memory_counters().live, bytes = 0;
     char keep[2 * PLACE_SIZE];
     make_file(name_of('b', "basis"), 300, 20);
-    make_file(name_of('a', "shape"), 100, 30);
+    make_file(name_of('a', "mesh"), 100, 30);
     make_file(name_of('c', "modes"), 200, 10);
     make_file("notes.txt", 1000, 5);
     make_file(name_of('d', "lock"), 1000, 5);
@@ -49,7 +50,7 @@ TEST_BETWEEN(test_longest_unused_goes_first, cache_begin, cache_end)
     assert_int_equal(folder.count, 3);   // the others are not the cache's
     assert_int_equal(folder.bytes, 600);
     assert_string_equal(folder.entries[0].name, name_of('c', "modes"));
-    assert_string_equal(folder.entries[2].name, name_of('a', "shape"));
+    assert_string_equal(folder.entries[2].name, name_of('a', "mesh"));
     assert_true(folder.entries[1].used == 20);
     assert_int_equal(cache_folder_trim(&folder, 600, NULL, &bytes), 0);   // not above it
     snprintf(keep, sizeof keep, "%s", place_path(cache, name_of('c', "modes")));
@@ -73,7 +74,7 @@ static void write_cache(char letter, double *values)
 {
     char note[CACHE_NOTE_SIZE], key[33] = "";
     memset(key, letter, 32);
-    assert_true(cache_store(&(CacheItem){CACHE_SHAPE, key, archive_values, values}, note));
+    assert_true(cache_store(&(CacheItem){CACHE_MESH, key, archive_values, values}, note));
 }
 
 static void read_cache(char letter)
@@ -83,7 +84,7 @@ static void read_cache(char letter)
     double values[100];
     bool found = false;
     memset(key, letter, 32);
-    const CacheItem item = {CACHE_SHAPE, key, archive_values, values};
+    const CacheItem item = {CACHE_MESH, key, archive_values, values};
     assert_true(cache_load(&item, NULL, &found, NULL, &err));
     assert_true(found);
 }
@@ -97,18 +98,45 @@ TEST_BETWEEN(test_writing_keeps_the_limit, cache_begin, cache_end)
     setenv("AMONTONS_CACHE_LIMIT", "2.5K", 1);
     write_cache('a', values);
     write_cache('b', values);
-    utimensat(AT_FDCWD, place_path(cache, name_of('a', "shape")), old, 0);
-    utimensat(AT_FDCWD, place_path(cache, name_of('b', "shape")), newer, 0);
+    utimensat(AT_FDCWD, place_path(cache, name_of('a', "mesh")), old, 0);
+    utimensat(AT_FDCWD, place_path(cache, name_of('b', "mesh")), newer, 0);
     read_cache('a');
     write_cache('c', values);
-    assert_true(place_has(cache, name_of('a', "shape")));
-    assert_false(place_has(cache, name_of('b', "shape")));
-    assert_true(place_has(cache, name_of('c', "shape")));
+    assert_true(place_has(cache, name_of('a', "mesh")));
+    assert_false(place_has(cache, name_of('b', "mesh")));
+    assert_true(place_has(cache, name_of('c', "mesh")));
     setenv("AMONTONS_CACHE_LIMIT", "0", 1);   // what was just written stays in any case
     write_cache('d', values);
     CacheFolder folder = folder_now();
     assert_int_equal(folder.count, 1);
-    assert_string_equal(folder.entries[0].name, name_of('d', "shape"));
+    assert_string_equal(folder.entries[0].name, name_of('d', "mesh"));
+    cache_folder_destroy(&folder);
+}
+
+static void make_part(PartFile *part, char letter)
+{
+    Error err = {0};
+    assert_true(part_file_create(part, place_path(cache, name_of(letter, "basis")), &err));
+    assert_true(part_file_write(part, "half", 4, &err));
+}
+
+// What a process left that was killed while it wrote counts, and goes; what one writes now stays.
+TEST_BETWEEN(test_parts_of_killed_writers, cache_begin, cache_end)
+{
+    PartFile killed, writing;
+    int64_t bytes = 0;
+    make_part(&killed, 'a');
+    part_file_leave(&killed);   // its lock ends with its process
+    make_part(&writing, 'b');
+    CacheFolder folder = folder_now();
+    assert_int_equal(folder.count, 2);
+    assert_int_equal(folder.bytes, 8);
+    assert_int_equal(cache_folder_trim(&folder, 0, NULL, &bytes), 1);
+    assert_int_equal(bytes, 4);
+    assert_false(place_has(cache, name_of('a', "basis.part")));
+    assert_false(place_has(cache, name_of('a', "basis")));
+    assert_true(place_has(cache, name_of('b', "basis.part")));
+    part_file_discard(&writing);
     cache_folder_destroy(&folder);
 }
 
@@ -127,7 +155,7 @@ TEST_BETWEEN(test_looks_rarely, cache_begin, cache_end)
     assert_true(place_has(cache, name_of('e', "basis")));
     for (int32_t k = 0; k < EIGHTH; k++) write_cache('3', values);
     assert_false(place_has(cache, name_of('e', "basis")));
-    assert_true(place_has(cache, name_of('2', "shape")));   // there was room, then
+    assert_true(place_has(cache, name_of('2', "mesh")));   // there was room, then
 }
 
 TEST_BETWEEN(test_limit, cache_begin, cache_end)
@@ -166,4 +194,16 @@ TEST_BETWEEN(test_no_folder, cache_begin, cache_end)
     setenv("AMONTONS_CACHE", "", 1);
     folder = folder_now();
     assert_string_equal(folder.path, "");
+    char path[PATH_MAX], wanted[PATH_MAX];
+    unsetenv("AMONTONS_CACHE");
+    setenv("XDG_CACHE_HOME", cache, 1);
+    snprintf(wanted, sizeof wanted, "%s/amontons", cache);
+    assert_true(cache_folder_path(path));
+    assert_string_equal(path, wanted);
+    unsetenv("XDG_CACHE_HOME");
+    setenv("HOME", cache, 1);
+    snprintf(wanted, sizeof wanted, "%s/.cache/amontons", cache);
+    assert_true(cache_folder_path(path));
+    assert_string_equal(path, wanted);
+    setenv("AMONTONS_CACHE", cache, 1);
 }

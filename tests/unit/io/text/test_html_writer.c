@@ -8,6 +8,8 @@
 
 #include <math.h>
 #include <string.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static const char PATH[] = "html_writer_test.html";
@@ -115,10 +117,18 @@ static void write_too_much(HtmlWriter *html)
 TEST(a_failure_leaves_no_file)
 {
     Error err = {0};
+    struct rlimit before, small = {.rlim_cur = 1000};
     HtmlWriter *html = html_create(PATH, false, &err);
     assert_non_null(html);
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before);
+    small.rlim_max = before.rlim_max;
+    setrlimit(RLIMIT_FSIZE, &small);
     write_too_much(html);
     assert_false(html_finish(html, &err));
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_int_equal(err.code, ERROR_FILE);
+    assert_non_null(strstr(err.message, "File too large"));
     assert_int_not_equal(access(PATH, F_OK), 0);
     html_abandon(NULL);
 }

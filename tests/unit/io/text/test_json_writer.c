@@ -167,6 +167,20 @@ TEST(numbers_are_short_and_exact)
     fclose(file);
 }
 
+TEST(several_numbers_are_members_lists_and_objects)
+{
+    const double speeds[] = {1.5, NAN};
+    JsonWriter *json = create();
+    json_begin_object(json, NULL);
+    json_numbers_of(json, {"whole", 123456789012345}, {"half", 0.5});
+    json_object_of(json, "inner", {"one", 1}, {"none", NAN});
+    json_number_list(json, "speeds", speeds, 2);
+    json_end(json);
+    finish(json);
+    assert_document("{\n  \"whole\": 123456789012345,\n  \"half\": 0.5,\n  \"inner\": {\n"
+                    "    \"one\": 1,\n    \"none\": null\n  },\n  \"speeds\": [1.5, null]\n}\n");
+}
+
 TEST(text_is_escaped)
 {
     static const struct {
@@ -306,22 +320,22 @@ TEST(a_full_disk_leaves_nothing)
 TEST(every_path_frees_when_memory_is_short)
 {
     int64_t live = memory_counters().live;
-    for (int64_t k = 0; k < 6; k++) {
+    for (int64_t k = 0; k < 2; k++) {   // the text grows in memory of the C library
         Error err = {0};
         unlink(path);
         memory_fail_after(k);
         JsonWriter *json = json_create(path, &err);
         if (json) {
             json_begin_list(json, NULL);
-            for (int32_t n = 0; n < 5000; n++) json_integer(json, NULL, n);   // grows the text
+            for (int32_t n = 0; n < 5000; n++) json_integer(json, NULL, n);
             json_end(json);
             json_finish(json, &err);
         }
         memory_fail_after(-1);
         assert_int_equal(memory_counters().live, live);
-        assert_int_equal(err.code, k < 5 ? ERROR_MEMORY : ERROR_NONE);
+        assert_int_equal(err.code, k < 1 ? ERROR_MEMORY : ERROR_NONE);
         assert_false(exists(part));
-        assert_int_equal(exists(path), k >= 5);
+        assert_int_equal(exists(path), k >= 1);
     }
 }
 

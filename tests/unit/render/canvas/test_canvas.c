@@ -3,6 +3,7 @@
 #include "render/canvas/canvas.h"
 
 #include "base/memory.h"
+#include "canvas_read.h"
 #include "cases.h"
 #include "render/canvas/drawing.h"
 #include "render/canvas/text.h"
@@ -115,19 +116,25 @@ TEST_BETWEEN(long_lines_are_whole, canvas_begin, canvas_end)
     assert_true(fabs(area_read() - 1.5 * solid - 3.14) < 12);
 }
 
-TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
+// Of the colour map's k-th entry.
+static int32_t map_red(int32_t k)
 {
     uint8_t map[3 * MAP_SIZE];
+    color_map_fill(map);
+    return map[3 * k];
+}
+
+TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
+{
     const float values[6] = {0, 1, 5, HEAT_BELOW, HEAT_MISSING, 0.5f};   // two rows of three
-    const int32_t expected[6] = {0, 255, 255, 77, 255, 128};   // 255 in a hole: white
-    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
-    canvas_set_map(canvas, map, (Color){77 / 255.0f, 0, 0, 1});
+    const int32_t expected[6] = {map_red(0), map_red(255),    map_red(255),
+                                 77,         255 /* white */, map_red(128)};
+    canvas_set_below(canvas, (Color){77 / 255.0f, 0, 0, 1});
     canvas_heat(canvas, &(Box){100, 100, 160, 140}, &(HeatMap){3, 2, values, NULL, 0});
     uint8_t *pixels = pixels_read();
     for (int32_t k = 0; k < 6; ++k) {
         int32_t column = 110 + 20 * (k % 3), row = 110 + 20 * (k / 3);
-        assert_in_range(pixels[3 * (row * SIZE + column)], expected[k] ? expected[k] - 1 : 0,
-                        expected[k] + 1);
+        assert_int_equal(pixels[3 * (row * SIZE + column)], expected[k]);
     }
     assert_int_equal(pixels[3 * (99 * SIZE + 110)], 255);
     memory_free(pixels);
@@ -137,17 +144,14 @@ TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
 TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
 {
     enum { COUNT = 100 };
-    uint8_t map[3 * MAP_SIZE];
     float values[COUNT];
-    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
     for (int32_t k = 0; k < COUNT; ++k) values[k] = (float)k / 99;
     values[7] = NAN;
-    canvas_set_map(canvas, map, BLACK);
     canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, &(HeatMap){COUNT, 1, values, NULL, 0});
     uint8_t *pixels = pixels_read();
     for (int32_t k = 0; k < COUNT; ++k)
         assert_int_equal(pixels[3 * (30 * SIZE + 20 + k)],
-                         k == 7 ? 255 : (int32_t)lround(255.0 * k / 99));
+                         k == 7 ? 255 : map_red((int32_t)lround(255.0 * k / 99)));
     memory_free(pixels);
 }
 
@@ -155,16 +159,13 @@ TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
 // not at all. What has no value leaves the page as it is.
 TEST_BETWEEN(rows_are_shown_as_listed, canvas_begin, canvas_end)
 {
-    uint8_t map[3 * MAP_SIZE];
     const float values[6] = {0.5f, 0.5f, 0, HEAT_MISSING, 0.2f, 0.4f};
     const int32_t shown[3] = {2, 2, 1};
-    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
-    canvas_set_map(canvas, map, BLACK);
     canvas_heat(canvas, &(Box){40, 60, 80, 120}, &(HeatMap){2, 3, values, shown, 3});
     uint8_t *pixels = pixels_read();
     for (int32_t y = 60; y < 120; ++y)
         for (int32_t x = 40; x < 80; ++x) {
-            int32_t low = y < 100 ? 51 : 0, right = y < 100 ? 102 : 255;
+            int32_t low = map_red(y < 100 ? 51 : 0), right = y < 100 ? map_red(102) : 255;
             assert_int_equal(pixels[3 * (y * SIZE + x)], x < 60 ? low : right);
         }
     assert_int_equal(pixels[3 * (59 * SIZE + 50)], 255);

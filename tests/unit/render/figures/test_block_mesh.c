@@ -6,6 +6,7 @@
 #include "plane.h"
 
 #include "base/memory.h"
+#include "canvas_read.h"
 #include "io/mesh/shape_functions.h"
 #include "near.h"
 
@@ -114,7 +115,6 @@ static void draw_and_read(ElementKind kind)
     Canvas *canvas = canvas_create(&def, &err);
     assert_non_null(canvas);
     color_map_fill(map);
-    canvas_set_map(canvas, map, BLACK);
     assert_true(block_colors_draw(canvas, &block, &axes, 0, 1, &err));
     assert_true(canvas_read(canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++)
@@ -155,7 +155,7 @@ TEST(contours_follow_the_level)
     for (int32_t i = 0; i < block.frame.node_count; i++)
         patch.value[i] = field_at(ELEMENT_T6, patch.place[i][0], patch.place[i][1]);
     assert_true(page_begin(&page, &def, &err));
-    assert_true(block_contour_draw(&page, &block, &axes, 0.3, &stroke, &err));
+    block_contour_draw(&page, &block, &axes, 0.3, &stroke);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++) {
         bool inked = false;
@@ -265,7 +265,7 @@ TEST(times_are_found)
     int64_t rows[4] = {0, 1, 2, 3};
     double U[4] = {0, 0.1, 0.2, 0.4};
     ResultView view = {.U = U};
-    BlockTimes times = {stored, rows, 4};
+    const BlockSource source = {.view = &view, .count = 4, .times = stored, .row = rows};
     const struct {
         const char *at;
         int32_t index;
@@ -274,14 +274,14 @@ TEST(times_are_found)
     int32_t index = -1;
     for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
         Error err = {0};
-        assert_true(block_time_find(&times, &view, good[k].at, &index, &err));
+        assert_true(block_time_find(&source, good[k].at, &index, &err));
         assert_int_equal(index, good[k].index);
     }
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         Error err = {0};
-        assert_false(block_time_find(&times, &view, bad[k], &index, &err));
+        assert_false(block_time_find(&source, bad[k], &index, &err));
         assert_int_equal(err.code, ERROR_INPUT);
     }
-    assert_int_equal(block_time_before(&times, &view, 0.3), 2);
-    assert_int_equal(block_time_before(&times, &view, -1), 0);
+    assert_int_equal(block_time_before(&source, 0.3), 2);
+    assert_int_equal(block_time_before(&source, -1), 0);
 }

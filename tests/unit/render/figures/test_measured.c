@@ -12,13 +12,24 @@
 static char path[] = "/tmp/amontons_measured_XXXXXX";
 static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01, 0.05};
 static double t[3] = {0, 2, 6};   // s: V is 0.5 mm/s
-static ResultView view = {.si = true, .rows = 3, .t = t, .U = U, .mu = mu};
+static double x[2] = {0, 0.1}, rates[6], statuses[6] = {1, 1, 1, 1, 1, 1};
+static ResultView view = {.si = true,
+                          .rows = 3,
+                          .t = t,
+                          .U = U,
+                          .mu = mu,
+                          .front = front,
+                          .nodes = 2,
+                          .x = x,
+                          .slip_rate = rates,
+                          .status = statuses};
 
 FIXTURE(begin)
 {
     view.number[NUMBER_LENGTH] = 0.1;
     view.number[NUMBER_C_RAYLEIGH] = 900;
     view.number[NUMBER_ROD_VELOCITY] = -5e-4;
+    view.precursors = view.front_speed = (ViewCurve){3, U, front};
     int file = mkstemp(path);
     return file < 0 ? -1 : close(file);
 }
@@ -34,10 +45,7 @@ static bool take(const char *text, MeasuredKind kind, Measured *measured, Error 
     assert_non_null(file);
     fputs(text, file);
     fclose(file);
-    const ViewCurve curve = {3, U, kind == MEASURED_MU ? mu : front};
-    if (!measured_read(path, kind, &view, measured, err)) return false;
-    measured_compare(measured, &view, computed_on_curve, &curve);
-    return true;
+    return measured_read(path, kind, &view, measured, err);
 }
 
 // 0.03 more than 0.1 and 0.04 less than 0.3; the third point lies beyond the history.

@@ -7,6 +7,7 @@
 #include "render/plot/figure_curves.h"
 
 #include "base/memory.h"
+#include "canvas_read.h"
 
 static const LegendSize SIZE = {.width = 30, .height = 20, .margin = 4, .clearance = 2, .mark = 3};
 

@@ -24,7 +24,7 @@ static void smooth_make(const double *values, SmoothGrid *smooth)
     MapGrid grid = {.columns = COLUMNS, .rows = ROWS, .point = point};
     assert_true(map_smooth(&grid, values, place, PARTS, smooth, &err));
     assert_int_equal(smooth->columns, FINE);
-    assert_int_equal((int)smooth->triangle_count, 2 * (FINE - 1) * (smooth->rows - 1));
+    assert_int_equal(smooth->triangles.count, 2 * (FINE - 1) * (smooth->rows - 1));
 }
 
 // A plane stays one, at the places where it says it is.
@@ -40,6 +40,29 @@ TEST(a_plane_stays)
         assert_true(fabs(smooth.value[k] - (1 + 2 * at.x - 3 * (10 - at.y))) < 1e-12);
     }
     smooth_destroy(&smooth);
+}
+
+// Lines of a large map: a value of its own kind is not seen, a step stays where it is, and a point
+// without a value has no median.
+TEST(medians_pass_single_values_over)
+{
+    enum { SIDE = 21, ODD = 5 * SIDE + 4, HOLE = 7 * SIDE + 16, CORNER = SIDE * SIDE - 1 };
+    double values[SIDE * SIDE], medians[SIDE * SIDE];
+    int32_t point[SIDE * SIDE];
+    for (int32_t k = 0; k < SIDE * SIDE; ++k) {
+        values[k] = k % SIDE < 10 ? 1 : 2;
+        point[k] = k;
+    }
+    values[ODD] = 9;
+    values[HOLE] = values[CORNER - 1] = NAN;
+    point[CORNER] = -1;
+    MapGrid grid = {.columns = SIDE, .rows = SIDE, .point = point};
+    map_medians(&grid, values, medians);
+    for (int32_t k = 0; k < CORNER - 1; ++k) {
+        double wanted = k % SIDE < 10 ? 1 : 2;
+        assert_true(k == HOLE ? isnan(medians[k]) : medians[k] == wanted);
+    }
+    assert_true(isnan(medians[CORNER - 1]) != 0);
 }
 
 // A step: through every value, and between points never beyond; a hole spreads to the next.

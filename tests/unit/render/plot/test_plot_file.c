@@ -3,6 +3,7 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "canvas_read.h"
 #include "cases.h"
 #include "render/plot/figure_curves.h"
 #include "render/render.h"

@@ -86,7 +86,6 @@ TEST_BETWEEN(test_the_front, begin, end)
 {
     Designs *designs = *state;
     double x[][2] = {{1, 0.1}, {2, 0.1}, {3, 0.1}, {4, 0.1}, {5, 0.1}};
-    bool is_on[5];
     study.search.over = OVER_FRONT;
     for (int32_t k = 0; k < 5; k++) designs_add(designs, x[k], k);
     give(designs, 0, 0.30, 0.32);
@@ -94,15 +93,13 @@ TEST_BETWEEN(test_the_front, begin, end)
     give(designs, 2, 0.29, 0.33);
     give(designs, 3, 0.30, 0.31);
     give(designs, 4, NAN, 0.5);
-    front_find(designs, is_on);
-    assert_true(is_on[0] && is_on[1] && is_on[2] && !is_on[3] && !is_on[4]);
+    for (int32_t k = 0; k < 5; k++) assert_int_equal(front_holds(designs, k), k < 3);
     assert_near("mean", designs->list[0].value, 0.31, 1e-15);
     designs->aim = 1;
     designs_judge(designs, 2);
     assert_near("one aim", designs->list[2].value, 0.33, 1e-15);
     study.rank.lowest = true;
-    front_find(designs, is_on);
-    assert_true(!is_on[0] && is_on[1] == false && is_on[2] && is_on[3]);
+    for (int32_t k = 0; k < 4; k++) assert_int_equal(front_holds(designs, k), k > 1);
     study.rank.lowest = false, designs->aim = -1;
 }
 

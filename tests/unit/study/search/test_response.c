@@ -14,26 +14,28 @@ static double result(int32_t datum, double x, double y)
 }
 
 typedef struct Data {
-    double places[2 * DESIGNS], found[DATA * DESIGNS], own[DATA * DESIGNS], misfit[DESIGNS];
-    double measured[DATA], error[DATA];
+    ResponseDesign designs[DESIGNS];
+    double found[DATA * DESIGNS], own[DATA * DESIGNS];
+    Datum measured[DATA];
 } Data;
 
 static ResponseDef make_data(Data *data, int32_t designs)
 {
-    *data = (Data){.error = {0.01, 0.02, 0.05}};
-    for (int32_t k = 0; k < DATA; k++) data->measured[k] = result(k, 0.4, 0.7);
+    *data = (Data){.measured = {{.error = 0.01}, {.error = 0.02}, {.error = 0.05}}};
+    for (int32_t k = 0; k < DATA; k++) data->measured[k].value = result(k, 0.4, 0.7);
     for (int32_t d = 0; d < designs; d++) {
-        double *place = &data->places[2 * d];
-        place[0] = fmod(0.37 * d, 1);
-        place[1] = fmod(0.61 * d, 1);
+        ResponseDesign *design = &data->designs[d];
+        design->place[0] = fmod(0.37 * d, 1);
+        design->place[1] = fmod(0.61 * d, 1);
+        design->found = &data->found[DATA * d];
+        design->own = &data->own[DATA * d];
         for (int32_t k = 0; k < DATA; k++) {
-            double found = result(k, place[0], place[1]);
+            double found = result(k, design->place[0], design->place[1]);
             data->found[DATA * d + k] = found;
-            data->misfit[d] += pow((found - data->measured[k]) / data->error[k], 2);
+            design->misfit += pow((found - data->measured[k].value) / data->measured[k].error, 2);
         }
     }
-    return (ResponseDef){2,         designs,      DATA,           data->places, data->found,
-                         data->own, data->misfit, data->measured, data->error,  20};
+    return (ResponseDef){2, designs, DATA, data->designs, data->measured, 20};
 }
 
 TEST(test_second_order)
@@ -73,12 +75,12 @@ TEST(test_profile)
     for (int32_t k = 0; k <= 20000; k++) {
         double sum = 0, y = k / 20000.0;
         for (int32_t i = 0; i < DATA; i++)
-            sum += pow((result(i, 0.5, y) - data.measured[i]) / data.error[i], 2);
+            sum += pow((result(i, 0.5, y) - data.measured[i].value) / data.measured[i].error, 2);
         least = fmin(least, sum);
     }
     assert_near("profile", misfit, least, 1e-3);
     response_destroy(&response);
-    for (int32_t k = 0; k < DATA; k++) data.measured[k] = result(k, 0.4, 1.6);
+    for (int32_t k = 0; k < DATA; k++) data.measured[k].value = result(k, 0.4, 1.6);
     assert_true(response_make(&def, &response, &err));
     response_least(&response, NULL, place);
     assert_near("end of the range", place[1], 1, 0);
@@ -94,7 +96,7 @@ TEST(test_scatter_and_order)
     ResponseDef def = make_data(&data, DESIGNS);
     for (int32_t d = 0; d < DESIGNS; d++) {
         data.found[DATA * d] += d % 2 ? 0.05 : -0.05;
-        data.misfit[d] = 1;
+        data.designs[d].misfit = 1;
     }
     assert_true(response_make(&def, &response, &err));
     assert_near("smoothed", response_at(&response, 0, (double[]){0.5, 0.5}), 2, 0.03);

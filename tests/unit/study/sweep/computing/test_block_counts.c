@@ -11,7 +11,6 @@ enum { POINTS = 12 };
 static void count(const char *const *words, int32_t points, int32_t *runs)
 {
     Error err = {0};
-    BlockCounts counts = {0};
     PointMesh mesh = {0};
     SweepPoint list[POINTS] = {0};
     char path[1000];
@@ -19,12 +18,11 @@ static void count(const char *const *words, int32_t points, int32_t *runs)
     for (int32_t k = 0; k < points; k++) {
         Scene *scene = NULL;
         if (!amontons_scene_read(path, &words[k], 1, &scene, &err)) fail_msg("%s", err.message);
-        assert_true(block_counts_note(scene, &mesh, &counts, &err));
+        assert_true(block_note(scene, &mesh, &list[k], &err));
         amontons_scene_destroy(scene);
     }
-    assert_true(block_counts_set(&counts, list, &err));
+    assert_true(blocks_count(list, points, &err));
     for (int32_t k = 0; k < points; k++) runs[k] = list[k].runs;
-    block_counts_destroy(&counts);
 }
 
 TEST(test_what_makes_another_block)

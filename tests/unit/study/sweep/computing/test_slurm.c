@@ -7,9 +7,15 @@
 
 static char place[PLACE_SIZE], study[PLACE_SIZE + 20], folder[PLACE_SIZE + 20], old_path[4000];
 
+static const char *const settings[] = {"rod.velocity=9e-6"};
+
 static bool sweep(const char *words, SweepSummary *summary, Error *err)
 {
-    SweepOptions options = {.folder = folder, .slurm = words, .fresh = true};
+    SweepOptions options = {.folder = folder,
+                            .slurm = words,
+                            .fresh = true,
+                            .overrides = settings,
+                            .override_count = 1};
     *err = (Error){0};
     unlink(place_path(place, "arrays"));
     return amontons_sweep(study, &options, summary, err);
@@ -35,14 +41,16 @@ TEST(test_ends)
 {
     Error err;
     SweepSummary summary;
-    fake_slurm_says(place, "scontrol", "MaxArraySize = 2\nExitCode=0:11 \n", "0");   // two arrays
+    fake_slurm_says(place, "scontrol", "MaxArraySize = 2\nExitCode=0:11 \n", "0");   // one element
     place_write(place, "queue",
-                "a site's own line\n1 0 OUT_OF_MEMORY None\n2 0 FAILED RaisedSignal:11\n"
-                "9 0 FAILED None\n2 7 FAILED None\n");
-    assert_true(sweep("--time=1 --comment='two words'", &summary, &err));
-    assert_int_equal(summary.failed, 2);
-    assert_failures("ended as OUT_OF_MEMORY by signal 11 (Segmentation fault)",
-                    "ended as FAILED by signal 11");
+                "a site's own line\n1 0 OUT_OF_MEMORY None\n9 0 FAILED None\n1 7 FAILED None\n");
+    assert_false(sweep("--time=1 --comment='two words'", &summary, &err));
+    assert_int_equal(err.code, ERROR_INTERRUPT);
+    assert_says(err.message, "1 points are not computed, the same command goes on: the Slurm job "
+                             "ended as OUT_OF_MEMORY by signal 11");
+    assert_int_equal(summary.failed, 1);
+    assert_int_equal(summary.pending, 1);
+    assert_failures("ended as OUT_OF_MEMORY by signal 11 (Segmentation fault)", "pending");
     char asked[4000];
     place_read(place, "sbatch.asked", asked, sizeof asked);
     assert_says(asked, "--comment=two words --array=0-0 --job-name=amontons-");
@@ -85,7 +93,8 @@ TEST(test_refused)
     setenv("PATH", "/nowhere", 1);
     unlink(place_path(place, "out/slurm/running"));
     assert_false(sweep("", &summary, &err));
-    assert_says(err.message, "--slurm needs Slurm's commands (sbatch, squeue, scancel) in PATH");
+    assert_says(err.message,
+                "--slurm needs Slurm's commands (sbatch, squeue, scancel, scontrol) in PATH");
     snprintf(old_path, sizeof old_path, "%s:/bin:/usr/bin", place);
     setenv("PATH", old_path, 1);
 }
@@ -127,61 +136,33 @@ TEST(test_cancel)
     place_write(place, "squeue", usual);
 }
 
-// The lists that the last sweep left.
-TEST(test_element)
+// In what the last sweep left.
+static bool element(int32_t number, Error *err)
 {
-    Error err = {0};
-    char list[PLACE_SIZE + 40], text[4000], here[4000];
-    assert_non_null(getcwd(here, sizeof here));
-    snprintf(list, sizeof list, "%s/out/slurm/array-0.json", place);
-    if (!amontons_sweep_element(list, 1, &err)) fail_msg("%s", err.message);
-    place_read(place, "out/slurm/array-0.json", text, sizeof text);
-    assert_false(amontons_sweep_element(list, 2, &err));
-    assert_says(err.message, "out/slurm/share-2.points");
-    static const struct {
-        const char *from, *to, *says;
-    } wrong[] = {
-        {"set_count\": 0", "set_count\": 1", "lacks setting 0"},
-        {"set_count\": 0", "set_count\": -1", "no list of elements"},
-        {"set_count\": 0", "set_count\": null", "no list of elements"},
-        {"set_count\": 0", "set_count\": 999999", "no list of elements"},
-        {"\"directory\"", "\"place\"", "no list of elements"},
-        {"\"study\"", "\"file\"", "no list of elements"},
-        {"\"folder\"", "\"result\"", "no list of elements"},
-        {"\"set_count\"", "\"count\"", "no list of elements"},
-        {"\"directory\": \"/", "\"directory\": \"/nowhere/", "cannot go to /nowhere/"},
-    };
-    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        char changed[4100];
-        err = (Error){0};
-        const char *at = strstr(text, wrong[k].from);
-        if (!at) fail_msg("%s is not in %s", wrong[k].from, text);
-        snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - text), text, wrong[k].to,
-                 at + strlen(wrong[k].from));
-        place_write(place, "changed.json", changed);
-        assert_false(amontons_sweep_element(place_path(place, "changed.json"), 0, &err));
-        assert_says(err.message, wrong[k].says);
-    }
-    assert_int_equal(chdir(here), 0);
+    SweepOptions options = {.folder = folder, .overrides = settings, .override_count = 1};
+    *err = (Error){0};
+    return amontons_sweep_element(study, &options, number, err);
 }
 
-// A share of a sweep without folders of points, as the sweep wrote it and changed since.
+TEST(test_element)
+{
+    Error err;
+    SweepSummary summary;
+    char script[4000];
+    if (!sweep("", &summary, &err)) fail_msg("%s", err.message);
+    assert_int_equal(summary.failed, 2);   // the element comes later
+    place_read(place, "out/slurm/array.sh", script, sizeof script);
+    assert_says(script, " sweep --element -o '");
+    assert_says(script, "/out' --set 'rod.velocity=9e-6' -- '");
+    if (!element(1, &err)) fail_msg("%s", err.message);
+    assert_false(element(2, &err));
+    assert_says(err.message, "out/slurm/share-2.points");
+}
+
+// A share as the sweep wrote it, and changed since.
 TEST(test_share)
 {
-    Error err = {0};
-    char list[PLACE_SIZE + 40], here[4000], text[4000], first[2000];
-    assert_non_null(getcwd(here, sizeof here));
-    place_read(place, "study.yaml", first, sizeof first);
-    const char *set = strstr(first, "set: {") + strlen("set: {");
-    snprintf(text, sizeof text, "%.*soutput.history: false, output.fields: none, %skeep: table\n",
-             (int)(set - first), first, set);
-    place_write(place, "study.yaml", text);
-    snprintf(list, sizeof list, "%s/list.json", place);
-    snprintf(text, sizeof text,
-             "{\"directory\": \"%s\", \"study\": \"%s\", \"folder\": \"%s\", \"set_count\": 0, "
-             "\"set\": [], \"first\": 0}",
-             place, study, folder);
-    place_write(place, "list.json", text);
+    Error err;
     static const struct {
         const char *share, *says;
     } wrong[] = {
@@ -191,17 +172,13 @@ TEST(test_share)
         {"1 97e10000000000000000000000000000", "was changed after the sweep began"},
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        err = (Error){0};
         place_write(place, "out/slurm/share-0.points", wrong[k].share);
-        assert_false(amontons_sweep_element(list, 0, &err));
+        assert_false(element(0, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         assert_says(err.message, wrong[k].says);
     }
-    err = (Error){0};
     place_write(place, "out/slurm/share-0.points", "");
-    if (!amontons_sweep_element(list, 0, &err)) fail_msg("%s", err.message);   // nothing to do
-    place_write(place, "study.yaml", first);
-    assert_int_equal(chdir(here), 0);
+    if (!element(0, &err)) fail_msg("%s", err.message);   // nothing to do
 }
 
 FIXTURE(begin)

@@ -48,7 +48,8 @@ static Scene *scene_at(const Study *study, int32_t point)
 {
     Error err = {0};
     Scene *scene = NEW_ARRAY(Scene, 1, &err);
-    if (!study_point_scene(study, point, scene, &err)) fail_msg("%s", err.message);
+    if (!study_scene(study, &(PointChoice){.point = point}, scene, &err))
+        fail_msg("%s", err.message);
     return scene;
 }
 
@@ -233,7 +234,7 @@ TEST(test_rank_and_plot)
     Error err = {0};
     Scene *scene = NEW_ARRAY(Scene, 1, &err);
     for (int32_t k = 0; k < 4; k++) {
-        assert_true(study_baseline_scene(study, k, scene, &err));
+        assert_true(study_scene(study, &(PointChoice){.point = k, .baseline = true}, scene, &err));
         assert_int_equal(scene->rod.kind, ROD_PUSH);
         assert_true(scene->load.pressure == (k < 2 ? 1 : 2));
     }
@@ -288,7 +289,7 @@ TEST(test_faults)
     static const struct {
         const char *body, *message;
     } known[] = {
-        {"varry: {}\n", ":2:1: varry: unknown key of a study; did you mean `vary`?"},
+        {"varry: {}\n", ":2:1: study: unknown key `varry`; did you mean `vary`?"},
         {"vary: {load.presure: [1]}\n", ":2:8: load.presure: unknown key of a scene; did you mean"},
         {"set: {colour: red}\n", ":2:7: colour: unknown key of a scene ("},
         {"cases: [{}, {rod: {kind: glued}}]\n", "rod.kind: found `glued`"},
@@ -297,8 +298,8 @@ TEST(test_faults)
         {"vary: {load.pressure: []}\n", "allowed: a list of values"},
         {"vary: {load.pressure: {log: [0, 1], points: 3}}\n", ":2:29: load.pressure: "},
         {"vary: {load.pressure: {log: [1, 2, 3], points: 3}}\n", "[from, to]"},
-        {"vary: {load.pressure: {log: [1, 2], points: 2.5}}\n", "whole number of points"},
-        {"vary: {load.pressure: {log: [1, 2], points: 0x2}}\n", "whole number of points"},
+        {"vary: {load.pressure: {log: [1, 2], points: 2.5}}\n", "points: found"},
+        {"vary: {load.pressure: {log: [1, 2], points: 0x2}}\n", "points: found"},
         {"vary: {load.pressure: {log: [0x1, 2], points: 2}}\n", "two numbers"},
         {"vary: {load.pressure: {log: [1, 2], linear: [1, 2], points: 2}}\n", "allowed: a list"},
         {"vary: {load.pressure: {log: [1, 2]}}\n", "allowed: a list"},
@@ -347,7 +348,7 @@ TEST(test_faults)
         Scene *scene = NEW_ARRAY(Scene, 1, &err);
         bool done = study_read(path, NULL, 0, study, &err);
         for (int32_t i = 0; done && i < study->point_count; i++)
-            done = study_point_scene(study, i, scene, &err);
+            done = study_scene(study, &(PointChoice){.point = i}, scene, &err);
         if (done) fail_msg("%s: not refused", known[k].body);
         assert_int_equal(err.code, ERROR_INPUT);
         if (!strstr(err.message, known[k].message) || !strstr(err.message, path))
@@ -407,7 +408,7 @@ TEST(test_memory)
         err = (Error){0};
         memory_fail_after(failures);
         done = study_read(path, overrides, 1, study, &err) &&
-               study_point_scene(study, 1, scene, &err);
+               study_scene(study, &(PointChoice){.point = 1}, scene, &err);
         memory_fail_after(-1);
         study_destroy(study);
         assert_true(done || err.code == ERROR_MEMORY);

@@ -21,7 +21,7 @@ static void assert_refused(const char *const *overrides, int32_t count, const ch
     Scene *scene = NEW_ARRAY(Scene, 1, &err);
     bool done = study_read(path, overrides, count, study, &err);
     for (int32_t k = 0; done && k < study->point_count; k++)
-        done = study_point_scene(study, k, scene, &err);
+        done = study_scene(study, &(PointChoice){.point = k}, scene, &err);
     if (done || err.code != ERROR_INPUT || !strstr(err.message, says))
         fail_msg("%.300s: \"%s\" lacks \"%s\"", text, err.message, says);
     memory_free(scene);
@@ -48,20 +48,19 @@ static void add_many(int32_t count, const char *format, const char *end)
 TEST(test_words)
 {
     static const char *const known[][2] = {
-        {"zzzzzzzzzz: 1\n", ":2:1: zzzzzzzzzz: unknown key of a study; allowed: title, scene"},
-        {"keep: some\n", ":2:7: keep: found `some`; allowed: points or table"},
-        {"keep: [table]\n", "allowed: points or table"},
+        {"zzzzzzzzzz: 1\n", ":2:1: study: unknown key `zzzzzzzzzz`; allowed: title, scene"},
+        {"keep: some\n", ":2:7: keep: found `some`; allowed: points, table"},
+        {"keep: [table]\n", "allowed: points, table"},
         {"cases: []\n", "cases: found a list of 0"},
         {"record: []\n", "record: found a list of 0"},
-        {"record: [mu_peaks_low]\n", "record: `mu_peaks_low` is called `low` now"},
-        {"record: [results.mu_peaks_low]\n", "is called `low` now"},
-        {"vary: {load.pressure: {log: [1, 2], points: 0}}\n", "whole number of points"},
-        {"vary: {load.pressure: {log: [1, 2], points: 20000}}\n", "whole number of points"},
+        {"vary: {load.pressure: {log: [1, 2], points: 0}}\n", "points: found"},
+        {"vary: {load.pressure: {log: [1, 2], points: 20000}}\n", "points: found"},
         {"vary: {load.pressure: {log: [1, 0], points: 3}}\n", "load.pressure: "},
         {"vary: {load.pressure: {linear: [1, b], points: 3}}\n", "two numbers"},
         {"vary: {load.pressure: {linear: 3, points: 3}}\n", "[from, to]"},
         {"vary: {load.pressure: {points: 3}}\n", "allowed: a list"},
-        {"vary: {load.pressure: {linear: [1, 2], points: 3, step: 1}}\n", "allowed: a list"},
+        {"vary: {load.pressure: {linear: [1, 2], points: 3, step: 1}}\n",
+         "unknown key `step`; allowed: log, linear, points"},
         {"rank: {by: mu_M, top: 1.5}\n", "top: found `1.5`"},
         {"rank: {by: mu_M, top: 2000}\n", "top: found `2000`"},
         {"rank: {by: mu_M, top: many}\n", "top: found `many`"},

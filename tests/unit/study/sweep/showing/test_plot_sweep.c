@@ -114,6 +114,11 @@ TEST(test_curves)
         "one", "{x: load.pressure, y: = mu_M * load.pressure, panels: rod.kind, name: a}", "a");
     assert_says(said, "\"title\": \"kind = push\"");
     assert_says(said, "\"y\": [3, 8, 15]");   // mu_M is 3, 4, 5 at length 2
+    said = description(
+        "one", "{x: load.pressure, y: 'twice ~{m}, % = 2 * mu_M', panels: rod.kind, name: n}", "n");
+    assert_says(said, "\"label\": \"twice ~{m}, %\"");
+    assert_says(said, "\"column\": \"2 * mu_M\"");
+    assert_says(said, "\"y\": [4, 6, 8]");
     said = description("one", "{x: load.pressure, y: mu_hold, series: rod.kind, name: b}", "b");
     assert_says(said, "\"x\": [2, 3]");   // the first has no value
     said = description("one", "{x: load.pressure, y: mu_M, series: rod.kind, with: WITH}", "plot");

@@ -14,6 +14,7 @@ enum { POINTS = 1500 };
 typedef struct Ranked {
     Sweep sweep;
     SweepTable table;
+    TableColumn columns[2];   // values, errors
     double values[POINTS], errors[POINTS];
     SweepPoint points[POINTS];
 } Ranked;
@@ -27,9 +28,10 @@ static Ranked *make(double error)
     made->sweep.study.point_count = POINTS;
     made->sweep.study.rank.against = AGAINST_FIRST;
     made->sweep.points = made->points;
-    made->table.records = made->values;
-    made->table.errors = made->table.known_to = made->errors;
-    made->table.has_error[0] = true;
+    made->table.columns = made->columns;
+    made->table.error[0] = made->table.known_to[0] = 1;
+    made->columns[0].values = made->values;
+    made->columns[1].values = made->errors;
     srand(7);
     for (int32_t k = 0; k < POINTS; k++) {
         int32_t kind = rand() % 20;
@@ -82,8 +84,8 @@ TEST(test_refined)
     double values[] = {0.30, 0.29, 0.25}, errors[] = {0.002, 0.004, 0.004};
     SweepPoint points[3] = {{.same_as = 0}, {.same_as = 1}, {.same_as = 2}};
     Sweep sweep = {.points = points, .study = {.point_count = 3, .rank.against = AGAINST_FIRST}};
-    SweepTable table = {
-        .records = values, .errors = errors, .known_to = errors, .has_error = {true}};
+    TableColumn columns[] = {{.values = values}, {.values = errors}};
+    SweepTable table = {.columns = columns, .error = {1}, .known_to = {1}};
     assert_true(ranking_make(&sweep, &table, &ranking, &err));
     assert_int_equal(ranking.rows[0].to, 1);
     ranking_destroy(&ranking);

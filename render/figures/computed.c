@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/figures/computed.h"
+
+#include "base/memory.h"
+#include "render/view/zoom.h"
+
+#include <math.h>
+
+enum { STATIONS = 21 };
+
+static const double RAPID = 2;   // slip rate over V (record/events)
+static const double MOST_SHOWN = 3;   // times the fastest wave: beyond it arrivals are one step's
+
+static bool curve_make(ViewCurve *curve, int64_t most, Error *err)
+{
+    return (curve->at = NEW_ARRAY(double, most, err)) &&
+           (curve->value = NEW_ARRAY(double, most, err));
+}
+
+static void curve_add(ViewCurve *curve, double at, double value)
+{
+    curve->at[curve->count] = at;
+    curve->value[curve->count++] = value;
+}
+
+// --- length over load ----------------------------------------------------------------------------
+
+// The rows of the cycle: from the shortest front behind the sliding before to the next one.
+static void cycle_rows(const ResultView *view, const Zoom *zoom, int64_t *first, int64_t *end)
+{
+    double least = INFINITY;
+    *first = 0;
+    *end = view->rows;
+    for (int64_t row = 0; zoom->found && row < view->rows; ++row) {
+        double U = view->U[row];
+        if (U > zoom->U_slide) {
+            *end = row;
+            return;
+        }
+        if (U >= zoom->U_start && view->front[row] <= least) {
+            least = view->front[row];
+            if (view->mu[row] <= view->mu[*first] || *first == 0) *first = row;
+        }
+    }
+}
+
+// From the trailing end to the farthest point that slip has come to since the sliding before,
+// against the largest F_T/F_N since then.
+static bool find_lengths(ResultView *view, Error *err)
+{
+    int64_t first = 0, end = 0;
+    double mu = -INFINITY, length = 0;
+    Zoom zoom = zoom_choose(view);
+    if (view->precursors.at) return true;
+    if (!result_view_read_front(view, err) || !curve_make(&view->precursors, view->rows, err))
+        return false;
+    cycle_rows(view, &zoom, &first, &end);
+    for (int64_t row = first; row < end; ++row) {
+        if (!isfinite(view->mu[row] + view->front[row])) continue;
+        mu = fmax(mu, view->mu[row]);
+        length = fmax(length, view->front[row] - result_view_trailing_end(view));
+        curve_add(&view->precursors, mu, length);
+    }
+    return true;
+}
+
+// --- speed over place ----------------------------------------------------------------------------
+
+// When node i first slipped so fast, from row `first` to the one before `end`; NaN: it did not.
+static double arrival(const ResultView *view, int32_t i, int64_t first, int64_t end, double rapid)
+{
+    for (int64_t row = first; row < end; ++row) {
+        double now = fabs(view->slip_rate[row * view->nodes + i]);
+        if (!(now >= rapid)) continue;
+        double before = row > 0 ? fabs(view->slip_rate[(row - 1) * view->nodes + i]) : now;
+        double part = now > before ? fmin((rapid - before) / (now - before), 1) : 1;
+        return row > 0 ? view->t[row] - (1 - fmax(part, 0)) * (view->t[row] - view->t[row - 1])
+                       : view->t[row];
+    }
+    return NAN;
+}
+
+// At x; NaN in gaps between pads and where a neighbour was not reached.
+static double arrival_at(const ResultView *view, const double *times, double x)
+{
+    for (int32_t i = 0; i + 1 < view->nodes; ++i) {
+        double low = view->x[i], high = view->x[i + 1];
+        if (!(x >= low && x <= high) || view->pad[i] != view->pad[i + 1]) continue;
+        double part = high > low ? (x - low) / (high - low) : 0;
+        return part > 0 ? times[i] + part * (times[i + 1] - times[i]) : times[i];
+    }
+    return NAN;
+}
+
+static void event_rows(const ResultView *view, const Zoom *zoom, int64_t *first, int64_t *end)
+{
+    double stop = INFINITY;
+    for (int32_t k = 0; k < view->event_count; ++k)
+        if (view->events[k].U_start == zoom->U_slide) stop = view->events[k].U_stop;
+    *first = *end = 0;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (view->U[row] < zoom->U_slide) *first = row;
+        if (view->U[row] <= stop) *end = row + 1;
+    }
+}
+
+// Between stations a twentieth of the block apart, by the times at which slip there first gets
+// faster than twice the rod, as in record/front_path. Where slip was slow before the front is one
+// of speeding up, and may run faster than any wave.
+static bool find_speeds(ResultView *view, Error *err)
+{
+    ViewCurve *curve = &view->front_speed;
+    double *times = NULL, V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    int64_t first = 0, end = 0;
+    Zoom zoom = zoom_choose(view);
+    if (curve->at || !zoom.found) return true;
+    TRY(result_view_read_slip_rate(view, err));
+    TRY(times = NEW_ARRAY(double, view->nodes, err));
+    TRY(curve_make(curve, STATIONS, err));
+    event_rows(view, &zoom, &first, &end);
+    for (int32_t i = 0; i < view->nodes; ++i) times[i] = arrival(view, i, first, end, RAPID * V);
+    double low = view->x[0], step = (view->x[view->nodes - 1] - low) / (STATIONS - 1);
+    for (int32_t k = 0; k + 1 < STATIONS; ++k) {
+        double took = arrival_at(view, times, low + (k + 1) * step) -
+                      arrival_at(view, times, low + k * step);
+        if (step / fabs(took) < MOST_SHOWN * view->number[NUMBER_C_LONGITUDINAL])
+            curve_add(curve, low + (k + 0.5) * step, step / fabs(took));
+    }
+cleanup:
+    memory_free(times);
+    return error_is_clean(err);
+}
+
+bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err)
+{
+    bool done = true;
+    *curve = (ViewCurve){view->rows, view->U, view->mu};
+    if (kind == MEASURED_AREA) *curve = (ViewCurve){0};
+    if (kind == MEASURED_FRONT) done = result_view_read_front(view, err);
+    if (kind == MEASURED_FRONT) curve->value = view->front;
+    if (kind == MEASURED_LENGTH) done = find_lengths(view, err);
+    if (kind == MEASURED_LENGTH) *curve = view->precursors;
+    if (kind == MEASURED_SPEED) done = find_speeds(view, err);
+    if (kind == MEASURED_SPEED) *curve = view->front_speed;
+    return done;
+}
+
+// --- area ----------------------------------------------------------------------------------------
+
+// Of the nearest node at that row; open contact has no area.
+static double density_at(const ResultView *view, int64_t row, double x)
+{
+    int32_t nearest = 0;
+    for (int32_t i = 1; i < view->nodes; ++i)
+        if (fabs(view->x[i] - x) < fabs(view->x[nearest] - x)) nearest = i;
+    int64_t k = row * view->nodes + nearest;
+    double density = 1 - fabs(view->slip_rate[k]) / view->number[NUMBER_CRITICAL_VELOCITY];
+    return view->status[k] == 0 ? 0 : fmax(density, 0);
+}
+
+double computed_area(const ResultView *view, double U, double x)
+{
+    double low = 0, high = 0;
+    result_view_x_extent(view, &low, &high);
+    if (x < low || x > high) return NAN;
+    for (int64_t row = 0; row + 1 < view->rows; ++row) {
+        double from = view->U[row], to = view->U[row + 1];
+        if (!(U >= from && U <= to)) continue;
+        double part = to > from ? (U - from) / (to - from) : 1, before = density_at(view, row, x);
+        return before + part * (density_at(view, row + 1, x) - before);
+    }
+    return NAN;
+}

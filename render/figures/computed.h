@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a run has computed, in the form in which it is measured: a curve a kind, and the area of the
+// contact. Numbers only. Called by measured, figure_data and the figures.
+#ifndef AMONTONS_RENDER_FIGURES_COMPUTED_H
+#define AMONTONS_RENDER_FIGURES_COMPUTED_H
+
+#include "render/view/result_view.h"
+
+typedef enum MeasuredKind {
+    MEASURED_MU,   // F_T/F_N over U
+    MEASURED_FRONT,   // how far slip has come, x, over U
+    MEASURED_AREA,   // contact area over what it was at rest, over U and x: no curve
+    MEASURED_LENGTH,   // how long slip was when F_T/F_N first came so far, in the cycle of the zoom
+    MEASURED_SPEED,   // how fast the front of the sliding of the zoom ran, over x
+    MEASURED_KINDS
+} MeasuredKind;
+
+// The curve of a kind, whose arrays stay the view's; of MEASURED_AREA none (count 0).
+bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err);
+
+// Contact density when the rod was at U, of the node nearest to x, linear between steps; NaN:
+// beyond the block. Slip rates and statuses have been read.
+double computed_area(const ResultView *view, double U, double x);
+
+#endif
