@@ -25,7 +25,8 @@ enum {
     // what a solvable problem was seen to need
     ITERATIONS_ONE = 40,   // and then those that change only the worst
 };
-// Of residual forces, relative to the largest force: some 1e2 above what rounding leaves in S v - g.
+// Of residual forces, relative to the largest force: some 1e2 above what rounding leaves in
+// S v - g.
 static const double TOLERANCE = 1e-12;
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
