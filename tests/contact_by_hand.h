@@ -66,7 +66,7 @@ static inline bool hand_contact_solve_by(HandContact *hand, bool sweeps_on, Hand
     ContactSolver solver;
     ContactMatrix matrix;
     assert_true(contact_matrix_create(hand->schur, hand->interface.count, &matrix, &err));
-    assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
+    assert_true(contact_solver_create(&hand->interface, &solver, &err));
     solver.sweeps_on = sweeps_on;
     memset(hand->velocity, 0, sizeof hand->velocity);
     memset(hand->reaction, 0, sizeof hand->reaction);

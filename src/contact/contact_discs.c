@@ -410,12 +410,12 @@ bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const Cont
 }
 
 // Factors are archived by contact/contact_newton; these are the directions they are in.
-void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive)
+void contact_discs_archive(ContactDiscs *discs, const Interface *interface, Archive *archive)
 {
     archive_section(archive, "contact discs");
     archive_counts_of(archive, &discs->iterations, &discs->sweeps, &discs->swept);
-    disc_factors_archive(&discs->factors, discs->newton->factors.count, archive);
-    for (int32_t i = 0; i < contact_count; i++) {
+    disc_factors_archive(&discs->factors, interface->count, archive);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
         DiscRow *row = &discs->kept[i];
         archive_numbers(archive, row->d, TANGENTS_MAX);
         archive_numbers_of(archive, &row->mu, &row->theta, &row->rho);

@@ -51,6 +51,6 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
 bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
                           ContactSolution *solution);
 
-void contact_discs_archive(ContactDiscs *discs, int32_t contact_count, Archive *archive);
+void contact_discs_archive(ContactDiscs *discs, const Interface *interface, Archive *archive);
 
 #endif

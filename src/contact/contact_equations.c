@@ -132,11 +132,6 @@ static double diagonal_of(const ContactEquations *equations, int32_t a)
     return slope * equations->at->reaction[row.normal] + row.stiffness;
 }
 
-void contact_diagonal(const ContactEquations *equations, double *out)
-{
-    for (int32_t a = 0; a < equations->free_count; a++) out[a] = diagonal_of(equations, a);
-}
-
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
                       double *jacobian)
 {

@@ -75,9 +75,6 @@ void contact_residuals(const ContactEquations *equations, double *residual);
 // out [free_count] = x_k + s mu x_n: how their equations take what is added to the reactions.
 void contact_combine(const ContactEquations *equations, const double *x, double *out);
 
-// out [free_count] = mu'(|v_t|) r_n + stiffness: what the derivative has on its diagonal beside S.
-void contact_diagonal(const ContactEquations *equations, double *out);
-
 // The derivative by the free unknowns, column after column with `stride` >= free_count entries
 // each. matrix: S, or S with open nodes condensed out, [count^2].
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,

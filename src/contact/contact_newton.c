@@ -126,17 +126,14 @@ static bool factor(ContactNewton *newton)
 }
 
 // The factors are those of the derivative, or of one with these statuses with which steps still
-// gain. false: the derivative is singular.
+// gain (where friction creeps each row is another). false: the derivative is singular.
 static bool find_factors(ContactNewton *newton)
 {
-    bool kept = factors_are_of(newton) && !newton->creeps;   // there each row is another
-    newton->reused = kept && newton->factors_gain &&
+    newton->reused = factors_are_of(newton) && !newton->creeps && newton->factors_gain &&
+                     newton->factors.rows == newton->equations.free_count &&
                      contact_has_statuses(&newton->equations, newton->factors.status);
     if (newton->reused) return true;
-    if (kept && contact_factors_update(&newton->factors, &newton->equations, newton->closed))
-        newton->updates++;
-    else if (!factor(newton))
-        return false;
+    if (!factor(newton)) return false;
     newton->factors_gain = true;
     return true;
 }
@@ -232,9 +229,7 @@ bool contact_newton_step(ContactNewton *newton)
         contact_combine(equations, newton->pull, newton->more);
         dense_add_scaled(1, newton->more, free_count, newton->step);
     }
-    if (!contact_factors_solve(&newton->factors, equations, newton->step) &&
-        !(factor(newton) && contact_factors_solve(&newton->factors, equations, newton->step)))
-        return false;
+    contact_factors_solve(&newton->factors, newton->step);
     contact_newton_creep(newton);
     contact_newton_take(newton);
     return true;
@@ -258,9 +253,9 @@ double contact_newton_residual(ContactNewton *newton)
     return largest;
 }
 
-void contact_newton_archive(ContactNewton *newton, Archive *archive)
+void contact_newton_archive(ContactNewton *newton, int32_t count, Archive *archive)
 {
-    contact_factors_archive(&newton->factors, archive);
+    contact_factors_archive(&newton->factors, count, archive);
     archive_flag(archive, &newton->factors_gain);
-    archive_counts_of(archive, &newton->factorisations, &newton->updates);
+    archive_count(archive, &newton->factorisations);
 }

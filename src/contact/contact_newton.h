@@ -5,9 +5,8 @@
 // with columns of S' gives. S v, which has the columns of the open nodes as well, is found as a
 // whole before the first step and after the last (`exact`): on pads most nodes are open and few
 // slip.
-// Factors of the derivative are kept and used again while steps with them gain (a chord method), or
-// brought up to date where few rows have changed (contact/contact_factors). Used by
-// contact/contact_solver, which changes the statuses.
+// Factors of the derivative are kept and used again while steps with them gain (a chord method).
+// Used by contact/contact_solver, which changes the statuses.
 #ifndef AMONTONS_CONTACT_CONTACT_NEWTON_H
 #define AMONTONS_CONTACT_CONTACT_NEWTON_H
 
@@ -32,8 +31,7 @@ typedef struct ContactNewton {
     double *pull;   // [count] work: what open nodes do to the others
     ContactFactors factors;   // of the last derivative
     bool factors_gain;   // steps with them have gained a digit since
-    int64_t factorisations;   // counted, derivatives factored anew
-    int64_t updates;   // counted, derivatives that had factors brought up to date
+    int64_t factorisations;   // counted
 } ContactNewton;
 
 // On failure contact_newton_destroy frees what was made.
@@ -74,7 +72,7 @@ bool contact_newton_step(ContactNewton *newton);
 // open nodes, force/width; infinite where a number is not finite.
 double contact_newton_residual(ContactNewton *newton);
 
-// What outlives a solve.
-void contact_newton_archive(ContactNewton *newton, Archive *archive);
+// What outlives a solve. count: interface unknowns.
+void contact_newton_archive(ContactNewton *newton, int32_t count, Archive *archive);
 
 #endif

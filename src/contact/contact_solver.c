@@ -20,17 +20,19 @@ static const double CHORD_GAIN = 0.1;
 // the equations are off, at least. Then it does so at their solution, too.
 static const double CLEARLY = 100;
 
-// The header says what the numbers rest on.
-ContactSolverDef contact_solver_def(void)
-{
-    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 40, .tolerance = 1e-12};
-}
+enum {
+    ITERATIONS_ALL = 30,   // Newton steps in which every violated status is changed: some ten times
+    // what a solvable problem was seen to need
+    ITERATIONS_ONE = 40,   // and then those that change only the worst
+};
+// Of residual forces, relative to the largest force: some 1e2 above what rounding leaves in
+// S v - g.
+static const double TOLERANCE = 1e-12;
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
-bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
-                           Error *err)
+bool contact_solver_create(const Interface *interface, ContactSolver *solver, Error *err)
 {
-    *solver = (ContactSolver){.def = def, .sweeps_on = true};
+    *solver = (ContactSolver){.sweeps_on = true};
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     if (!error_is_clean(err) || !contact_newton_create(interface, &solver->newton, err))
         return false;
@@ -85,7 +87,7 @@ static bool update_statuses(Solve *solve, double least)
             rod ? contact_judge_rod(&solve->newton->equations, solve->scales, k - contacts,
                                     &violation)
                 : contact_judge_node(&solve->newton->equations, solve->scales, k, &violation);
-        if (!(violation > solve->solver->def.tolerance)) continue;
+        if (!(violation > TOLERANCE)) continue;
         if (violation > largest) {
             largest = violation;
             worst = status;
@@ -136,7 +138,7 @@ static void change_one(Solve *solve)
 {
     if (!solve->change_all) return;
     solve->change_all = false;
-    solve->limit = solve->iterations + solve->solver->def.iterations_one;
+    solve->limit = solve->iterations + ITERATIONS_ONE;
     solve->solver->fallbacks++;
 }
 
@@ -205,11 +207,11 @@ static Progress judge_step(Solve *solve)
     solve->scales = contact_scales(problem, solve->newton->equations.at->reaction);
     double residual = contact_newton_residual(solve->newton);
     if (!isfinite(residual)) return GIVEN_UP;
-    bool equal = residual <= solve->solver->def.tolerance * solve->scales.force;
+    bool equal = residual <= TOLERANCE * solve->scales.force;
     if (equal && !solve->newton->exact) {
         contact_newton_react(solve->newton);
         residual = contact_newton_residual(solve->newton);
-        equal = residual <= solve->solver->def.tolerance * solve->scales.force;
+        equal = residual <= TOLERANCE * solve->scales.force;
     }
     if (!equal && solve->newton->reused && residual > CHORD_GAIN * solve->before)
         solve->newton->factors_gain = false;
@@ -234,12 +236,12 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     ContactNewton *newton = &solver->newton;
     Solve solve = {.solver = solver,
                    .newton = newton,
-                   .limit = solver->def.iterations_all,
+                   .limit = ITERATIONS_ALL,
                    .change_all = true,
                    .before = INFINITY,
                    .started = -1};
     fix_rod_kind(problem, solution);
-    contact_newton_begin(newton, problem, solution, 1e-3 * solver->def.tolerance);
+    contact_newton_begin(newton, problem, solution, 1e-3 * TOLERANCE);
     note_statuses(&solve);
     while (may_go_on(&solve)) {
         if (!newton->listed && !contact_newton_list(newton)) return false;
@@ -262,7 +264,7 @@ static bool solve_discs(ContactSolver *solver, const ContactProblem *problem,
     ContactDiscs *discs = &solver->discs;
     fix_rod_kind(problem, solution);
     int64_t before = discs->iterations, swept = discs->swept;
-    bool solved = contact_discs_solve(discs, solver->def.tolerance, problem, solution);
+    bool solved = contact_discs_solve(discs, TOLERANCE, problem, solution);
     solver->iterations += discs->iterations - before;
     solver->fallbacks += discs->swept - swept;
     solver->rescued += solved && discs->swept > swept;
@@ -313,11 +315,11 @@ void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from)
     from->seconds = 0;
 }
 
-void contact_solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive)
+void contact_solver_archive(ContactSolver *solver, const Interface *interface, Archive *archive)
 {
     archive_section(archive, "contact solver");
-    contact_newton_archive(&solver->newton, archive);
+    contact_newton_archive(&solver->newton, interface->count, archive);
     archive_counts_of(archive, &solver->solves, &solver->iterations, &solver->fallbacks,
                       &solver->rescued, &solver->unsolved, &solver->sweeps);
-    if (solver->discs.kept) contact_discs_archive(&solver->discs, contact_count, archive);
+    if (solver->discs.kept) contact_discs_archive(&solver->discs, interface, archive);
 }

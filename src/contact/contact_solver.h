@@ -17,18 +17,7 @@
 #include "contact/contact_newton.h"
 #include "contact/contact_problem.h"
 
-typedef struct ContactSolverDef {
-    int32_t
-        iterations_all;   // Newton steps in which every violated status is changed: 30, some ten
-    // times what a solvable problem was seen to need
-    int32_t iterations_one;   // and then those that change only the worst: 40
-    double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
-        // above what rounding leaves in S v - g
-} ContactSolverDef;
-ContactSolverDef contact_solver_def(void);
-
 typedef struct ContactSolver {
-    ContactSolverDef def;
     ContactNewton newton;   // steps with these statuses; owned
     ContactDiscs discs;   // of a contact in space, which uses the same `newton`; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
@@ -42,8 +31,7 @@ typedef struct ContactSolver {
     double seconds;   // wall time spent
 } ContactSolver;
 
-bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
-                           Error *err);
+bool contact_solver_create(const Interface *interface, ContactSolver *solver, Error *err);
 void contact_solver_destroy(ContactSolver *solver);
 
 // What another one has counted counts here, no longer there.
@@ -54,6 +42,6 @@ void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from);
 bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution);
 
 // Counters (whose factors are used again depends on one of them) and what is kept.
-void contact_solver_archive(ContactSolver *solver, int32_t contact_count, Archive *archive);
+void contact_solver_archive(ContactSolver *solver, const Interface *interface, Archive *archive);
 
 #endif

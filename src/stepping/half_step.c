@@ -37,7 +37,7 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     if (side->contact_count == 0) return true;
     bool alike = create_rod(block->rod, &half->half, &half->rod, err);
     if (!state_create(&(BulkOperator){0}, side, &half->state, err)) return false;
-    if (!contact_solver_create(side, contact_solver_def(), &half->solver, err)) return false;
+    if (!contact_solver_create(side, &half->solver, err)) return false;
     half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
@@ -162,7 +162,7 @@ void half_step_archive(HalfStep *half, Archive *archive)
 {
     if (!half->exists) return;
     archive_number(archive, &half->odd_part);
-    contact_solver_archive(&half->solver, half->half.interface.contact_count, archive);
+    contact_solver_archive(&half->solver, &half->half.interface, archive);
     certificate_archive(&half->even, archive);
     certificate_archive(&half->odd, archive);
 }

@@ -30,7 +30,7 @@ bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *s
     scheme->g = NEW_ARRAY(double, interface->count, err);
     scheme->bound = NEW_ARRAY(double, interface->count, err);
     if (!error_is_clean(err) || !friction_states_create(block, &scheme->memory, err)) return false;
-    return contact_solver_create(interface, contact_solver_def(), &scheme->solver, err);
+    return contact_solver_create(interface, &scheme->solver, err);
 }
 
 void sdirk_destroy(Sdirk *scheme)
@@ -347,5 +347,5 @@ void sdirk_archive(Sdirk *scheme, Archive *archive)
     archive_number(archive, &scheme->reach);
     archive_count(archive, &scheme->steps);
     friction_states_archive(&scheme->memory, archive);
-    contact_solver_archive(&scheme->solver, scheme->interface->contact_count, archive);
+    contact_solver_archive(&scheme->solver, scheme->interface, archive);
 }

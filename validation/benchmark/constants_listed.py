@@ -54,9 +54,9 @@ FAR_FIELD = "validation/benchmark/far_field.py"
 STEPPING = "validation/benchmark/stepping.md"
 CONSTANTS = [
     *of("contact/contact_solver.c",
-        ("iterations_all", "Newton steps in which every broken status changes", HERE),
-        ("iterations_one", "further steps in which only the worst changes", HERE),
-        ("tolerance", "residual of a solved problem, of its largest force",
+        ("ITERATIONS_ALL", "Newton steps in which every broken status changes", HERE),
+        ("ITERATIONS_ONE", "further steps in which only the worst changes", HERE),
+        ("TOLERANCE", "residual of a solved problem, of its largest force",
          "1e2 above the rounding of S v - g"),
         ("CLEARLY", "a status is changed alone when it is off by so many times the residual", STEPPING),
         ("CHORD_GAIN", "a kept factor is given up when a step leaves more of the residual", HERE),

@@ -85,7 +85,7 @@ static bool solve_contact(const Model *model, InterfaceOperator *stiffness, cons
                                .status = solution->status,
                                .rod_touches = solution->rod_touches};
     TRY(contact_matrix_create(interface_operator_schur(stiffness), interface->count, &matrix, err));
-    TRY(contact_solver_create(interface, contact_solver_def(), &solver, err));
+    TRY(contact_solver_create(interface, &solver, err));
     if (!contact_solve(&solver, &problem, &contact))
         FAIL(err, ERROR_COMPUTE,
              "%s: no equilibrium was found in %d iterations: is the block held against sliding "

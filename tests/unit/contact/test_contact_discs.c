@@ -91,7 +91,7 @@ TEST(test_plane)
         ContactSolver solver;
         ContactMatrix matrix;
         assert_true(contact_matrix_create(schur, UNKNOWNS, &matrix, &err) &&
-                    contact_solver_create(&plane, contact_solver_def(), &solver, &err));
+                    contact_solver_create(&plane, &solver, &err));
         ContactProblem problem = {
             .interface = &plane, .law = &hand.law, .matrix = &matrix, .g = g, .bound = bound};
         uint8_t no_rod[1] = {0};

@@ -276,7 +276,7 @@ TEST(test_allocates_nothing)
     hand_random_schur(&random, 3, 1, &hand);
     int64_t live = memory_counters().live;
     assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
-    assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
+    assert_true(contact_solver_create(&hand.interface, &solver, &err));
     int64_t before = memory_counters().allocations;
     for (int32_t round = 0; round < 20; round++) {
         for (int32_t k = 0; k < hand.interface.count; k++)
@@ -295,7 +295,7 @@ TEST(test_allocates_nothing)
     for (int32_t k = 0; !done; k++) {
         memory_fail_after(k);
         error_clear(&err);
-        done = contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err);
+        done = contact_solver_create(&hand.interface, &solver, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         contact_solver_destroy(&solver);
@@ -314,7 +314,7 @@ TEST(test_same_address)
     ContactMatrix matrix;
     hand_contact_size(&hand, 12, 1);
     hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.3};
-    assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
+    assert_true(contact_solver_create(&hand.interface, &solver, &err));
     for (int32_t k = 0; k < hand.interface.count; k++)
         hand.g[k] = k % 2 == 0 ? 3 : (k / 2) % 3 == 0 ? 1 : -1;
     for (int32_t round = 0; round < 10; round++) {

@@ -15,7 +15,7 @@ static bool follow(HandContact *hand)
     ContactMatrix matrix;
     bool solved = false;
     assert_true(contact_matrix_create(hand->schur, hand->interface.count, &matrix, &err));
-    assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
+    assert_true(contact_solver_create(&hand->interface, &solver, &err));
     solver.sweeps_on = false;
     ContactProblem problem = hand_problem(hand, &matrix);
     ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};

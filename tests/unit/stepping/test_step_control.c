@@ -142,7 +142,7 @@ TEST(test_gives_up)
         pushed_build(&def, &steps, &run);
         StepControl *control = &run.control;
         if (which == 0) {
-            control->scheme.solver.def = (ContactSolverDef){.tolerance = 1e-12};   // no iterations
+            control->now.momentum[0] = NAN;
         } else {
             control->def.tolerance = 0;
         }
