@@ -70,7 +70,7 @@ class Promise(unittest.TestCase):
         self.assertAlmostEqual(ratio, 1.5)
         self.assertEqual(cells[0], "-10.00 **no**")
         for ratios, kept in (([0.5] * 38 + [1.5] * 2, True), ([0.5] * 37 + [1.5] * 3, False), ([0.5] * 39 + [4], False)):
-            self.assertEqual(promise.summary_of(0.01, ratios, 0, 40, [1] * 40)[1], kept)
+            self.assertEqual(promise.summary_of(0.01, "60s", ratios, 0, 40, [1] * 40)[1], kept)
 
     def test_a_reference_is_three_times_as_sure_as_a_bar(self):
         """Finer meshes only where the first ones err by more than a third of the shortest bar."""
