@@ -159,7 +159,7 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
     if (!page->in_space) film_profile_now(&page->frame, &page->profile, &now);
     if (page->block.stored) film_block_contact(&page->frame, &page->block, film_nearest_row(&now));
     *pixels = canvas_pixels(page->frame.canvas, stride, err);
-    return true;
+    return *pixels != NULL;
 }
 
 int32_t film_page_still(const FilmPage *page)

@@ -205,7 +205,7 @@ bool dense_eigen_above(double *a, int32_t n, double least, double *values, doubl
 
 bool dense_eigen(double *a, int32_t n, double *values, double *work)
 {
-    return dense_eigen_above(a, n, -INFINITY, values, work);
+    return dense_eigen_above(a, n, -INFINITY, values, work) && (n == 0 || isfinite(values[n - 1]));
 }
 
 bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *work)

@@ -45,8 +45,9 @@ FrictionLaw friction_spread(const FrictionLaw *each, int32_t count)
 static const struct {
     const char *name;
     bool own, drops;
+    MemoryKind memory;
 } KINDS[] = {
-#define X(symbol, name, own, drops) {name, own, drops},
+#define X(symbol, name, own, drops, memory) {name, own, drops, memory},
     FRICTION_LAWS(X)
 #undef X
 };
@@ -69,6 +70,11 @@ const char *friction_law_name(const FrictionLaw *law)
 bool friction_is_own(const FrictionLaw *law)
 {
     return is_known(law->kind) && KINDS[law->kind].own;
+}
+
+MemoryKind friction_memory_kind(FrictionKind kind)
+{
+    return is_known(kind) ? KINDS[kind].memory : MEMORY_FORMULAS;
 }
 
 bool friction_has_drop(const FrictionLaw *law)

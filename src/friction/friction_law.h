@@ -9,8 +9,9 @@
 //   one's own          a table, a formula or a plug-in: may rise, also above mu(0)
 //   with memory        of speed and states, which a stage eliminates (friction/friction_state)
 //
-// A new law is a line of FRICTION_LAWS and its cases in friction_law.c: nobody else asks for the
-// kind, but through the functions below.
+// A new law is a line of FRICTION_LAWS, its cases in friction_law.c and its column of keys in
+// friction_make.c; one with a state has its functions in friction_memory.c and its numbers from
+// scene/own_law.
 #ifndef AMONTONS_FRICTION_FRICTION_LAW_H
 #define AMONTONS_FRICTION_FRICTION_LAW_H
 
@@ -19,20 +20,21 @@
 #include "friction/friction_plugin.h"
 #include "friction/friction_table.h"
 
-// symbol, name in a scene, it is one's own, it has mu_K and v_c
+// symbol, name in a scene, it is one's own, it has mu_K and v_c, what it remembers by a row that is
+// built in (FORMULAS: by none)
 #define FRICTION_LAWS(X)                                                                           \
-    X(FRICTION_LINEAR_WEAKENING, "linear-weakening", false, true)                                  \
-    X(FRICTION_EXPONENTIAL_WEAKENING, "exponential-weakening", false, true)                        \
-    X(FRICTION_COULOMB, "coulomb", false, false)                                                   \
-    X(FRICTION_TABLE, "table", true, true)                                                         \
-    X(FRICTION_FORMULA, "formula", true, true)                                                     \
-    X(FRICTION_PLUGIN, "plugin", true, true)                                                       \
-    X(FRICTION_AGEING, "ageing", false, true)                                                      \
-    X(FRICTION_SLIP_WEAKENING, "slip-weakening", false, true)                                      \
-    X(FRICTION_RATE_STATE, "rate-and-state", false, true)
+    X(FRICTION_LINEAR_WEAKENING, "linear-weakening", false, true, MEMORY_FORMULAS)                 \
+    X(FRICTION_EXPONENTIAL_WEAKENING, "exponential-weakening", false, true, MEMORY_FORMULAS)       \
+    X(FRICTION_COULOMB, "coulomb", false, false, MEMORY_FORMULAS)                                  \
+    X(FRICTION_TABLE, "table", true, true, MEMORY_FORMULAS)                                        \
+    X(FRICTION_FORMULA, "formula", true, true, MEMORY_FORMULAS)                                    \
+    X(FRICTION_PLUGIN, "plugin", true, true, MEMORY_FORMULAS)                                      \
+    X(FRICTION_AGEING, "ageing", false, true, MEMORY_AGEING)                                       \
+    X(FRICTION_SLIP_WEAKENING, "slip-weakening", false, true, MEMORY_SLIP_WEAKENING)               \
+    X(FRICTION_RATE_STATE, "rate-and-state", false, true, MEMORY_RATE_STATE)
 
 typedef enum FrictionKind {
-#define X(symbol, name, own, drops) symbol,
+#define X(symbol, name, own, drops, memory) symbol,
     FRICTION_LAWS(X)
 #undef X
 } FrictionKind;
@@ -85,6 +87,7 @@ const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind
 
 // A table, a formula or a plug-in.
 bool friction_is_own(const FrictionLaw *law);
+MemoryKind friction_memory_kind(FrictionKind kind);   // MEMORY_FORMULAS: none that is built in
 
 // It has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);

@@ -8,7 +8,14 @@
 // The columns stand in the order of the kinds.
 FrictionUse friction_use(const FrictionLaw *law, const char *key)
 {
-    enum { KINDS = 9, NO = FRICTION_UNUSED, MAY = FRICTION_MAY, MUST = FRICTION_MUST };
+#define X(symbol, name, own, drops, memory) +1
+    enum {
+        KINDS = FRICTION_LAWS(X),
+        NO = FRICTION_UNUSED,
+        MAY = FRICTION_MAY,
+        MUST = FRICTION_MUST
+    };
+#undef X
     static const struct {
         const char *key;
         uint8_t use[KINDS];

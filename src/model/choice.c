@@ -51,6 +51,7 @@ static const double SPACE_PRODUCTS = 0.55e-9;   // n m^2 of each part
 // entries of a factor, and in a reduction columns of responses over those of a part's border.
 static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 23, SPACE_ENTRIES = 39,
                     SPACE_COLUMNS = 12;
+static const double SPACE_TOGETHER = 1.2;   // two parts side by side over one: 0.9 to 1.16
 
 static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
 {
@@ -67,6 +68,7 @@ static ExpectedCost expect_in_space(const ChoiceSizes *sizes)
     double squares = (parts > 1 ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m,
            entries = SPACE_ENTRIES * pow(n, 4.0 / 3);
     double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
+    if (parts > 1) responses *= SPACE_TOGETHER;
     double full = RUNGS * SPACE_FACTOR * n * n + stages * SPACE_STAGE * pow(n, 4.0 / 3);
     return (ExpectedCost){.reduction = parts * reduction * (sizes->several ? OF_SEVERAL : 1),
                           .reduced = stages * (contact + SPACE_REDUCED_STAGE * m * m),

@@ -64,7 +64,7 @@ typedef struct Recorder {
     bool (*record)(void *self, const Observation *seen, Error *err);
 } Recorder;
 
-enum { RECORDERS_MAX = 10 };
+enum { RECORDERS_MAX = 16 };
 
 typedef struct Recorders {
     int32_t count;

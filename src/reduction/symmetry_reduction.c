@@ -34,16 +34,20 @@ static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const Re
     return next != NULL;
 }
 
+enum { TOGETHER = 2 };   // parts, for memory
+
 typedef struct Parts {
+    int first;   // of those that are built together
     Mirror *mirror;
     const ReductionDef *def;
     ReducedBulk *reduced;
     Error error[REDUCED_PARTS_MAX];
 } Parts;
 
-static void build_part(void *context, int32_t p, int32_t worker)
+static void build_part(void *context, int32_t k, int32_t worker)
 {
     Parts *parts = context;
+    int p = parts->first + k;
     MirrorPart *from = &parts->mirror->part[p];
     ReducedPart *part = &parts->reduced->part[p];
     (void)worker;
@@ -74,9 +78,13 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     } else {
         TRY(reduction_build(bulk, interface_dofs, m, def, &reduced->part[0], err));
     }
-    parallel_for(mirror.part_count, build_part, &parts);
-    for (int p = 0; p < mirror.part_count && error_is_clean(err); p++) *err = parts.error[p];
-    TRY(error_is_clean(err) && join(reduced, err));
+    for (; parts.first < mirror.part_count; parts.first += TOGETHER) {   // 2 or 4 of them
+        parallel_for(TOGETHER, build_part, &parts);
+        for (int p = parts.first; p < parts.first + TOGETHER && error_is_clean(err); p++)
+            *err = parts.error[p];
+        TRY(error_is_clean(err));
+    }
+    TRY(join(reduced, err));
     if (def->position)
         TRY(list_rigid_motions(bulk, mirror.border ? mirror.border : interface_dofs, def, reduced,
                                err));

@@ -13,12 +13,16 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/memory.h"
+#include "base/transfer.h"
+#include "io/files/open_file.h"
 #include "io/files/part_file.h"
-#include "io/files/text_file.h"
 #include "scene/keys.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static const char *const FORMATS[] = {"amontons-state, full mesh", "amontons-state, reduced"};
 enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
@@ -297,11 +301,20 @@ bool amontons_state_write(const SavedState *state, const char *path, Error *err)
 // Checked when it is restored.
 bool amontons_state_read(const char *path, SavedState *state, Error *err)
 {
-    int32_t size = 0;
-    char *bytes = NULL;
-    bool read = text_file_read(path, INT32_MAX / 4, &bytes, &size, err);
-    *state = (SavedState){.bytes = bytes, .size = size};
-    return read;
+    struct stat status;
+    *state = (SavedState){0};
+    int descriptor = open_to_read(path, err);
+    TRY(descriptor >= 0);
+    if (fstat(descriptor, &status) != 0)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    state->size = status.st_size;
+    TRY((state->bytes = memory_bytes(state->size, err)));
+    if (transfer_read(descriptor, state->bytes, state->size, -1) < state->size)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+cleanup:
+    if (descriptor >= 0) close(descriptor);
+    if (!error_is_clean(err)) amontons_state_free(state);
+    return error_is_clean(err);
 }
 
 void amontons_state_free(SavedState *state)

@@ -149,12 +149,14 @@ static int32_t take_item(const SceneKey *key, const char *name, size_t length,
                        (int)items->name_size - 1);
         return -1;
     }
-    if (items == &scene_state_items && !scene_state_may_be(name)) {
+    char word[GROUP_NAME_SIZE];
+    snprintf(word, sizeof word, "%.*s", (int)length, name);
+    if (items == &scene_state_items && !scene_state_may_be(word)) {
         yaml_key_error(value->document, value->node, err,
                        "%s: `%.40s` cannot be the name of a state; allowed: letters, digits and _, "
                        "at most 31, and not v, p, a function or a number of friction (mu_S, D_c, "
                        "a, b, ...)",
-                       key->name, name);
+                       key->name, word);
         return -1;
     }
     char *item = item_of(items, scene, (*count)++);

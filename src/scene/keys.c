@@ -11,7 +11,7 @@
 
 // Choices stand in the order of their enums in scene/scene.h and friction/friction_law.h.
 static const char *const law_choices[] = {
-#define X(symbol, name, own, drops) name,
+#define X(symbol, name, own, drops, memory) name,
     FRICTION_LAWS(X)
 #undef X
         NULL};

@@ -27,7 +27,7 @@ bool scene_materials_find(const Scene *scene, const char *path, double *number)
         if (strncmp(name, region->group, length) != 0 || name[length] != '.') continue;
         for (int32_t k = 0; k < SCENE_MATERIAL_NUMBERS; k++) {
             if (strcmp(scene_material_items.parts[k].word, name + length + 1) != 0) continue;
-            *number = region->number[k];
+            if (region->given[k]) *number = region->number[k];
             return region->given[k];
         }
     }

@@ -24,15 +24,6 @@ double scene_fastest_slip(const Scene *scene)
     return fastest;
 }
 
-// MEMORY_FORMULAS: it is not one of the laws that are built in with memory.
-static MemoryKind memory_kind(FrictionKind kind)
-{
-    return kind == FRICTION_AGEING           ? MEMORY_AGEING
-           : kind == FRICTION_SLIP_WEAKENING ? MEMORY_SLIP_WEAKENING
-           : kind == FRICTION_RATE_STATE     ? MEMORY_RATE_STATE
-                                             : MEMORY_FORMULAS;
-}
-
 // What measures things where nothing holds at rest and nothing ends: mu of steady slip at the
 // slowest rate that the start knows of, plus what it has rested beyond that, and at that of sound.
 static void set_scales(const Scene *scene, FrictionMemory *memory)
@@ -49,7 +40,7 @@ bool scene_remember(const Scene *scene, FrictionLaw *law, const char **key, Erro
 {
     const SceneOwnFriction *own = &scene->own_friction;
     bool creeps = law->kind == FRICTION_RATE_STATE;
-    FrictionMemory memory = {.kind = memory_kind(law->kind),
+    FrictionMemory memory = {.kind = friction_memory_kind(law->kind),
                              .mu_static = law->mu_static,
                              .mu_kinetic = law->mu_kinetic,
                              .critical_velocity = law->critical_velocity,

@@ -62,11 +62,12 @@ bool cache_folder_limit(int64_t *bytes, Error *err)
                   given);
 }
 
-// 32 digits and letters, and an ending that only we use; or a part of such a file.
+// 32 digits and letters, and an ending that only we use (.shape: until 0.2); or a part of such a
+// file.
 static bool is_ours(const char *name)
 {
 #define ENDING(kind, ending, name) "." ending, "." ending PART,
-    static const char *const endings[] = {CACHE_KINDS(ENDING)};
+    static const char *const endings[] = {CACHE_KINDS(ENDING) ".shape"};
 #undef ENDING
     size_t key = strspn(name, "0123456789abcdef");
     if (key != 32) return false;

@@ -104,8 +104,10 @@ int array_journal_seal(ArrayJournal *journal)
     char why[OPEN_WHY_SIZE];
     Head head = head_of(journal);
     memcpy(journal->bytes, &head, sizeof head);
-    int file = open_to_write(journal->path, OPEN_PART, why);
+    // Ours from the first one on, also where no disk keeps the bit that says so.
+    int file = open_to_write(journal->path, journal->made ? OPEN_KEPT : OPEN_PART, why);
     if (file < 0) return errno;
+    journal->made = true;
     int cause = transfer_write(file, journal->bytes, journal->size, 0);
     if (cause == 0) cause = transfer_sync(file);
     close(file);

@@ -17,6 +17,7 @@ typedef struct ArrayJournal {
     int64_t size;   // bytes of head and pieces that are not in the file yet; 0: none
     int64_t room;
     char *bytes;   // [room]; owned
+    bool made;   // the file, by this writer
 } ArrayJournal;
 
 // Of the file `path`; what another writer left there is removed. The functions below return 0 or

@@ -35,10 +35,24 @@ struct JsonWriter {
     JsonLevel levels[DEPTH_MAX + 1];
 };
 
+// Where memory is short the stream writes less, and does not remember it.
+static void append(JsonWriter *json, const char *bytes, size_t size)
+{
+    if (fwrite(bytes, 1, size, json->out) != size)
+        error_set(&json->first, ERROR_MEMORY, __FILE__, __LINE__, "no memory for a document");
+}
+
+static void append_text(JsonWriter *json, const char *text)
+{
+    append(json, text, strlen(text));
+}
+
 // And the indentation of the level that is open.
 static void append_new_line(JsonWriter *json)
 {
-    fprintf(json->out, "\n%*s", INDENT * json->depth, "");
+    static const char blanks[] = "                                                                ";
+    append(json, "\n", 1);
+    append(json, blanks, (size_t)(INDENT * json->depth));
 }
 
 // In YAML's flow style a word stands without quotes.
@@ -53,7 +67,7 @@ static bool is_bare(const JsonWriter *json, const char *value)
 static void append_escaped(JsonWriter *json, const char *value)
 {
     const char *quote = is_bare(json, value) ? "" : "\"";
-    fputs(quote, json->out);
+    append_text(json, quote);
     const unsigned char *next = (const unsigned char *)value;
     while (*next) {
         int32_t length = text_utf8_length((const char *)next);
@@ -68,11 +82,11 @@ static void append_escaped(JsonWriter *json, const char *value)
             snprintf(escaped, sizeof escaped, "\\t");
         else if (*next < 0x20 || *next == 0x7F)
             snprintf(escaped, sizeof escaped, "\\u%04x", *next);
-        fwrite(escaped[0] ? escaped : (const char *)next, 1,
-               escaped[0] ? strlen(escaped) : (size_t)length, json->out);
+        append(json, escaped[0] ? escaped : (const char *)next,
+               escaped[0] ? strlen(escaped) : (size_t)length);
         next += length > 0 ? length : 1;
     }
-    fputs(quote, json->out);
+    append_text(json, quote);
 }
 
 // Comma, line and key before a value or before the bracket of a level.
@@ -86,12 +100,12 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
                   key ? "a key inside a list" : "no key inside an object");
     if (!is_plain && !json->in_flow) level->one_line = false;   // from here on
-    if (level->count > 0) fputs(level->one_line ? ", " : ",", json->out);
+    if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
     if (json->depth > 0 && !level->one_line) append_new_line(json);
     level->count++;
     if (key) {
         append_escaped(json, key);
-        fputs(": ", json->out);
+        append_text(json, ": ");
     }
 }
 
@@ -99,7 +113,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
 static void begin_level(JsonWriter *json, const char *key, bool is_list)
 {
     begin_item(json, key, false);
-    fputs(is_list ? "[" : "{", json->out);
+    append_text(json, is_list ? "[" : "{");
     if (json->depth == DEPTH_MAX) {
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__,
                   "%s: more than %d levels of nesting", json->file.path, DEPTH_MAX);
@@ -150,7 +164,7 @@ void json_end(JsonWriter *json)
     }
     JsonLevel level = json->levels[json->depth--];
     if (level.count > 0 && !level.one_line) append_new_line(json);
-    fputs(level.is_list ? "]" : "}", json->out);
+    append_text(json, level.is_list ? "]" : "}");
 }
 
 void json_text(JsonWriter *json, const char *key, const char *value)
@@ -159,7 +173,7 @@ void json_text(JsonWriter *json, const char *key, const char *value)
     if (value)
         append_escaped(json, value);
     else
-        fputs("null", json->out);
+        append_text(json, "null");
 }
 
 void json_number(JsonWriter *json, const char *key, double value)
@@ -168,19 +182,21 @@ void json_number(JsonWriter *json, const char *key, double value)
     // 15 digits are always right. As words, 1e+06 is shorter than 1000000.
     if (isfinite(value)) text_shortest(value, json->in_flow ? 6 : 15, digits);
     begin_item(json, key, true);
-    fputs(digits, json->out);
+    append_text(json, digits);
 }
 
 void json_integer(JsonWriter *json, const char *key, int64_t value)
 {
     begin_item(json, key, true);
-    fprintf(json->out, "%" PRId64, value);
+    char digits[24];
+    snprintf(digits, sizeof digits, "%" PRId64, value);
+    append_text(json, digits);
 }
 
 void json_boolean(JsonWriter *json, const char *key, bool value)
 {
     begin_item(json, key, true);
-    fputs(value ? "true" : "false", json->out);
+    append_text(json, value ? "true" : "false");
 }
 
 void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count)
@@ -198,7 +214,7 @@ void json_number_list(JsonWriter *json, const char *key, const double *values, i
 // A missing end is a bug of the caller; the file would not be JSON.
 static bool end_document(JsonWriter *json, const char *last, Error *err)
 {
-    fputs(last, json->out);
+    append_text(json, last);
     if (json->depth != 0 || json->levels[0].count != 1)
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: the document is not whole",
                   json->file.path);

@@ -61,7 +61,8 @@ static bool read_mu(const char *folder, double **mu, int64_t *rows, Error *err)
     ArrayFile *file = result_file_open(folder, err);
     if (!file) return false;
     bool done = result_file_read_series(file, SERIES_MU, mu, rows, &width, err);
-    return array_file_close(file, &(Error){0}) && done;
+    array_file_close(file, &(Error){0});
+    return done;
 }
 
 // To the last bit: else the film would show another run than its result.

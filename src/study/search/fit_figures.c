@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "study/search/search_figure.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -115,6 +116,8 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
         double place[STUDY_SEARCH_MAX];
         for (int32_t k = 0; k < 2; k++)
             ray[keys[k]] = cos(angle) * axes[0][k] + sin(angle) * axes[1][k];
+        for (int32_t k = 0; k < 2; k++)   // held, too, where it does not move
+            if (ray[keys[k]] == 0) ray[keys[k]] = DBL_MIN;
         fit_walk(fit, ray, most, place);
         x[i] = fit_unscaled(fit, keys[0], place[keys[0]]);
         y[i] = fit_unscaled(fit, keys[1], place[keys[1]]);

@@ -60,10 +60,23 @@ cleanup:
     return -1;
 }
 
+// `key` itself, or a map that it is in.
+static bool sets(const char *given, const char *key)
+{
+    size_t length = strlen(given);
+    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
+}
+
 bool study_is_chosen(const Study *study, const char *key)
 {
-    int32_t column = study_column(study, key);
-    return column >= 0 && study->chosen[column];
+    for (int32_t k = 0; k < study->axis_count; k++)
+        if (sets(study->axes[k].key, key)) return true;
+    for (int32_t k = 0; study->case_list && k < study->case_count; k++) {
+        const YamlDocument *document = study->case_list[k].document;
+        YAML_EACH (item, document, study->case_list[k].map)
+            if (sets(yaml_key(document, item), key)) return true;
+    }
+    return false;
 }
 
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err)

@@ -70,8 +70,10 @@ static bool check_given(const Study *study, const char *what, YamlNode item, boo
 bool study_check_key(const YamlDocument *document, YamlNode item, Error *err)
 {
     const char *key = yaml_key(document, item), *nearest = scene_key_nearest(key), *part;
+    int32_t above = scene_key_above(key, &part), count;
+    bool is_state = above >= 0 && scene_keys(&count)[above].items == &scene_state_items;
     bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
-                    scene_key_above(key, &part) >= 0;
+                    (above >= 0 && !is_state);   // numbers of states are not read back
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
     else if (!is_known)

@@ -55,34 +55,37 @@ static bool is_beyond(double value, double largest_error, const RankRow *row)
     return is_decided(&(RankRow){.value = value, .error = largest_error}, row);
 }
 
-// rows: sorted. The ranks that each may have. A row that even the largest error decides is decided
-// wherever its own error is known, and so are all that are further off: squares and sums are
+// rows: sorted. The ranks that each may have. A row that even the largest error of those further
+// off decides is decided wherever its own error is known, and so are they: squares and sums are
 // rounded alike for all.
 static bool find_places(Ranking *ranking, Error *err)
 {
     int32_t count = ranking->ranked;
+    RankRow *rows = ranking->rows;
     int32_t *known = NEW_ARRAY(int32_t, count + 1, err);   // errors of the rows before
-    double largest = 0;
-    if (!known) return false;
-    for (int32_t k = 0; k < count; k++) {
-        known[k + 1] = known[k] + !isnan(ranking->rows[k].error);
-        largest = fmax(largest, ranking->rows[k].error);
+    double *low = NEW_ARRAY(double, count + 1, err);   // largest error of the rows before
+    double *high = NEW_ARRAY(double, count + 1, err);   // of this row and those behind
+    for (int32_t k = 0; error_is_clean(err) && k < count; k++) {
+        known[k + 1] = known[k] + !isnan(rows[k].error);
+        low[k + 1] = fmax(low[k], rows[k].error);
     }
-    for (int32_t k = 0; k < count; k++) {
-        RankRow *rows = ranking->rows, *row = &rows[k];
+    for (int32_t k = count; error_is_clean(err) && k-- > 0;)
+        high[k] = fmax(high[k + 1], rows[k].error);
+    for (int32_t k = 0; error_is_clean(err) && k < count; k++) {
+        RankRow *row = &rows[k];
         int32_t before = k, after = k + 1;
         row->from = 1;
         row->to = count;
         if (isnan(row->error)) continue;
-        for (; before > 0 && !is_beyond(rows[before - 1].value, largest, row); before--)
+        for (; before > 0 && !is_beyond(rows[before - 1].value, low[before], row); before--)
             row->from += is_decided(&rows[before - 1], row);
-        for (; after < count && !is_beyond(rows[after].value, largest, row); after++)
+        for (; after < count && !is_beyond(rows[after].value, high[after], row); after++)
             row->to -= is_decided(&rows[after], row);
         row->from += known[before];
         row->to -= known[count] - known[after];
     }
-    memory_free(known);
-    return true;
+    memory_free_all(known, low, high);
+    return error_is_clean(err);
 }
 
 static void look_at_refined(const Sweep *sweep, Ranking *ranking)

@@ -248,6 +248,9 @@ TEST(test_rank_and_plot)
     assert_false(study_is_chosen(study, "rod.width") || study_is_chosen(study, "mesh.settle"));
     assert_false(study->plot_count > 0 || study->rank.refine > 0);
     drop(study);
+    study = read_body("vary: {rod: [{kind: push}, {kind: bonded}]}\n");   // a map as a whole
+    assert_true(study_is_chosen(study, "rod.velocity") && study_is_chosen(study, "rod"));
+    drop(study);
     study = read_body("vary: {rod.height: [1]}\nrank: {by: mu_M, refine: 0.5%}\n");
     assert_true(study->rank.refine == 0.5 / 100);
     assert_string_equal(study->columns[1], "accuracy.mu");
