@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Axes and curves as SVG elements inside of a page, which styles them (classes axis, number, label,
-// and the curves' own): so they follow its light and dark. Called by frames and page_curves.
+// and the curves' own): so they follow its light and dark. Called by frames and page_figures.
 #ifndef AMONTONS_RENDER_CANVAS_SVG_CHART_H
 #define AMONTONS_RENDER_CANVAS_SVG_CHART_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A block at one time on a page: its field in colours, what holds, drives and presses it. Called by
-// figure_field and figure_field_strip.
+// figure_field and figure_strip.
 #ifndef AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
 #define AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
 

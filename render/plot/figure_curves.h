@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Draws a plot read by plot_file. Called by render_plot and
+// Draws a plot read by plot_file. Called by figure_plot and
 // page_figures.
 #ifndef AMONTONS_RENDER_PLOT_FIGURE_CURVES_H
 #define AMONTONS_RENDER_PLOT_FIGURE_CURVES_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A file of unknown content is read in a process of its own, with limits of time and memory: gmsh
 // and HDF5 crash or hang on some damaged files, and who called them must still say which file it
-// was. Called by io/mesh/mesh_read, run/info/info_result, and whatever draws: run/result/pictures,
+// was. Called by io/mesh/mesh_apart, run/info/info_result, and whatever draws: run/result/pictures,
 // page/report, study/sweep/showing/render_sweep.
 //
 // Only where the variable AMONTONS_APART is set, as the program does: a library does not fork in a

@@ -48,8 +48,8 @@ int command_cache(const Command *command, int argc, char **argv)
     CacheSummary summary;
     Shown shown = {0};
     Error err = {0};
-    const Option options[] = {
-        {"clean", 0, NULL, "Remove all reductions of the cache", .flag = &clean}, {0}};
+    const Option options[] = {{"clean", 0, NULL, "Remove all that is in the cache", .flag = &clean},
+                              {0}};
     int status = options_read(command, options, argc, argv, &none);
     if (status != 0) return status;
     bool done = clean ? amontons_cache_clean(&summary, &err)

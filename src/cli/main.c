@@ -61,8 +61,8 @@ static const Command commands[] = {
      "amontons film fig1-result -o fig1.mp4", film_txt, NULL},
     {"info", command_info, "FILE\nkeys", "prints what a mesh, a scene or a result holds", "file",
      "amontons info validation/paper/fig1.yaml", info_txt, NULL},
-    {"cache", command_cache, NULL, "says how large the cache of reductions is, or cleans it", NULL,
-     NULL, cache_txt, NULL},
+    {"cache", command_cache, NULL, "says how large the cache is, or cleans it", NULL, NULL,
+     cache_txt, NULL},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

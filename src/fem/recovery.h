@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Strains and stresses at the nodes: the mean over the elements around a node. Called by
-// record/fields, on demand only.
+// record/field_files and run/static/static_report.
 #ifndef AMONTONS_FEM_RECOVERY_H
 #define AMONTONS_FEM_RECOVERY_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A law whose functions stand in a shared object that somebody else wrote (amontons_friction.h).
-// Called by scene/own_law, friction/friction_law and friction/friction_memory.
+// Called by friction/friction_make.
 #ifndef AMONTONS_FRICTION_FRICTION_PLUGIN_H
 #define AMONTONS_FRICTION_FRICTION_PLUGIN_H
 

@@ -50,7 +50,7 @@ typedef struct Level {
     bool space;   // of a block in space
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
     double slip_cells;   // least that slipped before slow slip turned fast; NaN: not known
-    double end_wait;   // what mu rises by while the last nodes of the contact hold (run/end_wait)
+    double end_wait;   // what mu rises by while the last nodes of the contact hold (run/one_mesh)
     int32_t run_count;
     LevelRun runs[LEVEL_RUNS_MAX];
     ErrorBar answer[ANSWER_KINDS];

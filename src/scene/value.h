@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One value of a scene file, checked against its key and stored. Called by scene/scene only.
+// One value of a scene file, checked against its key and stored. Called by
+// scene/scene_read and scene/items.
 #ifndef AMONTONS_SCENE_VALUE_H
 #define AMONTONS_SCENE_VALUE_H
 

@@ -6,7 +6,7 @@
 //
 // as displacements do (stepping/sdirk), and what is left for the contact problem is a law of speed
 // at each node. An open node's state goes on with its own tangential velocity. Called by
-// stepping/sdirk and stepping/explicit_reference.
+// stepping/sdirk, stepping/step_control and run/start.
 #ifndef AMONTONS_STEPPING_FRICTION_STATES_H
 #define AMONTONS_STEPPING_FRICTION_STATES_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Before the rod moves the block settles under its load until nothing moves any more; then t = 0.
-// Called by run/simulation.
+// Called by run/start.
 #ifndef AMONTONS_STEPPING_RELAXATION_H
 #define AMONTONS_STEPPING_RELAXATION_H
 

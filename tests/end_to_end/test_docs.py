@@ -64,6 +64,21 @@ class Text(unittest.TestCase):
             self.assertIn(f"{name}(", (SOURCE / f"src/{path}.c").read_text())
         self.assertGreater(len(functions), 2)
 
+    def test_callers_are_there(self):
+        """What a header says calls it is a file, a folder or a function of src or render."""
+        files = [path for top in ("src", "render") for path in (SOURCE / top).rglob("*.[ch]*")]
+        places = {f"/{path.relative_to(SOURCE).with_suffix('')}" for path in files}
+        words, named = set(re.findall(r"\w+", "\n".join(path.read_text() for path in files if path.suffix != ".h"))), 0
+        for header in (path for path in files if path.suffix == ".h"):
+            text = re.sub(r"\n// ?", " ", header.read_text().split("#ifndef")[0])
+            for said in re.findall(r"[Cc]alled (?:\w+ )?by ([^.]*)", text):
+                for name in re.findall(r"[a-z]\w*[/_][\w/]*", said):
+                    with self.subTest(f"{header.relative_to(SOURCE)}: {name}"):
+                        self.assertTrue(name in words or any(place.endswith(f"/{name}") or f"/{name.rstrip('/')}/" in place
+                                                             for place in places))
+                    named += 1
+        self.assertGreater(named, 200)
+
     def test_walk_through_is_read_in_five_minutes(self):
         """At 250 words a minute, a path counted as one."""
         self.assertLess(len((SOURCE / "src/README.md").read_text().split()), 5 * 250)

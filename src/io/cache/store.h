@@ -3,7 +3,7 @@
 // keeps something has a row in CACHE_KINDS (io/cache/cache_folder), and lists what it consists of
 // in one function, by which it is written and read (base/archive). The store does the rest: whole
 // files only, a checksum over all of it, room. What fails a check is as good as missing. Called by
-// io/mesh/mesh_cache and model/basis_cache.
+// io/mesh/mesh_cache, model/basis_cache and model/obtain.
 //
 //     CACHE/<key>.<ending>     head, blocks of bytes, checksum
 //     CACHE/<key>.lock         there while a process makes what has this key (cache_lock)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One process at a time at some work, by a lock on a file that exists only meanwhile. The lock is
 // flock's: it belongs to the open file and ends with the process, however that ends, so that
-// nothing has to be cleared up after a kill. Called by model/basis_cache and
+// nothing has to be cleared up after a kill. Called by io/cache/store and
 // run/result/result_folder; part_file shares file_is_named.
 //
 //   take -> (the work) -> release     take also gives up: after its limit, where the folder cannot

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Chooses designs one by one, by the values of those before: dlib's global search (an upper bound
 // from the steepest slopes met so far, in turn with a trust region about the best), in a module
-// opened on first use. Values may be noisy, and may be told in any order. Called by optimise.
+// opened on first use. Values may be noisy, and may be told in any order. Called by search.
 #ifndef AMONTONS_STUDY_SEARCH_CHOOSER_H
 #define AMONTONS_STUDY_SEARCH_CHOOSER_H
 

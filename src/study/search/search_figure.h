@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A figure of a search, figures/NAME.png: curves over one axis. Called by optimise_report and
-// fit_report.
+// A figure of a search, figures/NAME.png: curves over one axis. Called by optimise_report, front
+// and fit_figures.
 #ifndef AMONTONS_STUDY_SEARCH_SEARCH_FIGURE_H
 #define AMONTONS_STUDY_SEARCH_SEARCH_FIGURE_H
 

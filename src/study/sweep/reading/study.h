@@ -16,7 +16,7 @@
 //
 // One that searches has a goal in place of `cases` (study_goal).
 //
-// A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
+// A value that begins with `=` is a formula (scene/formulas) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
 // every sweep sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas. What varies may be
 // given nowhere else, but in a formula of `cases` over itself.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Reads a study's file. Called by sweep and element.
+// Reads a study's file. Called by sweep.
 #ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_READ_H
 #define AMONTONS_STUDY_SWEEP_READING_STUDY_READ_H
 

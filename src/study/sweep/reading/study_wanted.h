@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a study wants to know: the columns of its table (`record`), the best of its points (`rank`)
-// and a figure (`plot`). Called by study_read, after study_vary.
+// and a figure (`plot`). Called by study_read, after study_vary, and by search/measured.
 #ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_WANTED_H
 #define AMONTONS_STUDY_SWEEP_READING_STUDY_WANTED_H
 

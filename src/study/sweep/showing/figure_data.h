@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a plot shows of each sweep: its quantities, and which points belong together. Called by
-// figure_plot and figure_groups.
+// figure_plot.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_DATA_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_DATA_H
 
