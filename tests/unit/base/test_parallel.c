@@ -37,7 +37,9 @@ static void count_inner(void *context, int32_t k, int32_t worker)
     assert_true(worker >= 0 && worker < inner->rig->left[inner->outer]);
     if (worker > 0) inner->rig->elsewhere++;
     inner->rig->inner[inner->outer] += k + 1;
-    nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);   // or one thread might take all
+    // Until the other thread has begun, 10 s at most: or this one might take all.
+    for (int i = 0; i < 50000 && inner->rig->left[inner->outer] > 1 && !inner->rig->elsewhere; i++)
+        nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
 }
 
 static void piece(void *context, int32_t k, int32_t worker)
@@ -53,6 +55,7 @@ static void piece(void *context, int32_t k, int32_t worker)
     rig->kept[k] = NEW_ARRAY(double, 3, &err);
     rig->left[k] = parallel_workers();
     parallel_for(INNER, count_inner, &(Inner){rig, k});
+    nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);   // or one thread might take all
 }
 
 static Rig done(int32_t count)
