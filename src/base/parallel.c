@@ -69,3 +69,25 @@ void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t
         memory_take_over(helpers[k].counted);
     }
 }
+
+typedef struct Tries {
+    bool (*piece)(void *context, int32_t k, Error *err);
+    void *context;
+    Error error[PARALLEL_WORKERS_MAX];
+} Tries;
+
+static void try_piece(void *self, int32_t k, int32_t worker)
+{
+    Tries *tries = self;
+    (void)worker;
+    tries->piece(tries->context, k, &tries->error[k]);
+}
+
+bool parallel_try(int32_t count, bool (*piece)(void *context, int32_t k, Error *err), void *context,
+                  Error *err)
+{
+    Tries tries = {.piece = piece, .context = context};
+    parallel_for(count, try_piece, &tries);
+    for (int32_t k = 0; k < count && error_is_clean(err); k++) *err = tries.error[k];
+    return error_is_clean(err);
+}

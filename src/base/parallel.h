@@ -5,6 +5,8 @@
 #ifndef AMONTONS_BASE_PARALLEL_H
 #define AMONTONS_BASE_PARALLEL_H
 
+#include "base/error.h"
+
 #include <stdint.h>
 
 enum {
@@ -21,5 +23,10 @@ int32_t parallel_workers(void);
 // left to it share in the same way.
 void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t worker),
                   void *context);
+
+// The same for at most PARALLEL_WORKERS_MAX pieces that may fail: each has an error of its own, the
+// caller's becomes that of the first piece that failed, by its number.
+bool parallel_try(int32_t count, bool (*piece)(void *context, int32_t k, Error *err), void *context,
+                  Error *err);
 
 #endif

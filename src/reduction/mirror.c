@@ -210,18 +210,15 @@ bool mirror_count_parts(const Bulk *bulk, int32_t *const *node_image, const int3
 typedef struct Parts {
     const Finder *find;
     MirrorPart *part;
-    Error error[REDUCED_PARTS_MAX];
 } Parts;
 
-static void make_part(void *context, int32_t p, int32_t worker)
+static bool make_part(void *context, int32_t p, Error *err)
 {
-    Parts *parts = context;
+    const Parts *parts = context;
     MirrorPart *part = &parts->part[p];
-    Error *err = &parts->error[p];
-    (void)worker;
-    if (list_unknowns(parts->find, p, &part->unknowns, err) &&
-        list_border_unknowns(parts->find, p, part, err))
-        bulk_transform(parts->find->bulk, &part->unknowns, &part->bulk, err);
+    return list_unknowns(parts->find, p, &part->unknowns, err) &&
+           list_border_unknowns(parts->find, p, part, err) &&
+           bulk_transform(parts->find->bulk, &part->unknowns, &part->bulk, err);
 }
 
 bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
@@ -233,9 +230,7 @@ bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *in
     if (find.axes == 0) goto cleanup;
     mirror->part_count = 1 << find.axes;
     mirror->mirrored = find.border_count - m;
-    Parts parts = {.find = &find, .part = mirror->part};
-    parallel_for(mirror->part_count, make_part, &parts);
-    for (int p = 0; p < mirror->part_count && error_is_clean(err); p++) *err = parts.error[p];
+    TRY(parallel_try(mirror->part_count, make_part, &(Parts){&find, mirror->part}, err));
     mirror->border = find.border;
     find.border = NULL;
 cleanup:

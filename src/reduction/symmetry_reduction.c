@@ -41,24 +41,22 @@ typedef struct Parts {
     Mirror *mirror;
     const ReductionDef *def;
     ReducedBulk *reduced;
-    Error error[REDUCED_PARTS_MAX];
 } Parts;
 
-static void build_part(void *context, int32_t k, int32_t worker)
+static bool build_part(void *context, int32_t k, Error *err)
 {
     Parts *parts = context;
     int p = parts->first + k;
     MirrorPart *from = &parts->mirror->part[p];
     ReducedPart *part = &parts->reduced->part[p];
-    (void)worker;
-    if (!reduction_build(&from->bulk, from->border_dofs, from->border.count, parts->def, part,
-                         &parts->error[p]))
-        return;
+    if (!reduction_build(&from->bulk, from->border_dofs, from->border.count, parts->def, part, err))
+        return false;
     part->border = from->border;
     from->border = (Transform){0};
-    if (!parts->def->modes) return;
+    if (!parts->def->modes) return true;
     part->mesh = from->unknowns;
     from->unknowns = (Transform){0};
+    return true;
 }
 
 bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
@@ -78,12 +76,8 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     } else {
         TRY(reduction_build(bulk, interface_dofs, m, def, &reduced->part[0], err));
     }
-    for (; parts.first < mirror.part_count; parts.first += TOGETHER) {   // 2 or 4 of them
-        parallel_for(TOGETHER, build_part, &parts);
-        for (int p = parts.first; p < parts.first + TOGETHER && error_is_clean(err); p++)
-            *err = parts.error[p];
-        TRY(error_is_clean(err));
-    }
+    for (; parts.first < mirror.part_count; parts.first += TOGETHER)   // 2 or 4 of them
+        TRY(parallel_try(TOGETHER, build_part, &parts, err));
     TRY(join(reduced, err));
     if (def->position)
         TRY(list_rigid_motions(bulk, mirror.border ? mirror.border : interface_dofs, def, reduced,

@@ -13,6 +13,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <time.h>
 
 enum { PIECES = 40, INNER = 5 };
@@ -95,6 +96,24 @@ TEST(test_pieces_of_pieces)
 {
     assert_true((done(1).elsewhere > 0) == (parallel_workers() > 1));
     assert_int_equal(done(PIECES).elsewhere, 0);   // more pieces than threads
+}
+
+static bool fail_from(void *context, int32_t k, Error *err)
+{
+    const int32_t *first = context;
+    return k < *first || REFUSE(err, "piece %d", k);
+}
+
+// Whichever ends first.
+TEST(test_first_failure)
+{
+    for (int32_t first = 0; first <= 4; first++) {
+        char said[20];
+        Error err = {0};
+        assert_true(parallel_try(4, fail_from, &first, &err) == (first == 4));
+        snprintf(said, sizeof said, "piece %d", first);
+        assert_string_equal(err.message, first < 4 ? said : "");
+    }
 }
 
 // As on a machine with one.
