@@ -6,10 +6,10 @@
 #include "base/module.h"
 #include "base/text.h"
 #include "io/fields/field_file_module.h"
+#include "io/text/text_writer.h"
 #include "io/files/part_file.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 // --- .vtu and .vtp ------------------------------------------------------------------------------
 
@@ -56,19 +56,13 @@ static void put_collection(FILE *out, const double *times, int32_t count)
     fputs("  </Collection>\n</VTKFile>\n", out);
 }
 
-// Put together in memory first.
 bool field_file_write_pvd(const char *path, const double *times, int32_t count, Error *err)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    put_collection(out, times, count);
-    bool is_whole = ferror(out) == 0;
-    is_whole = fclose(out) == 0 && is_whole;
-    if (!is_whole) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    TRY(part_file_put(path, text, (int64_t)size, err));
-cleanup:
-    free(text);
+    TextWriter out = {0};
+    if (text_writer_open(&out, path, false, err)) {
+        put_collection(out.out, times, count);
+        text_writer_finish(&out, err);
+    }
+    text_writer_close(&out);
     return error_is_clean(err);
 }

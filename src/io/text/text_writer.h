@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A text on its way into a file, many bytes at once: what csv_writer and html_writer are made of.
 // The file gets its name at the end, and the first failure is told there, so that who writes a
-// thousand cells asks once. Called by io/text/csv_writer, io/text/html_writer, and for the files of
-// a Slurm array by study/sweep/computing.
+// thousand cells asks once. Called by io/text/csv_writer, io/text/html_writer,
+// io/fields/field_file, and for the files of a Slurm array by study/sweep/computing.
 #ifndef AMONTONS_IO_TEXT_TEXT_WRITER_H
 #define AMONTONS_IO_TEXT_TEXT_WRITER_H
 
