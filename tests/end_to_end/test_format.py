@@ -14,6 +14,7 @@ SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents
 COLUMNS = 100
 CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
 MACHINE = re.compile(r"(?<![\w.])/(?:work|root|home|Users|media|mnt)/\w+")
+OUTSIDE = re.compile(r'"(/(?!(?:proc|dev|tmp|usr|bin)/)[\w.-]+/[^"]*)"')   # absolute paths in strings of C, but for these
 LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
 
 
@@ -92,6 +93,14 @@ class Style(unittest.TestCase):
                 ("static Module *opened;", "src/base/module.c", 0)]:
             with self.subTest(line):
                 self.assertEqual(len(bad_habits(place, f"int a;\n\n{line}\n")), count)
+
+    def test_tests_stay_in_their_folder(self):
+        """Where a test needs a folder that is not there, it is one that nobody can make: /proc/none."""
+        for path in sorted((SOURCE / "tests").rglob("*.[ch]")):
+            with self.subTest(str(path.relative_to(SOURCE))):
+                self.assertEqual(OUTSIDE.findall(path.read_text()), [])
+        self.assertEqual(OUTSIDE.findall('create("/nonexistent/run.json"); use("%s/run.json", "/tmp/a_XXXXXX");'),
+                         ["/nonexistent/run.json"])
 
     def test_no_place_of_a_machine(self):
         """Nothing names a folder of the machine it was made on, published tables least of all."""
