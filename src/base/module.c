@@ -60,7 +60,7 @@ static bool module_find(const char *name, char path[MODULE_PATH_SIZE], Error *er
     if (!module_path(name, path, err)) return false;
     if (access(path, F_OK) == 0) return true;
     return FAULT(err, ERROR_LIBRARY,
-                 "%s: this build of amontons is without (there is no %s): build it where %s are "
+                 "%s: this build of amontons is without (there is no %s): build it with %s "
                  "installed",
                  part->part, path, part->packages);
 }

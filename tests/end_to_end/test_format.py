@@ -43,7 +43,7 @@ HABITS = [
      r"src/cli/|src/study/sweep/computing/pool\.c|src/base/apart\.c",
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("changes what is the process's",
-     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|worker)\.c|src/io/mesh/mesh_file_module\.c",
+     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|decimal_point)\.c|src/io/mesh/mesh_file_module\.c",
      # there: processes and a thread of their own; what gmsh changes is put back
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
     ("allocates by itself", r"src/base/memory\.c",
@@ -74,6 +74,17 @@ class Style(unittest.TestCase):
             if not name.startswith("tests/"):
                 with self.subTest(name):
                     self.assertEqual(bad_habits(name, path.read_text()), [])
+
+    def test_numbers_have_a_point(self):
+        """Each public function that can fail, or that writes numbers, begins by that (base/decimal_point.h)."""
+        headers = "".join(path.read_text() for path in (SOURCE / "src").glob("amontons*.h")
+                          if path.name != "amontons_friction.h")
+        wanted = {name for name, arguments in re.findall(r"(?m)^\w[\w ]*\*?(amontons_\w+)\(([^;]*)\);", headers)
+                  if re.search(r"\bError \*err|\bFILE \*|\bchar text\[", arguments)}
+        self.assertGreater(len(wanted), 25)
+        for path in (SOURCE / "src").rglob("*.c"):
+            wanted -= set(re.findall(r"(?m)^\w[\w ]*\*?(amontons_\w+)\([^;{]*\)\n\{\n    NUMBERS_HAVE_A_POINT;$", path.read_text()))
+        self.assertEqual(wanted, set())
 
     def test_sees_bad_habits(self):
         for line, place, count in [

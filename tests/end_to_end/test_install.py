@@ -154,7 +154,7 @@ class Installed(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0)
             self.assertRegex(re.sub(r"\s+", " ", done.stderr),
                              rf"{missing} is not built, nothing is installed. First: cmake --build {build}")
-            (build / "bin/amontons").touch()   # as after the demo
+            (build / "bin/amontons").touch()   # as where cmake --build was cut off
         self.assertFalse(prefix.exists())
 
     def test_program_by_find_package(self):

@@ -78,7 +78,7 @@ class Told(Folder):
                 (["info", SOURCE / "meshes/block.geo", "--picture", "mesh.png"], "pictures", "libcairo2-dev"),
                 (["optimise", SOURCE / "docs/examples/best_pads.yaml", "-o", "best"], "optimise and fit", "libdlib-dev")):
             said = self.call(*words, **few)
-            self.assertRegex(said, rf"{part}: this build of amontons is without \(there is no .*\): build it where "
+            self.assertRegex(said, rf"{part}: this build of amontons is without \(there is no .*\): build it with "
                              rf".*{package}.* installed", words)
         self.assertFalse((self.folder / "other").exists())   # told before anything is computed
         (modules / "amontons_render.so").symlink_to(BIN / "amontons_render.so")
