@@ -13,7 +13,8 @@
 #include <math.h>
 #include <string.h>
 
-// Of dense_apply_each: half a megabyte; whole vectors, so that all rows are rounded alike.
+// Rows that dense_apply_each takes at a time: half a megabyte, and whole vectors of the processor,
+// so that all rows are rounded alike.
 enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
@@ -45,7 +46,7 @@ void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
 
-// What OpenBLAS itself calls before a fork. Its builds without threads do not have it.
+// OpenBLAS itself calls this before a fork. Its builds without threads do not have it.
 int blas_thread_shutdown_(void) __attribute__((weak));
 
 // OpenBLAS starts its threads when it is loaded, and an idle one looks for work at full speed for

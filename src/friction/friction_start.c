@@ -28,7 +28,7 @@ static void write_place(const FrictionSource *source, const FrictionMemory *memo
                          memory->from[k]);
 }
 
-// What mu and the rates are at memory->from, and whether they may be that.
+// Finds mu and the rates at memory->from, and refuses values that no law may have.
 static bool look_at(const FrictionSource *source, const FrictionMemory *memory, double speed,
                     FrictionRates *rates, const char **key, Error *err)
 {

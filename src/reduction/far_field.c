@@ -4,7 +4,7 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 
-// Of what is allowed: a larger error of S and all is done on the whole bulk.
+// Part of the allowed error: with a larger error of S all is done on the whole bulk.
 static const double ERROR_MAX = 0.15;
 
 void far_field_destroy(FarField *far)

@@ -18,7 +18,7 @@ typedef struct PatchModes {
     double *image;   // [size * room] (K/E) F
 } PatchModes;
 
-// What one thread works in, patch by patch.
+// Work arrays of one thread, used patch by patch.
 typedef struct FarRoom {
     double *rows, *next;   // [size * columns] rows of the fields, their image
     double *parts;   // [(size + columns) * columns]

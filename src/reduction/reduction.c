@@ -190,7 +190,7 @@ static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error 
     TrainingPoint now = work->training.points[k];
     double left = 0, *error = &work->part->errors.error[now.level];
     if (!train_at(work, now.point, full, &left, err)) return false;
-    // What the last one added is looked at, too.
+    // The error left by the last addition counts, too.
     if (k == work->training.count - 1 && !train_at(work, now.point, full, &left, err)) return false;
     *error = fmax(*error, left);
     return true;
@@ -218,7 +218,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What is far from the interface comes back into the modes.
+// Expands the unknowns far from the interface in their modes.
 static bool expand_modes(Builder *work, Error *err)
 {
     const Transform *by = &work->far.modes;
