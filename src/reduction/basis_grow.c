@@ -157,7 +157,7 @@ static bool find_new(Extension *x, double *turn, int64_t *kept, Error *err)
 {
     int32_t added = (int32_t)x->added;
     double *values = NEW_ARRAY(double, added, err);
-    double *work = NEW_ARRAY(double, dense_eigen_work(added), err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(added), err);
     if (!values || !work) goto cleanup;
     DenseView along = dense_view(x->along, x->count, added);
     memcpy(turn, x->own[BULK_STIFFNESS], (size_t)(x->added * x->added) * sizeof *turn);

@@ -266,7 +266,7 @@ bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOper
     int32_t m = left->interface_count;
     InterfaceOperator *full = NULL, *condensed = NULL;
     double *excess = NEW_ARRAY(double, (int64_t)m *m, err), *values = NEW_ARRAY(double, m, err);
-    double *work = NEW_ARRAY(double, dense_eigen_work(m), err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(m), err);
     if (!error_is_clean(err)) goto cleanup;
     full = interface_operator_create(mesh, samples->compared, err);
     TRY((condensed = full ? interface_operator_create(left, samples->compared, err) : NULL));

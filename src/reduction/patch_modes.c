@@ -29,7 +29,7 @@ bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err)
                       .parts = NEW_ARRAY(double, (size + columns) * columns, err),
                       .energies = NEW_ARRAY(double, columns *columns, err),
                       .values = NEW_ARRAY(double, columns, err),
-                      .eigen = NEW_ARRAY(double, dense_eigen_work((int32_t)columns), err)};
+                      .eigen = NEW_ARRAY(double, DENSE_EIGEN_WORK(columns), err)};
     return error_is_clean(err);
 }
 

@@ -22,7 +22,7 @@ typedef struct PatchModes {
 typedef struct FarRoom {
     double *rows, *next;   // [size * columns] rows of the fields, their image
     double *parts;   // [(size + columns) * columns]
-    double *energies, *values, *eigen;   // [columns^2], [columns], [dense_eigen_work(columns)]
+    double *energies, *values, *eigen;   // [columns^2], [columns], [DENSE_EIGEN_WORK(columns)]
 } FarRoom;
 
 // For patches of up to `size` unknowns, `columns` fields at once.

@@ -45,7 +45,7 @@ typedef struct Builder {
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *excess;   // [m^2] S_r - S
     double *values;   // [m] eigenvalues
-    double *eigen_work;   // [dense_eigen_work(m)]
+    double *eigen_work;   // [DENSE_EIGEN_WORK(m)]
     BulkOperator mesh;   // the whole, where nothing is replaced
     FarField far;
 } Builder;
@@ -65,7 +65,7 @@ static bool builder_create(Builder *work, Error *err)
     if (!basis_create(work->full, &work->def->scales, &work->basis, err)) return false;
     work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
     work->values = NEW_ARRAY(double, m, err);
-    work->eigen_work = NEW_ARRAY(double, dense_eigen_work(m), err);
+    work->eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(m), err);
     return error_is_clean(err);
 }
 
