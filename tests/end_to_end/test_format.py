@@ -14,7 +14,7 @@ SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents
 COLUMNS = 100
 CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
 MACHINE = re.compile(r"(?<![\w.])/(?:work|root|home|Users|media|mnt)/\w+")
-OUTSIDE = re.compile(r'"(/(?!(?:proc|dev|tmp|usr|bin)/)[\w.-]+/[^"]*)"')   # absolute paths in strings of C, but for these
+OUTSIDE = re.compile(r'"(/(?!(?:proc|dev|tmp|usr|bin|etc)/)[\w.-]+/[^"]*)"')   # absolute paths in strings of C, but for these
 LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
 
 

@@ -97,8 +97,8 @@ TEST(test_leaves_the_process_alone)
     place_remove(place);
 }
 
-// Where a process writes numbers with a comma everything works, and the process keeps its comma. The
-// locale is made here: systems have few.
+// Where a process writes numbers with a comma everything works, and the process keeps its comma.
+// The locale is made here: systems have few.
 TEST(test_numbers_with_a_comma)
 {
     char place[PLACE_SIZE] = "", command[2 * PLACE_SIZE], written[20], report[20000] = "";
