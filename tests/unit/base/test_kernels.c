@@ -5,7 +5,8 @@
 
 #include "near.h"
 
-#include <stdlib.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 static char taken[32];
