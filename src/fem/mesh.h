@@ -14,8 +14,8 @@ enum { MESH_PATH_SIZE = 1024 };
 
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
 // nodes and quadrature points; every node on an element; no node twice in one element; no face on
-// more than two elements; every face of a boundary group is a face of an element, listed once; all
-// elements in one part.
+// more than two elements, on one only where nothing lies behind it; every face of a boundary group
+// is a face of an element, listed once; all elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
     int32_t dim;   // numbers of a place, and displacements of a node
@@ -109,11 +109,11 @@ typedef struct MeshContact {
 } MeshContact;
 
 // Takes the arrays of `file` over (it is empty afterwards, also on failure), checks and completes
-// them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
-// Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
-// node, a clockwise element among others, a node on no element, a face of three elements, elements
-// of different order side by side, a boundary group that does not follow the elements or lists a
-// face twice, parts that share no node.
+// them. Elements that run clockwise (a surface was reversed in gmsh) are turned round. Errors
+// (ERROR_INPUT) name `path` and where: an element whose Jacobian determinant is 0 or changes its
+// sign, one that repeats a node, a node on no element, a face of three elements, elements on one
+// side of their common face or of different order, a boundary group that does not follow the
+// elements or lists a face twice, parts that share no node, a face of one element inside the block.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
 void mesh_destroy(Mesh *mesh);
 

@@ -49,11 +49,14 @@ static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
                                    mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
 }
 
-// By name; NULL: none. Names are unique: mesh_raw_convert sees to it.
-static const MeshGroup *find_group(const MeshFile *mesh, const char *name)
+// The group of this name and dimension (-1: of any); NULL: none. gmsh counts groups by dimension, so
+// those of different dimension may have the same name.
+static const MeshGroup *find_group(const MeshFile *mesh, const char *name, int32_t dimension)
 {
     for (int32_t k = 0; k < mesh->group_count; k++)
-        if (strcmp(mesh->groups[k].name, name) == 0) return &mesh->groups[k];
+        if ((dimension < 0 || mesh->groups[k].dimension == dimension) &&
+            strcmp(mesh->groups[k].name, name) == 0)
+            return &mesh->groups[k];
     return NULL;
 }
 
@@ -62,12 +65,12 @@ const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const c
                                  int32_t dimension, Error *err)
 {
     static const char *const words[] = {"point", "curve", "surface", "volume"};
-    const MeshGroup *group = find_group(mesh, name);
+    const MeshGroup *group = find_group(mesh, name, dimension);
     const char **names = NULL;
     char list[LIST_SIZE], hint[GROUP_NAME_SIZE + 32] = "";
-    if (group && group->dimension == dimension) return group;
+    if (group) return group;
     list_groups(mesh, list);
-    if (group)
+    if ((group = find_group(mesh, name, -1)))
         FAIL(err, ERROR_INPUT, "%s: group '%s' is a %s, wanted is a %s; the groups are: %s", path,
              name, words[group->dimension & 3], words[dimension & 3], list);
     if (!(names = NEW_ARRAY(const char *, mesh->group_count, err))) goto cleanup;

@@ -91,7 +91,7 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
                           "scenes (`amontons render` draws a result)",
                           path);
         told = info_result(path, out, err);
-    } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
+    } else if (mesh_file_format(path) != MESH_NO_FORMAT)
         told = info_mesh(path, options, out, err);
     else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
         told = info_scene(path, options, out, err);
