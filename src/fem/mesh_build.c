@@ -48,26 +48,10 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
                    .first_node = file->first_node,
                    .element_nodes = file->element_nodes,
                    .group_count = file->group_count,
-                   .groups = file->groups};
+                   .groups = file->groups,
+                   .move = {.scale = 1}};
     snprintf(mesh->path, sizeof mesh->path, "%s", path);
     *file = (MeshFile){0};
-}
-
-// The block's extent. A node on no element would change it, but is an error.
-static void find_extent(Mesh *mesh)
-{
-    double *low[DIM_MAX] = {&mesh->x_min, &mesh->y_min},
-           *high[DIM_MAX] = {&mesh->x_max, &mesh->y_max};
-    low[mesh->dim - 1] = &mesh->z_min;
-    high[mesh->dim - 1] = &mesh->z_max;
-    for (int32_t d = 0; d < mesh->dim; d++) {
-        *low[d] = INFINITY;
-        *high[d] = -INFINITY;
-        for (int32_t i = 0; i < mesh->node_count; i++) {
-            *low[d] = fmin(*low[d], mesh_place(mesh, i)[d]);
-            *high[d] = fmax(*high[d], mesh_place(mesh, i)[d]);
-        }
-    }
 }
 
 // --- checks -------------------------------------------------------------------------------------
@@ -312,7 +296,7 @@ bool mesh_build_parts(MeshFile *file, const char *path, Mesh *mesh, MeshParts *p
     MeshFaces faces = {0};
     *parts = (MeshParts){0};
     take_over(file, path, mesh);
-    find_extent(mesh);
+    mesh_find_extent(mesh);
     TRY(check_nodes(mesh, err));
     TRY(check_repeats(mesh, err));
     TRY(orient_elements(mesh, err));
