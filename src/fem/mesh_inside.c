@@ -50,9 +50,10 @@ static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
     shape_normal(seen.kind, &shape, (const MeshPlace *)position, normal);
     for (int32_t d = 0; d < mesh->dim; d++) area = hypot(area, normal[d]);
     double size = mesh->dim == 2 ? area : sqrt(area);
+    double outwards = mesh->dim == 2 ? -1 : 1;   // the normal of a line is to its left
     for (int32_t d = 0; d < mesh->dim; d++) {
         for (int32_t a = 0; a < count; a++) point.on_face[d] += shape.value[a] * position[a][d];
-        point.place[d] = point.on_face[d] + OUTSIDE * size * normal[d] / area;
+        point.place[d] = point.on_face[d] + outwards * OUTSIDE * size * normal[d] / area;
     }
     return point;
 }

@@ -101,6 +101,33 @@ static bool mended_write(const char *path, const char *bytes, int64_t size, Mend
     return true;
 }
 
+// `dim number "name"` on each line: of two groups of one dimension with one name gmsh would give the
+// second no name.
+static bool check_names(const char *path, const char *bytes, Error *err)
+{
+    enum { NAMES_MAX = 1000 };
+    const char *begin = strstr(bytes, "$PhysicalNames"), *end = strstr(bytes, "$EndPhysicalNames");
+    const char *line[NAMES_MAX];   // from its quote
+    int dims[NAMES_MAX], numbers[NAMES_MAX], count = 0;
+    if (!begin || !end) return true;
+    while (count < NAMES_MAX && (begin = strchr(begin, '\n')) && ++begin < end) {
+        const char *quote = strchr(begin, '"');
+        if (sscanf(begin, "%d%*[ \t]%d", &dims[count], &numbers[count]) != 2 || !quote || quote > end)
+            continue;
+        size_t length = strcspn(quote + 1, "\"\n") + 2;
+        for (int k = 0; k < count; k++)
+            if (dims[k] == dims[count] && numbers[k] != numbers[count] &&
+                strncmp(line[k], quote, length) == 0)
+                return REFUSE(err,
+                              "%s: the physical name '%.*s' is used twice: by groups %d and %d of "
+                              "dimension %d",
+                              path, (int)length - 2, quote + 1, numbers[k], numbers[count],
+                              dims[k]);
+        line[count++] = quote;
+    }
+    return true;
+}
+
 // A .msh begins as one, else gmsh would run it as a script, whatever its name ends with; it says
 // its version, and has the mark that ends the elements, without which it was cut off. A byte order
 // mark before it, and numbers of entities that do not tell groups apart, are mended.
@@ -128,6 +155,7 @@ static bool check_msh(const char *path, MendedFile *mended, Error *err)
     if (!memmem(bytes, (size_t)size, end, strlen(end)))
         FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
              path);
+    TRY(check_names(path, bytes, err));
     bool marked = stat(path, &status) != 0 || status.st_size != size;   // text_file_read left it out
     if (version < 3) TRY(msh2_tell_entities_apart(bytes, size, &told_apart, &made, err));
     if (told_apart)

@@ -134,7 +134,7 @@ TEST(test_what_cannot_be_is_not_believed)
     assert_false(believed_with(&known, &known.element_count, 2));
     assert_false(believed_with(&known, &known.group_count, -1));
     assert_false(believed_with(&known, &groups[0].dimension, 3));
-    assert_false(believed_with(&known, &groups[0].number, -1));
+    assert_true(believed_with(&known, &groups[0].number, -1));
     assert_false(believed_with(&known, &groups[1].nodes_per_face, -1));
     assert_false(believed_with(&known, &groups[2].element_count, -1));
     node_number[9]++;
