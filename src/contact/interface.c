@@ -316,7 +316,8 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
     }
     if (interface->rod_count == 0 && isinf(nearest))
         FAIL(err, ERROR_INPUT,
-             "%s: the rod has nothing to push: all nodes of group \"%s\" are nodes of the contact as "
+             "%s: the rod has nothing to push: all nodes of group \"%s\" are nodes of the contact "
+             "as "
              "well, which the floor holds; give the rod a face of its own (groups.rod)",
              mesh->path, def->rod_name);
     if (interface->rod_count == 0)

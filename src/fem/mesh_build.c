@@ -80,8 +80,9 @@ static bool check_nodes(const Mesh *mesh, Error *err)
              (long long)mesh->node_number[i], mesh_place_text(mesh, i, at),
              mesh->dim == 2 ? "surface" : "volume", group ? "; it belongs to group '" : "",
              group ? group : "",
-             group ? "' (`groups: {body: REGION}` in the scene leaves out what is not of that region)"
-                   : "");
+             group
+                 ? "' (`groups: {body: REGION}` in the scene leaves out what is not of that region)"
+                 : "");
     }
 cleanup:
     memory_free(used);

@@ -107,7 +107,8 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
     for (int32_t k = 0; k < count; k++)
         if (!add_group(mesh, names[k], contact, err)) return false;
     for (int32_t g = 0; g < mesh->group_count && count == 0; g++)
-        if (mesh->groups[g].dimension == mesh->dim - 1 && mesh_is_contact_name(mesh->groups[g].name) &&
+        if (mesh->groups[g].dimension == mesh->dim - 1 &&
+            mesh_is_contact_name(mesh->groups[g].name) &&
             !add_group(mesh, mesh->groups[g].name, contact, err))
             return false;
     if (contact->group_count == 0 && !add_group(mesh, "contact", contact, err)) return false;
@@ -283,12 +284,12 @@ static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *er
         if (mesh_height(mesh, contact->nodes[k]) < mesh_height(mesh, lowest))
             lowest = contact->nodes[k];
     if (mesh_gap(mesh, lowest) > 0)
-        return REFUSE(
-            err,
-            "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = %g (without "
-            "mesh.shift it is moved there)",
-            mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
-            mesh_height(mesh, lowest));
+        return REFUSE(err,
+                      "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = "
+                      "%g (without "
+                      "mesh.shift it is moved there)",
+                      mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+                      mesh_height(mesh, lowest));
     return true;
 }
 

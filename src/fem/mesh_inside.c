@@ -163,14 +163,15 @@ bool mesh_check_inside(const Mesh *mesh, const MeshFaces *faces, Error *err)
     for (int32_t e = 0; e < mesh->element_count; e++) {
         const ProbePoint *found = point_inside(mesh, e, points, count);
         if (!found) continue;
-        FAIL(err, ERROR_INPUT,
-             "%s: the %s at %s is on element %lld alone, but lies inside the block: element %lld is "
-             "right behind it. Parts of the mesh are not glued together there: nodes are there "
-             "twice (`Coherence Mesh;` in a .geo makes one of them; the sides of a crack must stand "
-             "apart, as nothing keeps them from passing through each other), a node hangs in the "
-             "middle of a larger cell's side, or elements overlap",
-             mesh->path, mesh->dim == 2 ? "edge" : "face", place_text(mesh->dim, found->on_face, at),
-             (long long)mesh->element_number[found->element], (long long)mesh->element_number[e]);
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: the %s at %s is on element %lld alone, but lies inside the block: element %lld is "
+            "right behind it. Parts of the mesh are not glued together there: nodes are there "
+            "twice (`Coherence Mesh;` in a .geo makes one of them; the sides of a crack must stand "
+            "apart, as nothing keeps them from passing through each other), a node hangs in the "
+            "middle of a larger cell's side, or elements overlap",
+            mesh->path, mesh->dim == 2 ? "edge" : "face", place_text(mesh->dim, found->on_face, at),
+            (long long)mesh->element_number[found->element], (long long)mesh->element_number[e]);
     }
 cleanup:
     memory_free(points);

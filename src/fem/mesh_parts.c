@@ -62,8 +62,8 @@ static int list_groups(const Mesh *mesh, const MeshParts *parts, int32_t part, b
         const MeshGroup *group = &mesh->groups[g];
         if (regions && group->dimension != mesh->dim) continue;
         if (!group_has(mesh, group, parts, part)) continue;
-        length += snprintf(text + length, (size_t)(size - length), "%s%s%s%s",
-                           count++ ? ", " : "", quote, group->name, quote);
+        length += snprintf(text + length, (size_t)(size - length), "%s%s%s%s", count++ ? ", " : "",
+                           quote, group->name, quote);
     }
     return count;
 }
@@ -111,10 +111,11 @@ const char *mesh_parts_advice(const Mesh *mesh, const MeshParts *parts, char tex
     }
     int count = list_groups(mesh, parts, best, true, "", regions, (int)sizeof regions);
     if (count == 0)
-        snprintf(text, PART_TEXT_SIZE,
-                 "give each part a physical %s of its own, then `groups: {body: NAME}` in the scene "
-                 "picks one",
-                 mesh->dim == 2 ? "surface" : "volume");
+        snprintf(
+            text, PART_TEXT_SIZE,
+            "give each part a physical %s of its own, then `groups: {body: NAME}` in the scene "
+            "picks one",
+            mesh->dim == 2 ? "surface" : "volume");
     else
         snprintf(text, PART_TEXT_SIZE, "`groups: {body: %s%s%s}` in the scene picks one",
                  count > 1 ? "[" : "", regions, count > 1 ? "]" : "");
@@ -124,11 +125,12 @@ const char *mesh_parts_advice(const Mesh *mesh, const MeshParts *parts, char tex
 bool mesh_parts_refuse(const Mesh *mesh, const MeshParts *parts, Error *err)
 {
     char first[PART_TEXT_SIZE], second[PART_TEXT_SIZE], advice[PART_TEXT_SIZE];
-    return REFUSE(err,
-                  "%s: the mesh has %d parts that share no node, and a scene is one block on a rigid "
-                  "floor: %s; and %s%s: %s (what is to be one block must share points and lines in "
-                  "the .geo: `Coherence;`, `Coherence Mesh;`)",
-                  mesh->path, parts->count, mesh_part_text(mesh, parts, 0, first),
-                  mesh_part_text(mesh, parts, 1, second), parts->count > 2 ? "; ..." : "",
-                  mesh_parts_advice(mesh, parts, advice));
+    return REFUSE(
+        err,
+        "%s: the mesh has %d parts that share no node, and a scene is one block on a rigid "
+        "floor: %s; and %s%s: %s (what is to be one block must share points and lines in "
+        "the .geo: `Coherence;`, `Coherence Mesh;`)",
+        mesh->path, parts->count, mesh_part_text(mesh, parts, 0, first),
+        mesh_part_text(mesh, parts, 1, second), parts->count > 2 ? "; ..." : "",
+        mesh_parts_advice(mesh, parts, advice));
 }

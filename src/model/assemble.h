@@ -11,7 +11,6 @@ bool model_read_mesh(Model *model, Error *err);
 bool model_lay_bulk(Model *model, Error *err);   // the bulk's loads, and the interface
 bool model_hold_supports(Model *model, Error *err);   // marks their unknowns
 
-
 // The stress the loads are measured with.
 double load_reference(const Scene *scene);
 

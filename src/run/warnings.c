@@ -263,18 +263,20 @@ void warnings_of_units(const Model *model, RunWarnings *warnings)
     if (scene->units != UNITS_SI) return;
     bool by_scene = scene->mesh.scale != 1 || scene->given[scene_key_index("mesh.unit")];
     if (model->length > LENGTH_PLAUSIBLE && !by_scene)
-        warnings_add(warnings,
-                     "a block of %.3g m: an SI scene takes the coordinates of a mesh for metres; one "
-                     "that is drawn in mm needs `mesh: {unit: mm}`",
-                     model->length);
+        warnings_add(
+            warnings,
+            "a block of %.3g m: an SI scene takes the coordinates of a mesh for metres; one "
+            "that is drawn in mm needs `mesh: {unit: mm}`",
+            model->length);
     for (int32_t k = 0; k < model->materials.count; k++) {
         const Material *material = &model->materials.list[k];
         double sound = material_speeds(material).longitudinal;
         if (sound >= SOUND_SLOWEST && sound <= SOUND_FASTEST) continue;
-        warnings_add(warnings,
-                     "sound of %.3g m/s in `%s`: no solid has that; are Young's modulus, %.3g Pa, and "
-                     "density, %.4g kg/m3, in these units (3.3 GPa, 1190 kg/m3)?",
-                     sound, scene_region_name(scene, k), material->young, material->density);
+        warnings_add(
+            warnings,
+            "sound of %.3g m/s in `%s`: no solid has that; are Young's modulus, %.3g Pa, and "
+            "density, %.4g kg/m3, in these units (3.3 GPa, 1190 kg/m3)?",
+            sound, scene_region_name(scene, k), material->young, material->density);
         return;
     }
 }

@@ -54,11 +54,13 @@ static const SceneKey keys[] = {
         "Parameters of a .geo file, each a number or a word; which there are, the file says. Every "
         "mesh has `refine`: cells so many times as small (2, 4, ...)."),
     KEY("mesh.unit", KEY_CHOICE, mesh.unit, "1", RANGE_ANY, NULL,
-        "SI scenes: the unit in which the mesh is drawn; if not given, m.", .choices = unit_choices),
+        "SI scenes: the unit in which the mesh is drawn; if not given, m.",
+        .choices = unit_choices),
     NUMBER(mesh.scale, "1", RANGE_POSITIVE, "1",
            "Coordinates of the mesh times this, beside its unit."),
     KEY("mesh.shift", KEY_NUMBERS, mesh.shift, "length", RANGE_ANY, NULL,
-        "The mesh is then moved by this, [x, z], in space [x, y, z]; if not given, along z alone, so "
+        "The mesh is then moved by this, [x, z], in space [x, y, z]; if not given, along z alone, "
+        "so "
         "that its lowest contact node stands on the substrate."),
     WORDS(KEY_NAMES, groups.body, "[]",
           "The physical surfaces (volumes) that are the block; none named: all that the mesh has. "

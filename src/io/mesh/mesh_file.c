@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
 
@@ -34,6 +35,45 @@ void mesh_file_destroy(MeshFile *mesh)
     memory_free_all(mesh->position, mesh->node_number, mesh->element_number, mesh->kind,
                     mesh->first_node, mesh->element_nodes, mesh->groups);
     *mesh = (MeshFile){0};
+}
+
+// --- which files are meshes ---------------------------------------------------------------------
+
+static bool is_one_of(const char *ending, const char *const *endings)
+{
+    while (*endings && strcasecmp(ending, *endings) != 0) endings++;
+    return *endings != NULL;
+}
+
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return dot ? dot : "";
+}
+
+MeshFormat mesh_file_format(const char *path)
+{
+    static const char *const meshes[] = {".msh", ".msh2", ".msh4", NULL};
+    static const char *const scripts[] = {".geo", ".geo_unrolled", NULL};
+    const char *ending = ending_of(path);
+    return is_one_of(ending, meshes)    ? MESH_MSH
+           : is_one_of(ending, scripts) ? MESH_SCRIPT
+                                        : MESH_NO_FORMAT;
+}
+
+const char *mesh_format_advice(const char *path)
+{
+    static const char *const parts[] = {".step", ".stp", NULL};
+    static const char *const meshes[] = {".vtk",  ".vtu", ".med", ".inp", ".unv",  ".bdf", ".nas",
+                                         ".mesh", ".exo", ".e",   ".xml", ".xdmf", ".stl", NULL};
+    return is_one_of(ending_of(path), parts)
+               ? "; a STEP file is meshed by meshes/step3d.geo: mesh: {file: meshes/step3d.geo, "
+                 "set: {file: /absolute/path/of/it}}"
+           : is_one_of(ending_of(path), meshes)
+               ? "; gmsh and meshio make a .msh of most other formats (gmsh FILE -save -format "
+                 "msh22 -o FILE.msh; meshio convert FILE FILE.msh)"
+               : "";
 }
 
 // --- groups -------------------------------------------------------------------------------------

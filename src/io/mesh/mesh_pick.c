@@ -66,7 +66,8 @@ static bool keep_group(const Kept *kept, MeshGroup *group)
     for (int32_t f = 0; f < group->face_count; f++) {
         const int32_t *face = group->face_nodes + (int64_t)f * width;
         bool whole = true;
-        for (int32_t a = 0; a < width && face[a] >= 0; a++) whole = whole && kept->node[face[a]] >= 0;
+        for (int32_t a = 0; a < width && face[a] >= 0; a++)
+            whole = whole && kept->node[face[a]] >= 0;
         if (!whole) continue;
         for (int32_t a = 0; a < width; a++)
             group->face_nodes[(int64_t)faces * width + a] = face[a] < 0 ? -1 : kept->node[face[a]];

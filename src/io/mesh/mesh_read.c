@@ -17,52 +17,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 enum { SPLITS_MAX = 6, MENDED_NAME_SIZE = 40 };   // the latter: "/proc/self/fd/" and an int
-
-// --- which files are meshes ---------------------------------------------------------------------
-
-static bool is_one_of(const char *ending, const char *const *endings)
-{
-    while (*endings && strcasecmp(ending, *endings) != 0) endings++;
-    return *endings != NULL;
-}
-
-static const char *ending_of(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    return dot ? dot : "";
-}
-
-MeshFormat mesh_file_format(const char *path)
-{
-    static const char *const meshes[] = {".msh", ".msh2", ".msh4", NULL};
-    static const char *const scripts[] = {".geo", ".geo_unrolled", NULL};
-    const char *ending = ending_of(path);
-    return is_one_of(ending, meshes)    ? MESH_MSH
-           : is_one_of(ending, scripts) ? MESH_SCRIPT
-                                        : MESH_NO_FORMAT;
-}
-
-// What to do with a file that another program would take.
-static const char *how_to_get_msh(const char *path)
-{
-    static const char *const parts[] = {".step", ".stp", NULL};
-    static const char *const meshes[] = {".vtk",  ".vtu", ".med", ".inp", ".unv",  ".bdf", ".nas",
-                                         ".mesh", ".exo", ".e",   ".xml", ".xdmf", ".stl", NULL};
-    return is_one_of(ending_of(path), parts)
-               ? "; a STEP file is meshed by meshes/step3d.geo: mesh: {file: meshes/step3d.geo, "
-                 "set: {file: /absolute/path/of/it}}"
-           : is_one_of(ending_of(path), meshes)
-               ? "; gmsh and meshio make a .msh of most other formats (gmsh FILE -save -format "
-                 "msh22 -o FILE.msh; meshio convert FILE FILE.msh)"
-               : "";
-}
 
 // --- before gmsh --------------------------------------------------------------------------------
 
@@ -112,7 +71,8 @@ static bool check_names(const char *path, const char *bytes, Error *err)
     if (!begin || !end) return true;
     while (count < NAMES_MAX && (begin = strchr(begin, '\n')) && ++begin < end) {
         const char *quote = strchr(begin, '"');
-        if (sscanf(begin, "%d%*[ \t]%d", &dims[count], &numbers[count]) != 2 || !quote || quote > end)
+        if (sscanf(begin, "%d%*[ \t]%d", &dims[count], &numbers[count]) != 2 || !quote ||
+            quote > end)
             continue;
         size_t length = strcspn(quote + 1, "\"\n") + 2;
         for (int k = 0; k < count; k++)
@@ -156,7 +116,8 @@ static bool check_msh(const char *path, MendedFile *mended, Error *err)
         FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
              path);
     TRY(check_names(path, bytes, err));
-    bool marked = stat(path, &status) != 0 || status.st_size != size;   // text_file_read left it out
+    bool marked = stat(path, &status) != 0 ||
+                  status.st_size != size;   // text_file_read left it out
     if (version < 3) TRY(msh2_tell_entities_apart(bytes, size, &told_apart, &made, err));
     if (told_apart)
         TRY(mended_write(path, told_apart, made, mended, err));
@@ -232,7 +193,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     Parameters given = {.count = parameter_count};
     *mesh = (MeshFile){0};
     if (format == MESH_NO_FORMAT)
-        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file%s", path, how_to_get_msh(path));
+        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file%s", path,
+             mesh_format_advice(path));
     TRY((given.list = NEW_ARRAY(MeshParameter, parameter_count, err)));
     if (parameter_count > 0)
         memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
@@ -242,8 +204,7 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     if (request.generate)
         TRY(check_geo(path, &given, &request.splits, err));
     else
-        TRY(check_msh(path, &mended, err) &&
-            take_refine(path, &given, &request.splits, err));
+        TRY(check_msh(path, &mended, err) && take_refine(path, &given, &request.splits, err));
     if (!request.generate && given.count > 0)
         FAIL(
             err, ERROR_INPUT,

@@ -20,8 +20,9 @@
 // Dimension and nodes of gmsh's element types; beyond these the section is left to gmsh.
 static const struct {
     int8_t dim, nodes;
-} TYPES[] = {{-1, 0}, {1, 2},  {2, 3}, {2, 4}, {3, 4}, {3, 8},  {3, 6},  {3, 5}, {1, 3}, {2, 6},
-             {2, 9},  {3, 10}, {3, 27}, {3, 18}, {3, 14}, {0, 1}, {2, 8}, {3, 20}, {3, 15}, {3, 13}};
+} TYPES[] = {{-1, 0}, {1, 2}, {2, 3}, {2, 4},  {3, 4},  {3, 8},  {3, 6},
+             {3, 5},  {1, 3}, {2, 6}, {2, 9},  {3, 10}, {3, 27}, {3, 18},
+             {3, 14}, {0, 1}, {2, 8}, {3, 20}, {3, 15}, {3, 13}};
 
 enum {
     TYPE_COUNT = sizeof TYPES / sizeof TYPES[0],
@@ -160,8 +161,7 @@ static bool read_elements(Msh2File *file, Error *err)
         return false;
     file->at = begin + 1 - file->bytes;
     skip_line(file);
-    if (!read_decimal(file, &count) || count < 1 ||
-        count > file->size / ELEMENT_BYTES_MIN)
+    if (!read_decimal(file, &count) || count < 1 || count > file->size / ELEMENT_BYTES_MIN)
         return false;
     skip_line(file);
     file->count = count;

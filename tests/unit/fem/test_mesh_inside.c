@@ -10,7 +10,7 @@
 // 3 x 2 squares of side 1, nodes by rows; nodes 12 and 13 are copies of 5 and 6.
 static const double PLACES[][2] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 1}, {1, 1}, {2, 1},
                                    {3, 1}, {0, 2}, {1, 2}, {2, 2}, {3, 2}, {1, 1}, {2, 1}};
-static const int32_t SQUARES[] = {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6,
+static const int32_t SQUARES[] = {0, 1, 5, 4, 1, 2, 6,  5, 2, 3, 7,  6,
                                   4, 5, 9, 8, 5, 6, 10, 9, 6, 7, 11, 10};
 
 static void refused(MeshFile *file, const char *one, const char *two)
@@ -56,7 +56,8 @@ TEST(test_crack)
 // Two cells beside one: the node between them lies on its side.
 TEST(test_hanging_node)
 {
-    static const double places[][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {3, 0}, {3, 1}, {3, 2}, {2, 1}};
+    static const double places[][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2},
+                                       {3, 0}, {3, 1}, {3, 2}, {2, 1}};
     static const int32_t squares[] = {0, 1, 2, 3, 1, 4, 5, 7, 7, 5, 6, 2};
     MeshFile file = hand_mesh(8, places, ELEMENT_Q4, 3, squares);
     refused(&file, "the edge at (2, ", "right behind it");
@@ -74,8 +75,8 @@ TEST(test_overlap)
 // Bent sides of second order, the middle nodes off the chord.
 TEST(test_bent)
 {
-    static const double places[][2] = {{0, 0}, {1, 0}, {0, 1}, {.5, -.1}, {.55, .55}, {0, .5},
-                                       {1, 1}, {1.1, .5}, {.5, 1.05}};
+    static const double places[][2] = {{0, 0},  {1, 0}, {0, 1},    {.5, -.1}, {.55, .55},
+                                       {0, .5}, {1, 1}, {1.1, .5}, {.5, 1.05}};
     static const int32_t triangles[] = {0, 1, 2, 3, 4, 5, 1, 6, 2, 7, 8, 4};
     MeshFile file = hand_mesh(9, places, ELEMENT_T6, 2, triangles);
     accepted(&file);
@@ -144,7 +145,7 @@ TEST(test_space)
 // Slider and base, which touch: two parts, of which the advice names the one with the contact.
 TEST(test_parts)
 {
-    static const double places[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+    static const double places[][2] = {{0, 0},   {1, 0},  {1, 1}, {0, 1},
                                        {-1, -1}, {2, -1}, {2, 0}, {-1, 0}};
     static const int32_t squares[] = {4, 5, 6, 7, 0, 1, 2, 3}, bottom[][2] = {{0, 1}};
     Error err = {0};

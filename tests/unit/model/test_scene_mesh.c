@@ -8,7 +8,8 @@
 #include "small_scene.h"
 
 static const char BLOCK[] =
-    "Point(1) = {%g, %g, 0}; Point(2) = {%g, %g, 0}; Point(3) = {%g, %g, 0}; Point(4) = {%g, %g, 0};\n"
+    "Point(1) = {%g, %g, 0}; Point(2) = {%g, %g, 0}; Point(3) = {%g, %g, 0}; Point(4) = {%g, %g, "
+    "0};\n"
     "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
     "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
     "Transfinite Curve{1:4} = 5; Transfinite Surface{1}; Recombine Surface{1};\n"
@@ -64,7 +65,8 @@ TEST(test_floor)
     for (int32_t k = 0; k < 2 * mesh.node_count; k++)
         assert_near("place", mesh.position[k], plain.position[k], 1e-11);   // gmsh's own rounding
     mesh_destroy(&mesh);
-    read_well("deep.geo", SETTINGS("mesh.shift=[0, 0]"), &mesh);   // left where it is, for a run to refuse
+    read_well("deep.geo", SETTINGS("mesh.shift=[0, 0]"),
+              &mesh);   // left where it is, for a run to refuse
     assert_true(mesh.z_min == -0.25);
     mesh_destroy(&mesh);
     mesh_destroy(&plain);

@@ -41,11 +41,8 @@ static MeshFile known_mesh(MeshGroup groups[3])
                             .face_nodes = bottom,
                             .node_count = 3,
                             .nodes = bottom_nodes};
-    groups[2] = (MeshGroup){.name = "body",
-                            .dimension = 2,
-                            .number = INT32_MAX,
-                            .element_count = 2,
-                            .elements = part};
+    groups[2] = (MeshGroup){
+        .name = "body", .dimension = 2, .number = INT32_MAX, .element_count = 2, .elements = part};
     return (MeshFile){.dim = 2,
                       .node_count = 10,
                       .position = position,

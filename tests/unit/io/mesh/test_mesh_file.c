@@ -374,7 +374,8 @@ static void check_told_apart(const char *path, int32_t times)
 // Numbers of entities are the file's own matter: all 1, all 0 as meshio has them, or none.
 TEST(test_entities_in_22)
 {
-    static const char *const forms[] = {"%d 2 %d 1 ", "%d 2 %d 0 ", "%d 1 %d ", "%d 5 %d 1 2 1 -2 "};
+    static const char *const forms[] = {"%d 2 %d 1 ", "%d 2 %d 0 ", "%d 1 %d ",
+                                        "%d 5 %d 1 2 1 -2 "};
     static const char *const ends[] = {"1 2", "2 3", "1 2 5 4", "2 3 6 5", "2 3 6 5"};
     static const int types[] = {1, 1, 3, 3, 3}, groups[] = {1, 2, 7, 7, 8};
     char path[PATH_SIZE], text[1000];

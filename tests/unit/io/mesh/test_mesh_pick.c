@@ -13,7 +13,8 @@
 //     0---1---2
 static MeshFile two_bodies(void)
 {
-    static const double places[][2] = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}};
+    static const double places[][2] = {{0, 0}, {1, 0}, {2, 0}, {0, 1},
+                                       {1, 1}, {2, 1}, {0, 2}, {1, 2}};
     static const int32_t squares[] = {0, 1, 4, 3, 1, 2, 5, 4, 3, 4, 7, 6};
     static const int32_t middle[][2] = {{3, 4}, {4, 5}}, low[][2] = {{0, 1}, {1, 2}},
                          side[][2] = {{0, 3}, {3, 6}}, right[][2] = {{2, 5}};
@@ -75,8 +76,8 @@ TEST(test_no_such_region)
         MeshFile file = two_bodies();
         assert_false(mesh_file_pick("a.msh", &names[k], 1, &file, &err));
         assert_int_equal(err.code, ERROR_INPUT);
-        assert_non_null(strstr(err.message, k ? "is a curve, wanted is a surface"
-                                              : "did you mean 'slider'?"));
+        assert_non_null(
+            strstr(err.message, k ? "is a curve, wanted is a surface" : "did you mean 'slider'?"));
         mesh_file_destroy(&file);
     }
 }
