@@ -126,8 +126,7 @@ typedef struct RunSummary {
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;
-    char mesh_moved
-        [MESH_MOVED_SIZE];   // how the mesh of the file was scaled and moved; empty: it was not
+    char mesh_moved[MESH_MOVED_SIZE];   // how the mesh was scaled and moved; empty: not at all
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
