@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Memory: what a computer has, and what a run takes at most. Called by model/assemble,
+// Memory: what a computer has, and what a run takes at most. Called by model/scene_mesh,
 // model/obtain and run/info/forecast.
 #ifndef AMONTONS_MODEL_MEMORY_H
 #define AMONTONS_MODEL_MEMORY_H
