@@ -107,6 +107,8 @@ typedef enum ResultColumns {
     X(NUMBER_C_LONGITUDINAL, "speed_longitudinal", "velocity", "c_L")                              \
     X(NUMBER_C_SHEAR, "speed_shear", "velocity", "c_S")                                            \
     X(NUMBER_C_RAYLEIGH, "speed_rayleigh", "velocity", "c_R")                                      \
+    X(NUMBER_WAVE_DAMPING, "wave_damping", "1",                                                    \
+      "of the longest wave of the block, over critical damping; above 1 no wave runs")             \
     X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
       "lowest z of the strip that the rod pushes; absent: none")                                   \
     X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \
