@@ -145,9 +145,9 @@ bool mesh_is_contact_name(const char *name);
 // Puts a mesh that stands as its file has it where it is wanted.
 void mesh_move(double scale, const MeshPlace shift, Mesh *mesh);
 
-// Moves the mesh along z so that the lowest node of its contact is at z = 0; one that stands there up
-// to rounding is not moved. names: as of mesh_contact. ERROR_INPUT: there is no contact of such a
-// name.
+// Moves the mesh along z so that the lowest node of its contact is at z = 0; one that stands there
+// up to rounding is not moved. names: as of mesh_contact. ERROR_INPUT: there is no contact of such
+// a name.
 bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, Mesh *mesh,
                          Error *err);
 

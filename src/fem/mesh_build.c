@@ -135,8 +135,8 @@ static void add_probe(ElementKind kind, const double *point, ProbePoints *probes
 
 // Evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees while
 // determinants at the quadrature points are positive; at quadrature points, because integrals are
-// taken there; in hexahedra and wedges of first order, whose determinant is of second order, between
-// the corners too: a twisted one turns inside out in the middle.
+// taken there; in hexahedra and wedges of first order, whose determinant is of second order,
+// between the corners too: a twisted one turns inside out in the middle.
 static void set_probes(ProbePoints *probes)
 {
     for (ElementKind kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {

@@ -7,8 +7,8 @@
 #include "fem/mesh.h"
 #include "scene/scene.h"
 
-// *mesh is the caller's to destroy, also on failure. origin: NULL where nobody asks. Errors name the
-// key of the scene that is wrong.
+// *mesh is the caller's to destroy, also on failure. origin: NULL where nobody asks. Errors name
+// the key of the scene that is wrong.
 bool scene_mesh_read(const Scene *scene, Mesh *mesh, MeshOrigin *origin, Error *err);
 
 #endif

@@ -323,8 +323,8 @@ static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable
     return true;
 }
 
-// gmsh reads numbers of format 2.2 into ints, where larger ones run over, and takes negative ones as
-// they are; messages name nodes and elements by them.
+// gmsh reads numbers of format 2.2 into ints, where larger ones run over, and takes negative ones
+// as they are; messages name nodes and elements by them.
 static bool check_numbers(const MeshRaw *raw, const char *path, Error *err)
 {
     static const char *const how =

@@ -89,8 +89,8 @@ static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
                                    mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
 }
 
-// The group of this name and dimension (-1: of any); NULL: none. gmsh counts groups by dimension, so
-// those of different dimension may have the same name.
+// The group of this name and dimension (-1: of any); NULL: none. gmsh counts groups by dimension,
+// so those of different dimension may have the same name.
 static const MeshGroup *find_group(const MeshFile *mesh, const char *name, int32_t dimension)
 {
     for (int32_t k = 0; k < mesh->group_count; k++)

@@ -92,8 +92,8 @@ typedef struct MeshParameter {
 // Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has
 // a volume in 3D, else in 2D. Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh,
 // no elements, an element kind that is not in ELEMENT_KINDS, a parameter the .geo does not know, a
-// name that two groups of one dimension have. A mesh without volumes that is not in the plane z = 0 of gmsh is refused. *mesh
-// is destroyed by the caller.
+// name that two groups of one dimension have. A mesh without volumes that is not in the plane z = 0
+// of gmsh is refused. *mesh is destroyed by the caller.
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     MeshFile *mesh, Error *err);
 void mesh_file_destroy(MeshFile *mesh);

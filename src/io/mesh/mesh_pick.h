@@ -6,8 +6,9 @@
 
 #include "io/mesh/mesh_file.h"
 
-// Keeps the elements of the regions called `names` [count], their nodes, and of the groups what lies
-// on them; a group of which nothing is left goes. ERROR_INPUT: there is no region of such a name.
+// Keeps the elements of the regions called `names` [count], their nodes, and of the groups what
+// lies on them; a group of which nothing is left goes. ERROR_INPUT: there is no region of such a
+// name.
 bool mesh_file_pick(const char *path, const char (*names)[GROUP_NAME_SIZE], int32_t count,
                     MeshFile *mesh, Error *err);
 

@@ -60,8 +60,8 @@ static bool mended_write(const char *path, const char *bytes, int64_t size, Mend
     return true;
 }
 
-// `dim number "name"` on each line: of two groups of one dimension with one name gmsh would give the
-// second no name.
+// `dim number "name"` on each line: of two groups of one dimension with one name gmsh would give
+// the second no name.
 static bool check_names(const char *path, const char *bytes, Error *err)
 {
     enum { NAMES_MAX = 1000 };
