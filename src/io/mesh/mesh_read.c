@@ -42,7 +42,7 @@ static bool check_msh(const char *path, double *version, Error *err)
     struct stat status;
     char *bytes = NULL;
     int32_t size = 0;
-    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
+    TRY(text_file_bytes(path, GEO_BYTES_MAX, &bytes, &size, err));
     if (stat(path, &status) != 0 || status.st_size != size ||
         (strncmp(bytes, begin, strlen(begin)) != 0 &&
          strncmp(bytes, comments, strlen(comments)) != 0))
