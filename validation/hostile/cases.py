@@ -245,8 +245,8 @@ def plots(stock):
         yield Try("plot", name, ["render", "plot.yaml"], {"plot.yaml": text}, says="plot.yaml")
 
 
-# Every file that is read: the words that read it, what stands in it, and whether it is a text. One that is missing here is
-# one that nobody tried.
+# Every file that is read: the words that read it, what stands in it, and whether it is a text. One that is missing
+# here is one that nobody tried.
 FIT = """title: Fit
 scene: scene.yaml
 search: {material.eta1: {log: [0.5, 2]}}
@@ -270,7 +270,8 @@ READ = {
     "out/checkpoint.bin": (["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"], "checkpoint.bin", False),
     "out/fields.pvd": (["film", "out", "-o", "film.mp4", "--of", "velocity"], None, True),
 }
-IN_ITS_PLACE = {"a pipe": "mkfifo", "a folder": "mkdir", "a link to a device": "ln -s /dev/zero", "a link to itself": "ln -s itself"}
+IN_ITS_PLACE = {"a pipe": "mkfifo", "a folder": "mkdir", "a link to a device": "ln -s /dev/zero",
+                "a link to itself": "ln -s itself"}
 RESULT = ("run.json", "history.h5", "checkpoint.bin")
 
 
@@ -289,7 +290,8 @@ def readers(stock):
             if "itself" in make:
                 make = f"ln -s {Path(name).name}"
             optional = name in ("out/run.json", "out/history.h5.part", "out/fields.pvd") and "itself" in what
-            yield Try("readers", f"{name} is {what}", words, files, may=(DONE, REFUSED, FAILED) if optional else (REFUSED, FAILED),
+            may = (DONE, REFUSED, FAILED) if optional else (REFUSED, FAILED)
+            yield Try("readers", f"{name} is {what}", words, files, may=may,
                       says="" if ".part" in name else Path(name).name,
                       shell=f'mkdir -p out; rm -rf {name}; {make} {name}; exec "$@"')
         if is_text and content is not None:
@@ -297,7 +299,8 @@ def readers(stock):
                 content.read_text() if isinstance(content, Path) else content
             for at in (0, len(text) // 2, len(text)):
                 bad = text[:at].encode() + b"\0" + text[at:].encode()
-                yield Try("readers", f"{name} with a zero byte at {at}", words, files | {name: bad}, may=(REFUSED, FAILED), says=name)
+                yield Try("readers", f"{name} with a zero byte at {at}", words, files | {name: bad},
+                          may=(REFUSED, FAILED), says=name)
 
 
 def others(file, pipe):
@@ -317,23 +320,28 @@ def others(file, pipe):
         layout[:] = h5py.VirtualSource(pipe, "x", shape=(rows,))
         file.create_virtual_dataset("series/mu", layout)
 
-    yield "array in another file", replace(lambda f, n: f.create_dataset("series/mu", (n,), "f8", external=[(pipe, 0, 8 * n)]))
+    yield "array in another file", replace(
+        lambda f, n: f.create_dataset("series/mu", (n,), "f8", external=[(pipe, 0, 8 * n)]))
     yield "virtual array", replace(virtual)
     yield "link out", replace(lambda f, n: f.__setitem__("series/mu", h5py.ExternalLink(pipe, "/x")))
     yield "link by name", replace(lambda f, n: f.__setitem__("series/mu", h5py.SoftLink("/series/time")))
-    yield "group that is a link out", lambda f: (f.move("pads", "was"), f.__setitem__("pads", h5py.ExternalLink(pipe, "/x")))
+    yield "group that is a link out", lambda f: (f.move("pads", "was"),
+                                                 f.__setitem__("pads", h5py.ExternalLink(pipe, "/x")))
     names = []
     file.visititems(lambda name, item: names.append(name) if hasattr(item, "shape") else None)
     for name in names:
         for value in (-1, 2, 2000000000, 1e300, -1e300, numpy.inf, numpy.nan):
             kind = file[name].dtype
-            if kind.kind in "iu" and not (numpy.isfinite(value) and numpy.iinfo(kind).min <= value <= numpy.iinfo(kind).max):
+            if kind.kind in "iu" and not (numpy.isfinite(value) and
+                                          numpy.iinfo(kind).min <= value <= numpy.iinfo(kind).max):
                 continue
-            yield f"{name} has {value}", lambda f, name=name, value=value: f[name].size and f[name].__setitem__((0,) * f[name].ndim, value)
+            yield f"{name} has {value}", lambda f, name=name, value=value: (
+                f[name].size and f[name].__setitem__((0,) * f[name].ndim, value))
     for name in file.attrs:
         if not isinstance(file.attrs[name], str):
             for value in (-1, 0, 1e300, numpy.inf, numpy.nan):
-                yield f"attribute {name} is {value}", lambda f, name=name, value=value: f.attrs.__setitem__(name, float(value))
+                yield f"attribute {name} is {value}", lambda f, name=name, value=value: (
+                    f.attrs.__setitem__(name, float(value)))
 
 
 def histories(stock):
@@ -349,7 +357,8 @@ def histories(stock):
         shutil.copy(stock.result / "history.h5", made)
         with h5py.File(made, "r+") as file:
             change(file)
-        files = {"out/history.h5": made, "out/run.json": stock.result / "run.json", "out/checkpoint.bin": stock.result / "checkpoint.bin"}
+        files = {"out/history.h5": made} | {f"out/{beside}": stock.result / beside
+                                            for beside in ("run.json", "checkpoint.bin")}
         leads = number < 5
         asked = {"info": ["info", "out"], "report": ["report", "out", "-o", "page.html"], "render": ["render", "out"]}
         if leads:
