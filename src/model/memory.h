@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Memory: what a computer has, and what a run takes at most. Called by model/assemble,
-// model/obtain and run/info/forecast.
+// Memory: what a computer has, and what a run takes at most. Called by
+// model/scene_mesh and model/obtain.
 #ifndef AMONTONS_MODEL_MEMORY_H
 #define AMONTONS_MODEL_MEMORY_H
 

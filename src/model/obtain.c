@@ -15,6 +15,7 @@
 #include "model/extremes.h"
 #include "model/gaps.h"
 #include "model/memory.h"
+#include "model/scene_mesh.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
 
