@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A build of OpenBLAS for all processors (DYNAMIC_ARCH) chooses while it is loaded, where a variable
-// goes before the processor. Other builds have one kind of kernels.
+// A build of OpenBLAS for all processors (DYNAMIC_ARCH) chooses while it is loaded, where its
+// variable goes before the processor. Other builds have one kind of kernels.
 #include "base/kernels.h"
 
 #include <cblas.h>

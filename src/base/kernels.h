@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which of OpenBLAS's kernels compute, and which the processor could run. OpenBLAS chooses by family
+// Which of OpenBLAS's kernels compute, and which the processor could run. OpenBLAS goes by family
 // and model when it is loaded; 0.3.21 takes Prescott's (SSE3, a fifth of the speed) for a processor
 // that it does not know, unless the variable OPENBLAS_CORETYPE says which. Read by run/report and
 // run/info/version.
