@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Finds the command that the first word asks for.
+#include "amontons.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
@@ -207,16 +208,34 @@ static void keep_memory(void)
     mallopt(M_TRIM_THRESHOLD, -1);
 }
 
+static pid_t program;
+static bool ended;   // by its own return
+
+// Nothing of ours calls exit: a plug-in or a library does, and its status would be taken for ours.
+static void meet_strange_end(void)
+{
+    if (ended) return;
+    if (getpid() == program) {   // else who waits for this process says so
+        amontons_let_go();
+        tell("amontons: error: a plug-in or library ended the program in the middle of its work "
+             "(it called exit)\n");
+    }
+    _exit(1);
+}
+
 // A full disk or a closed pipe may show only when the last output is written: a command whose
 // answer is lost has failed.
 int main(int argc, char **argv)
 {
+    program = getpid();
+    atexit(meet_strange_end);
     keep_memory();
     occupy_standard_streams();
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it
     setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
     setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none
     int status = run_command(argc, argv);
+    ended = true;
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;
     tell("amontons: error: cannot write to standard output\n");

@@ -72,7 +72,7 @@ int array_journal_create(ArrayJournal *journal, const char *path)
     journal->room = FIRST_ROOM;   // of most runs: steps then allocate nothing
     if (!(journal->bytes = memory_bytes(FIRST_ROOM, &err))) return ENOMEM;
     if (!open_is_there(journal->path)) return 0;
-    int left = open_to_write(journal->path, OPEN_PART, why);
+    int left = open_to_write(journal->path, OPEN_KEPT, why);
     if (left < 0) return errno;
     close(left);
     return unlink(journal->path) != 0 && errno != ENOENT ? errno : 0;
@@ -105,7 +105,7 @@ int array_journal_seal(ArrayJournal *journal)
     Head head = head_of(journal);
     memcpy(journal->bytes, &head, sizeof head);
     // Ours from the first one on, also where no disk keeps the bit that says so.
-    int file = open_to_write(journal->path, journal->made ? OPEN_KEPT : OPEN_PART, why);
+    int file = open_to_write(journal->path, OPEN_KEPT, why);
     if (file < 0) return errno;
     journal->made = true;
     int cause = transfer_write(file, journal->bytes, journal->size, 0);

@@ -15,6 +15,8 @@
 #include <string.h>
 #include <unistd.h>
 
+// Misfits are squares of differences over errors: none of them may overflow.
+static const double LARGEST = 1e30, SMALLEST = 1e-30, DIGITS = 1e-12;   // DIGITS: of the value
 static const char SERIES[] = "series/", ERROR_ENDING[] = "_error";
 
 typedef enum ColumnKind { COLUMN_CONDITION, COLUMN_RESULT, COLUMN_ERROR, COLUMN_ALONG } ColumnKind;
@@ -170,6 +172,14 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
         if (!(datum.error > 0))
             return REFUSE(err, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
                           ERROR_ENDING);
+        if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
+            return REFUSE(err, "%s:%d: %s: %g with an error of %g; allowed: at most %g", table->path,
+                          row + 2, name, datum.value, datum.error, LARGEST);
+        if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
+            return REFUSE(err,
+                          "%s:%d: %s%s: %g beside %s = %g: nothing is measured to so many digits",
+                          table->path, row + 2, name, ERROR_ENDING, datum.error, name,
+                          datum.value);
         if (!add_datum(measured, &datum, err)) return false;
     }
     return true;
