@@ -112,17 +112,26 @@ const char *own_list_next(char **rest)
     return NULL;
 }
 
+// Window by window, each beginning with the end of the one before: files are written in the loop of
+// steps, which allocates nothing.
 bool own_list_has(const char *path, bool *has, Error *err)
 {
-    char folder[PATH_SIZE], line[PATH_SIZE];
+    char folder[PATH_SIZE], list[PATH_SIZE], line[PATH_SIZE], bytes[2 * PATH_SIZE];
     const char *name = find_list(path, folder);
     *has = false;
     if (!name || !is_a_name(name)) return true;
-    snprintf(line, sizeof line, "\n%s\n", name);
-    char *text = own_list_read(folder, err);
-    *has = text && strstr(text, line);
-    memory_free(text);
-    return text != NULL;
+    list_path(folder, list);
+    size_t length = (size_t)snprintf(line, sizeof line, "\n%s\n", name), kept = 0;
+    int file = open_to_read(list, err);
+    if (file < 0) return false;
+    for (int64_t got; (got = transfer_read(file, bytes + kept, PATH_SIZE, -1)) > 0;) {
+        size_t filled = kept + (size_t)got;
+        if ((*has = memmem(bytes, filled, line, length))) break;
+        kept = filled < length ? filled : length;
+        memmove(bytes, bytes + filled - kept, kept);
+    }
+    close(file);
+    return true;
 }
 
 bool own_list_refuse_taken(const char *path, Error *err)
