@@ -4,11 +4,7 @@
 // take longer than an image. One thread draws at a time.
 #include "render/canvas/gl_image.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GL/osmesa.h>
-
-#include <GL/glext.h>
+#include "render/canvas/gl_names.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -147,13 +143,11 @@ static bool egl_open(GlContext *context, Error *err)
                               {"eglCreateContext", &create},
                               {0}};
     if (!library_open(context, "libEGL.so.1", symbols, err)) return false;
-    context->display = display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (context->display == EGL_NO_DISPLAY || !begin(context->display, NULL, NULL) ||
-        !bind(EGL_OPENGL_API))
+    context->display = display(EGL_PLATFORM_SURFACELESS_MESA, NULL, NULL);
+    if (!context->display || !begin(context->display, NULL, NULL) || !bind(EGL_OPENGL_API))
         return FAULT(err, ERROR_LIBRARY, "EGL draws nothing without a surface here");
-    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted[0]);
-    if (context->egl == EGL_NO_CONTEXT)
-        return FAULT(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
+    context->egl = create(context->display, NULL, NULL, wanted[0]);
+    if (!context->egl) return FAULT(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
     return true;
 }
 
@@ -164,8 +158,7 @@ static bool context_use(GlContext *context, bool use)
         return use ? context->mesa_use(context->mesa, context->token, GL_UNSIGNED_BYTE, TOKEN_SIZE,
                                        TOKEN_SIZE)
                    : context->mesa_use(NULL, NULL, 0, 0, 0);
-    return context->egl_use(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE,
-                            use ? context->egl : EGL_NO_CONTEXT);
+    return context->egl_use(context->display, NULL, NULL, use ? context->egl : NULL);
 }
 
 // --- shaders and buffers -------------------------------------------------------------------------
@@ -181,7 +174,8 @@ static const char VERSION[] = "#version 330 core\n",
                       "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
                       "}\n";
 
-// What a pixel shows between corners, and of a table of values.
+// What a pixel shows between corners, and of a table of values. There NaN shows nothing: it is
+// known by its bits, as a driver may compile comparisons as if there were no NaN (Mesa 26 does).
 static const char *const VALUE_SOURCE[PROGRAMS] = {
     [BY_CORNERS] = "in float at;\n"
                    "float value_here() { return max(at, 0.0); }\n",
@@ -189,7 +183,8 @@ static const char *const VALUE_SOURCE[PROGRAMS] = {
                   "uniform sampler2D values;\n"
                   "float value_here() {\n"
                   "    float value = texelFetch(values, ivec2(gl_FragCoord.xy * scale), 0).r;\n"
-                  "    if (!(value >= -1.5)) discard;\n"
+                  "    bool number = (floatBitsToUint(value) & 0x7fffffffu) <= 0x7f800000u;\n"
+                  "    if (!number || value < -1.5) discard;\n"
                   "    return value;\n"
                   "}\n"};
 
@@ -370,8 +365,9 @@ static Gl *gl_choose(GlSource first, Error *err)
         said[source] = gl->ready ? "in use before this process was forked" : gl->failure.message;
     }
     error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-              "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s", said[GL_OSMESA],
-              said[GL_EGL]);
+              "maps and fields need OpenGL, by OSMesa (package libosmesa6) or by EGL (libegl1 and "
+              "libgl1-mesa-dri): %s; %s",
+              said[GL_OSMESA], said[GL_EGL]);
     return NULL;
 }
 

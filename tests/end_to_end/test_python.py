@@ -20,6 +20,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from sanitizer_fixture import begin_again_with
 
@@ -38,6 +39,15 @@ HEADERS = ["amontons_simulation.h", "amontons_stability.h", "amontons_model1d.h"
 
 def has(module):
     return importlib.util.find_spec(module) is not None
+
+
+class Built(unittest.TestCase):
+    @unittest.skipUnless((MODULE.parent / "build.ninja").exists() and shutil.which("ninja"), "not built by ninja")
+    def test_whoever_builds_the_program_has_the_module(self):
+        """./amontons demo builds the target `amontons` alone; docs/python.md says that the module is there then."""
+        inputs = subprocess.run(["ninja", "-C", MODULE.parent, "-t", "graph", "amontons"], capture_output=True, text=True, check=True)
+        for name in ("__init__.py", "_structs.py"):
+            self.assertIn(f"python/amontons/{name}", inputs.stdout)
 
 
 class InFolder(unittest.TestCase):
@@ -317,7 +327,7 @@ class Stepped(InFolder):
         for step in simulation:
             if step.t > t + 30:
                 break
-        self.assertAlmostEqual(np.trapz(simulation.pressure, simulation.x), 0.006, delta=3e-4)
+        self.assertAlmostEqual(trapezoid(simulation.pressure, simulation.x), 0.006, delta=3e-4)
         with self.assertRaisesRegex(amontons.InputError, "above 0"):
             simulation.set_pressure(-1)
         with self.assertRaisesRegex(amontons.InputError, "rod velocity of -1e\\+308 is not possible"):

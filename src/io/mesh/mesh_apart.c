@@ -22,9 +22,10 @@ static void begin_meshing(void)
     apart_allow(SECONDS_MAX);
 }
 
+// An empty array may be NULL, which fwrite must not be given.
 static bool append(void *context, const void *bytes, int64_t size)
 {
-    return fwrite(bytes, 1, (size_t)size, context) == (size_t)size;
+    return size == 0 || fwrite(bytes, 1, (size_t)size, context) == (size_t)size;
 }
 
 // reply: NULL in the process that asks.

@@ -58,7 +58,7 @@ static bool is_field(const char *name)
 // `name` without what an unfinished file has behind it.
 static void strip_ending(const char *name, char bare[NAME_MAX + 1])
 {
-    static const char *const endings[] = {".part", ".journal"};
+    static const char *const endings[] = {".part", ".part", ".journal"};
     snprintf(bare, NAME_MAX + 1, "%s", name);
     for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
         size_t length = strlen(bare), end = strlen(endings[k]);

@@ -28,8 +28,8 @@ static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock";
 static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
                   GONE[] = "amontons.gone";
-// What a file has behind its name: nothing, or while it is written (journal: io/hdf5).
-static const char *const ENDINGS[] = {"", ".part", ".journal"};
+// What a file has behind its name: nothing, or while it is written; the last is to replace a part.
+static const char *const ENDINGS[] = {"", ".part", ".part.part"};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
 // A file in its place or a folder that cannot be written to is told at once.
