@@ -267,7 +267,7 @@ typedef struct InfoOptions {
     const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo
     int32_t override_count;
     const char *picture;   // .png, .pdf or .svg of the mesh, or a scene's mesh and rod; NULL: none
-    bool overwrite;   // a picture that is there and is not ours goes; else it is refused
+    bool overwrite;   // what is there goes; else it is refused, if no list has it
 } InfoOptions;
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds; NULL: plain.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);

@@ -288,7 +288,7 @@ bool saved_state_take_back(Simulation *simulation, const SavedState *state, Erro
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
-    return part_file_put(path, state->bytes, state->size, err);
+    return part_file_put(path, true, state->bytes, state->size, err);
 }
 
 // Checked when it is restored.

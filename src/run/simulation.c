@@ -181,6 +181,8 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
     if (!result_folder_claim(options->folder, options->overwrite || options->resume,
                              &simulation->folder, err))
         return false;
+    const char *unlocked = file_lock_warning(&simulation->folder.lock);
+    if (unlocked) warnings_add(&simulation->warnings, "%s", unlocked);
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
         return REFUSE(err,
                       "%s: says not when to stop (time.until): it is a scene for `amontons static`",

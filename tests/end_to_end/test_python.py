@@ -2,6 +2,7 @@
 """The Python module against the program: the same numbers, to the bit; its structs against the compiler's; views without
 copies; errors with file, line and key; Ctrl-C; pictures and tables."""
 import csv
+import copy
 import ctypes
 import gc
 import importlib.util
@@ -170,6 +171,25 @@ class Run(InFolder):
             with self.assertRaisesRegex(amontons.InputError, "zero byte"):
                 call()
         self.assertEqual([path.name for path in self.folder.iterdir()], ["run"])
+
+    def test_odd_calls(self):
+        """Each crashed, or took None for a name."""
+        simulation = amontons.Simulation(FIG1, SMALL)
+        result = self.folder / "nothing"
+        for call in (lambda: amontons.film(result, "x.mp4", of=5), lambda: amontons.film(result, "x.mp4", stop=5), lambda: amontons.film(result, None),
+                     lambda: amontons.render(None), lambda: amontons.render(result, "force"), lambda: amontons.render(result, at=5),
+                     lambda: amontons.run(None), lambda: amontons.run(FIG1, SMALL, 5), lambda: amontons.open_result(None),
+                     lambda: amontons.info(None), lambda: amontons.static(FIG1, SMALL, 5), lambda: amontons.sweep(5),
+                     lambda: amontons.render_plot("a.yaml", None), lambda: copy.copy(simulation), lambda: copy.deepcopy(simulation)):
+            with self.assertRaises(TypeError):
+                call()
+        self.assertEqual(amontons.run(FIG1, SMALL, os.fsencode(self.folder / "bytes")).folder, self.folder / "bytes")
+        simulation.advance()
+        simulation.__del__()
+        for call in (lambda: list(simulation), simulation.advance, simulation.save, simulation.finish, lambda: simulation.position,
+                     lambda: simulation.set_pressure(1.0)):
+            with self.assertRaisesRegex(ValueError, "closed"):
+                call()
 
     def test_what_a_callback_raises_comes_through(self):
         def give_up(step):

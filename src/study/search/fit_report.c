@@ -153,6 +153,11 @@ static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
     if (fit->search.refused > 0)
         fprintf(out, "  %d more designs have no scene, the first: %s\n", fit->search.refused,
                 fit->search.refusal.message);
+    if (fit->search.designs.count > summary->designs)
+        fprintf(out,
+                "  %d more designs failed or lack what was measured, and do not count; --retry "
+                "computes failed points again\n",
+                fit->search.designs.count - summary->designs);
     design_words(fit->search.study, &fit->search.designs.list[best], words);
     fprintf(out, "  nearest design: %s; its first run again: amontons run %s/best.yaml -o fitted\n",
             words, fit->search.options->folder);

@@ -16,6 +16,7 @@
 
 #include "amontons.h"
 #include "base/hash.h"
+#include "io/files/file_lock.h"
 #include "study/sweep/computing/reports.h"
 #include "study/sweep/reading/study.h"
 
@@ -46,7 +47,7 @@ typedef struct Sweep {
     Study study;   // owned
     char folder[AMONTONS_PATH_SIZE];
     Reports reports;   // open: `keep: table`
-    int lock;   // file descriptor; -1: none
+    FileLock lock;   // held from plan to close
     SweepPoint *points;   // [study.point_count]; owned
     int32_t point_count;   // points so far: a search adds some in each round
     Scene *scene;   // of the point that point_scene was asked for last; owned

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -213,6 +214,7 @@ TEST(every_path_frees_when_memory_is_short)
     snprintf(place, sizeof place, "%s/short", folder);
     snprintf(path, sizeof path, "%s/history.h5", place);
     assert_int_equal(mkdir(place, 0777), 0);
+    assert_true(own_list_make(place, &(Error){0}));
     int64_t live = memory_counters().live;
     ErrorCode code = ERROR_MEMORY;
     int32_t k = 0;
@@ -241,6 +243,8 @@ TEST(every_path_frees_when_memory_is_short)
     }
     assert_int_equal(code, ERROR_NONE);
     assert_in_range(k, 40, 70);   // two arrays a series and a few more
+    unlink(path);
+    snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, place);
     unlink(path);
     assert_int_equal(rmdir(place), 0);
 }
