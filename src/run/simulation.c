@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "model/obtain.h"
 #include "run/checkpoint.h"
@@ -176,6 +177,7 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const RunOptions *options = &simulation->options;
+    if (options->folder && !output_check(scene, err)) return false;
     if (!result_folder_claim(options->folder, options->overwrite || options->resume,
                              &simulation->folder, err))
         return false;
@@ -224,6 +226,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                        &simulation->warnings);
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,
                       &simulation->warnings);
+    warnings_of_units(&simulation->model, &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
     if (options->resume)
@@ -239,6 +242,7 @@ cleanup:
 bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
                                 Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return simulation_create_by(scene, options, INFINITY, out, err);
 }
 
@@ -286,6 +290,7 @@ static bool advance_implicit(Simulation *simulation, Error *err)
 // periodic regime where the scene asks for it.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     StepControl *control = &simulation->control;
     double started = clock_seconds();
     if (!steering_is_open(simulation, err)) return false;
@@ -380,6 +385,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
 
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return steering_is_open(simulation, err) && simulation_finish(simulation, NULL, summary, err);
 }
 

@@ -3,6 +3,7 @@
 // times, answers. Nothing is computed here that is not known already.
 #include "run/summary.h"
 
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "record/program_results.h"
@@ -151,6 +152,7 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
 
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
+    NUMBERS_HAVE_A_POINT;
     text_estimate(value, bar, known_to, text);
 }
 
@@ -212,6 +214,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .figures = simulation->figures};
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
+    mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
     note_slip(simulation, answers->first, summary);
     if (simulation->pads.count > 1) pads_order(&simulation->pads, summary->pads_order);
     note_program(&simulation->readings, summary);

@@ -3,26 +3,21 @@
 #include "scene/scene.h"
 
 #include "amontons.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/keys.h"
 
-#include <locale.h>
 #include <string.h>
 
 bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
                          Scene **scene, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     *scene = NULL;
     Scene *made = NEW_ARRAY(Scene, 1, err);
     TRY(made);
-    // Numbers of scenes and results are written with a point; the locale is the caller's to change.
-    const char *point = localeconv()->decimal_point;
-    if (strcmp(point, ".") != 0)
-        FAIL(err, ERROR_INPUT,
-             "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be "
-             "C (uselocale sets it for one thread)",
-             point);
+    if (!decimal_point_is_set()) FAIL(err, ERROR_MEMORY, "no memory for a locale with a point");
     TRY(scene_read(path, overrides, override_count, made, err));
     *scene = made;
     made = NULL;
@@ -48,6 +43,7 @@ const char *amontons_scene_title(const Scene *scene)
 
 bool amontons_scene_reference(FILE *out, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     scene_write_reference(out);
     if (fflush(out) != 0 || ferror(out))
         return FAULT(err, ERROR_FILE, "cannot write the key reference");

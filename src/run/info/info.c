@@ -3,8 +3,10 @@
 #include "run/info/info.h"
 
 #include "amontons.h"
+#include "base/decimal_point.h"
 #include "base/text.h"
 #include "model/model.h"
+#include "model/scene_mesh.h"
 #include "scene/keys.h"
 
 #include <errno.h>
@@ -14,11 +16,8 @@
 // The mesh that the scene names, with its parameters, and where the rod stands.
 static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
 {
-    MeshFile file = {0};
     Mesh mesh = {0};
-    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
-                       err));
-    TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    TRY(scene_mesh_read(scene, &mesh, NULL, err));
     info_write_mesh(&mesh, out);
     double middle = 0, width = 0;
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
@@ -26,7 +25,6 @@ static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE
     const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
     TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, options, err));
 cleanup:
-    mesh_file_destroy(&file);
     mesh_destroy(&mesh);
     return error_is_clean(err);
 }
@@ -76,6 +74,7 @@ static bool is_of_result(const char *path, char folder[AMONTONS_PATH_SIZE])
 // Problems with the output (a full disk, a closed pipe) are errors too.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     struct stat status;
     InfoOptions none = {0};
     char folder[AMONTONS_PATH_SIZE];
@@ -91,7 +90,7 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
                           "scenes (`amontons render` draws a result)",
                           path);
         told = info_result(path, out, err);
-    } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
+    } else if (mesh_file_format(path) != MESH_NO_FORMAT)
         told = info_mesh(path, options, out, err);
     else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
         told = info_scene(path, options, out, err);
