@@ -174,7 +174,7 @@ class Gaps(OwnCache):
         (self.folder / "bad.csv").write_text("x [kg], gap\n0 0\n2 0\n")
         said = self.call("info", "contact.profile=bad.csv", "units=si", "material={young: 1, density: 1, eta1: 1, eta2: 1}",
                          "material.poisson=0.3", status=2)
-        self.assertIn("`kg` is no unit of length; allowed: m, mm, um", said)
+        self.assertIn("`kg`, which is no unit of length; allowed: m, mm, um", said)
 
     def test_rounded_edge(self):
         """Drawn in the mesh it is what the same floor makes of it; the examples run."""

@@ -78,7 +78,8 @@ typedef enum ResultColumns {
     X(PEAKS_U, "peaks/U", "length", "rod displacement at each peak of mu before bulk sliding")     \
     X(PEAKS_MU, "peaks/mu", "1", "mu at the peak")                                                 \
     X(PEAKS_COUNTS, "peaks/counts", "1", "1: counts for mu_M, 0: before load drops had settled")   \
-    X(EVENTS_KIND, "events/kind", "1", "0 quasi-static, 1 bounded rapid, 2 leading rapid")         \
+    X(EVENTS_KIND, "events/kind", "1",                                                             \
+      "0 quasi-static, 1 bounded rapid, 2 leading rapid, 3 slight rapid")                          \
     X(EVENTS_U_START, "events/U_start", "length", "rod displacement when it starts")               \
     X(EVENTS_U_STOP, "events/U_stop", "length", "rod displacement when it stops")                  \
     X(EVENTS_T_START, "events/t_start", "time", "when it starts")                                  \

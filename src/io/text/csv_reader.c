@@ -61,7 +61,9 @@ static bool is_number(const char *cell, size_t length, double *value)
     memcpy(copy, cell, length);
     copy[length] = 0;
     char *comma = strchr(copy, ',');
-    if (comma && (strchr(copy, '.') || strchr(comma + 1, ','))) return false;
+    if (comma && (strchr(copy, '.') || strchr("0123456789", comma[1]) == NULL || !comma[1] ||
+                  strchr(comma + 1, ',')))
+        return false;
     if (comma) *comma = '.';
     return text_number(copy, value) == (int32_t)length;
 }
@@ -109,10 +111,6 @@ static void find_separators(const char *text, char *names, char *cells)
         int32_t count = count_cells(first, *one, &numbers);
         if (count < 2 || count_cells(second, *one, &numbers) != count) continue;
         *names = *cells = *one;
-        return;
-    }
-    if (by_blanks > 1 && count_cells(second, ' ', &numbers) == by_blanks && numbers) {
-        *names = *cells = ' ';
         return;
     }
     for (const char *one = ALL_SEPARATORS; *one; one++) {
@@ -259,10 +257,10 @@ static bool put_names_before(Reading *reading, char *comment, int32_t line, Erro
     if (!comment) return true;
     char *at = comment + strspn(comment, " \t#%");
     bool numbers = true, ends = false;
-    char separator = table->separator;
-    if (count_cells(at, separator, &numbers) != columns)
-        for (const char *one = ALL_SEPARATORS; *one; one++)
-            if (count_cells(at, *one, &numbers) == columns) separator = *one;
+    char separator = 0;
+    for (const char *one = ALL_SEPARATORS; *one && !separator; one++)
+        if (count_cells(at, *one, &numbers) == columns) separator = *one;
+    if (!separator) return true;
     if (count_cells(at, separator, &numbers) != columns || numbers) return true;
     for (int32_t k = 0; k < columns; k++) {
         table->byte[k] = (int32_t)(at - comment) + 1;

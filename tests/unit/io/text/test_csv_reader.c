@@ -103,6 +103,9 @@ TEST(as_it_is_written)
         "\"U\",\"mu\"\n\"0,5\",\"1,25\"\n\"2\",\"-0,03\"\n",
         "# by hand\n\nU,mu\n# two\n0.5,1.25\n   \n2,-0.03\n\n",
         "# by hand\n# U mu\n0.5 1.25\n2 -0.03\n",
+        "# by hand\n# U mu\n0.5, 1.25\n2, -0.03\n",
+        "# U, mu\n0.5 1.25\n2 -0.03\n",
+        "U, mu\n0.5 1.25\n2 -0.03\n",
         "% U;mu\r\n0,5;1,25;\r\n2;-0,03;\r\n",
         "\xEF\xBB\xBFU,mu\r0.5,1.25\r2,-0.03",
     };
@@ -122,8 +125,8 @@ TEST(as_it_is_written)
 
 TEST(numbers_alone)
 {
-    static const char *const same[] = {"0.5,1.25\n2,3\n", "0,5 1,25\n2 3\n", "0,5;1,25\n2;3",
-                                       "# measured\n0.5\t1.25\n2\t3\n"};
+    static const char *const same[] = {"0.5,1.25\n2,3\n", "0.5, 1.25\n2, 3\n", "0,5 1,25\n2 3\n",
+                                       "0,5;1,25\n2;3", "# measured\n0.5\t1.25\n2\t3\n"};
     for (size_t k = 0; k < sizeof same / sizeof *same; ++k) {
         Error err = {0};
         CsvTable table;
