@@ -14,6 +14,7 @@
 #include "model/contact_laws.h"
 #include "model/extremes.h"
 #include "model/gaps.h"
+#include "model/scene_mesh.h"
 #include "model/stages.h"
 #include "scene/materials.h"
 
