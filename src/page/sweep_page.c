@@ -181,7 +181,7 @@ static bool write_answer(HtmlWriter *html, PageSource *source, Error *err)
     TRY(text_file_read(path, ANSWER_BYTES_MAX, &text, &size, err));
     html_around(html, "<pre tabindex='0'>", text, "</pre>\n");
     if (!folder_holds(sweep->folder, "figures/best.png", path)) goto cleanup;
-    TRY(text_file_read(path, ANSWER_BYTES_MAX, &picture, &size, err));
+    TRY(text_file_bytes(path, ANSWER_BYTES_MAX, &picture, &size, err));
     html_markup(html, "<figure><img alt='mesh and rod of the best design' src='");
     html_data(html, "image/png", picture, size);
     html_markup(html, "'><figcaption>The best design: its mesh, and the rod.</figcaption>"
