@@ -166,7 +166,7 @@ typedef struct RunOptions {
 } RunOptions;
 
 // --- the library --------------------------------------------------------------------------------
-const char *amontons_version(void);   // "0.2.0"; static storage, like the next two
+const char *amontons_version(void);   // "0.3.0"; static storage, like the next two
 // Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
 const char *amontons_revision(void);
 const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."
