@@ -173,13 +173,12 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
             return REFUSE(err, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
                           ERROR_ENDING);
         if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
-            return REFUSE(err, "%s:%d: %s: %g with an error of %g; allowed: at most %g", table->path,
-                          row + 2, name, datum.value, datum.error, LARGEST);
+            return REFUSE(err, "%s:%d: %s: %g with an error of %g; allowed: at most %g",
+                          table->path, row + 2, name, datum.value, datum.error, LARGEST);
         if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
             return REFUSE(err,
                           "%s:%d: %s%s: %g beside %s = %g: nothing is measured to so many digits",
-                          table->path, row + 2, name, ERROR_ENDING, datum.error, name,
-                          datum.value);
+                          table->path, row + 2, name, ERROR_ENDING, datum.error, name, datum.value);
         if (!add_datum(measured, &datum, err)) return false;
     }
     return true;
