@@ -227,6 +227,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                        &simulation->warnings);
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,
                       &simulation->warnings);
+    warnings_of_units(&simulation->model, &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
     if (options->resume)

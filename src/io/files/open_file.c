@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/files/open_file.h"
 
+#include "base/system.h"
+
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/magic.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 // What is no file, in words.
@@ -31,8 +31,7 @@ static const char *kind_of(const struct stat *status)
 // A pipe without a name in any folder: its other end is open.
 static bool is_of_shell(const char *path, const struct stat *status)
 {
-    struct statfs system;
-    return S_ISFIFO(status->st_mode) && statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+    return system_is_shell_pipe(path, status->st_mode);
 }
 
 bool open_check(const char *path, Error *err)

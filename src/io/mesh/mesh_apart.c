@@ -37,7 +37,6 @@ static bool read_by_gmsh(void *context, FILE *reply, Error *err)
     if (reply) request.opened = begin_meshing;
     MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
     bool done = read && read(&request, &raw, err);
-    raw.version = request.version;
     done = done && mesh_raw_convert(&raw, request.path, reading->mesh, err);
     mesh_raw_destroy(&raw);
     Archive archive = archive_send(append, reply);

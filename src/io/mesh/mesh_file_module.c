@@ -141,7 +141,8 @@ static bool gmsh_open(const MeshRawRequest *request, Error *err)
         script = open_script(request, name, err);
         TRY(error_is_clean(err));
     }
-    gmshOpen(script >= 0 ? name : request->path, &status);
+    const char *file = request->opened_as ? request->opened_as : request->path;
+    gmshOpen(script >= 0 ? name : file, &status);
     if (status || gmsh_complained()) fail_with_log(request, "reading it", err);
 cleanup:
     if (script >= 0) close(script);
