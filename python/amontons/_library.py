@@ -173,10 +173,11 @@ def fields(struct: Any, options: Mapping[str, Any]) -> dict[str, Any]:
     """Options of a user as fields of a C struct: words where it has words, numbers where it has numbers. ctypes itself takes a
     number for an address."""
     kinds = {name: kind for name, kind, *_ in struct._fields_}
+    options_of = [name for name, kind in kinds.items() if kind in (ctypes.c_char_p, ctypes.c_bool, ctypes.c_int32, ctypes.c_double)]
     given: dict[str, Any] = {}
     for name, value in options.items():
-        if name not in kinds or issubclass(kinds[name], (ctypes._Pointer, ctypes._CFuncPtr, ctypes.Structure)):
-            raise TypeError(f"{name!r} is no option; there are {', '.join(kinds)}")
+        if name not in options_of:
+            raise TypeError(f"{name!r} is no option; there are {', '.join(options_of)}")
         if kinds[name] is not ctypes.c_char_p:
             given[name] = value
         else:

@@ -447,7 +447,7 @@ class Commands(InFolder):
         result = amontons.run(FIG1, SMALL, self.folder / "run")
         self.assertEqual([path.name for path in amontons.render(result, ["force"])], ["force.png"])
         made = amontons.film(result, self.folder / "frames", seconds=0.2, rate=10, width=640, height=360, end="U=0.001")
-        self.assertEqual(sorted(path.name for path in made.iterdir()), ["frame-0001.png", "frame-0002.png"])
+        self.assertEqual(sorted(path.name for path in made.iterdir()), ["amontons.files", "frame-0001.png", "frame-0002.png"])
         with self.assertRaisesRegex(amontons.InputError, ".mp4, .webm or .gif"):
             amontons.film(result, self.folder / "film.avi")
         if not has("matplotlib"):

@@ -137,7 +137,8 @@ static bool look_at_mesh(Error *err)
     char path[4 * PLACE_SIZE], picture[PLACE_SIZE + 20];
     snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
     snprintf(picture, sizeof picture, "%s/mesh.svg", place);
-    InfoOptions options = {.overrides = settings, .override_count = 3, .picture = picture, .overwrite = true};
+    InfoOptions options = {
+        .overrides = settings, .override_count = 3, .picture = picture, .overwrite = true};
     return amontons_info(path, &options, nowhere, err);
 }
 

@@ -93,10 +93,11 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
     }
 }
 
+static atomic_bool warned;   // also by a sweep, for its points, which are processes of its own
+
 const char *file_lock_warning(const FileLock *lock)
 {
-    static atomic_bool said;   // also of a sweep, for its points, which are processes of its own
-    if (!lock->held || lock->alone || atomic_exchange(&said, true)) return NULL;
+    if (!lock->held || lock->alone || atomic_exchange(&warned, true)) return NULL;
     return "the file system of the result's folder has no locks: nothing keeps a second "
            "computation out of it meanwhile";
 }

@@ -72,9 +72,8 @@ static bool take_folder(Sweep *sweep, Error *err)
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
         (int)sizeof sweep->folder)
         return REFUSE(err, "the path of the sweep's folder is too long");
-    if (!folder_make(sweep->folder, err) || !take_lock(sweep, err) ||
-        !refuse_taken(sweep, err) || !own_list_check(sweep->folder, err) ||
-        !own_list_make(sweep->folder, err))
+    if (!folder_make(sweep->folder, err) || !take_lock(sweep, err) || !refuse_taken(sweep, err) ||
+        !own_list_check(sweep->folder, err) || !own_list_make(sweep->folder, err))
         return false;
     snprintf(path, sizeof path, "%s/points", sweep->folder);
     return sweep->study.keep_table || folder_make(path, err);
