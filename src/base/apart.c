@@ -5,13 +5,13 @@
 
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/system.h"
 
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,24 +27,13 @@ bool apart_is_wanted(void)
 
 // --- in the child -------------------------------------------------------------------------------
 
-// Bytes of address space that this process has. 0: not known.
-static rlim_t space_in_use(void)
-{
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (!file) return 0;
-    if (fscanf(file, "%ld", &pages) != 1) pages = 0;
-    fclose(file);
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
-}
-
 static rlim_t bytes_allowed(void)
 {
     return (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE) / 4 * 3;
 }
 
 // A limit that the user has set lower stays.
-static void limit(__rlimit_resource_t resource, rlim_t most)
+static void limit(int resource, rlim_t most)
 {
     struct rlimit now;
     if (getrlimit(resource, &now) != 0 || now.rlim_cur <= most) return;
@@ -69,11 +58,11 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
         signal(SIGTERM, SIG_DFL);
         signal(SIGINT, SIG_DFL);
     }
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    system_end_with_parent();
     if (!reply || getppid() != parent) _exit(1);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, (rlim_t)work->seconds);
-    limit(RLIMIT_AS, space_in_use() + bytes_allowed());
+    limit(RLIMIT_AS, (rlim_t)system_address_space() + bytes_allowed());
     work->read(work->context, reply, &err);
     err.file = NULL;   // may lie in a module that the parent has not opened
     bool written = fwrite(&err, sizeof err, 1, reply) == 1 && fflush(reply) == 0;

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/computation.h"
+#include "base/system.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
@@ -19,7 +20,6 @@
 #include "scene/materials.h"
 #include "scene/programs.h"
 
-#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -110,7 +110,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
     if (model->from_cache) goto cleanup;
     model->is_reduced = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count,
                                                  &def, &model->reduced, err);
-    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
+    system_give_back_memory();   // what a reduction needs at once nothing needs afterwards
     if (model->is_reduced) {
         basis_cache_store(name, &model->reduced, model->cache_note);
     } else {
