@@ -51,8 +51,8 @@ static bool meets_limit(int resource, rlim_t least, const char *what)
     return false;
 }
 
-// With fewer open files gmsh and others find nothing in a file that they cannot open, and blame that.
-static bool may_open_files(void)
+// With fewer gmsh and others find nothing in a file that they cannot open, and blame that.
+static bool meets_open_files(void)
 {
     enum { OPEN_LEAST = 16 };
     struct rlimit limit;
@@ -158,7 +158,7 @@ int main(int argc, char **argv)
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it
     if (!meets_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v") ||
         !meets_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s") ||
-        !may_open_files() || !load_commands(&commands))
+        !meets_open_files() || !load_commands(&commands))
         return 1;
     if (again)
         unsetenv(KERNELS);   // read by now; whoever chose it before would have kept us from it

@@ -249,7 +249,7 @@ NOT_A_CHOICE = {
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
     "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
-    "model/assemble.c": {"NODE_BYTES": "memory"},
+    "model/scene_mesh.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {
         "NO_RATE": "rounding, with room: 0 that is not 0",
         "STRIDE": "at 1 a stiff block gets a rate that it has not (tests/unit/stepping/test_growth.c); 2 and 6 change nothing",
