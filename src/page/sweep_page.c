@@ -279,9 +279,9 @@ static bool write_points(HtmlWriter *html, PageSource *source, Error *err)
              "%d of %d points, with \u00b1 where there is an error bar; more columns in sweep.csv",
              shown, rows);
     if (run_number(&sweep->run, "scene.accuracy.mu") == 0)
-        html_markup(html,
-                    "<p class='note'>mu in the digits that finer meshes keep as a rule; "
-                    "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
+        html_markup(
+            html, "<p class='note'>mu down to the first digit that finer meshes change as a rule; "
+                  "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
     write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
     return error_is_clean(err);
 }

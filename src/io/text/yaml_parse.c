@@ -67,7 +67,8 @@ static bool add_node(YamlDocument *document, YamlKind kind, int32_t position, Ya
 // As YAML 1.2's core schema has it, without its `Null` and `NULL`.
 static bool is_null(const char *text)
 {
-    return !*text || strcmp(text, "~") == 0 || strcmp(text, "null") == 0;
+    return !*text || strcmp(text, "~") == 0 || strcmp(text, "null") == 0 ||
+           strcmp(text, "Null") == 0 || strcmp(text, "NULL") == 0;
 }
 
 // Escapes ("\uFFFE") bring characters that check_is_text does not see, and that no title or name
