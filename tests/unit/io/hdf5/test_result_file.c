@@ -141,6 +141,10 @@ TEST(numbers_have_ranges)
                {"series/time", 1e200},  {"nodes/x", -INFINITY},  {"events/kind", 3},
                {"events/kind", -1},     {"events/kind", 0.5},    {"peaks/counts", NAN},
                {"peaks/U", 1e101}};
+    char place[280], path[300];
+    snprintf(place, sizeof place, "%s/ranges", folder);   // the other file is read by others
+    snprintf(path, sizeof path, "%s/history.h5", place);
+    assert_int_equal(mkdir(place, 0777), 0);
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         Error err = {0};
         ResultHead head = head_of_a_run();
@@ -152,7 +156,7 @@ TEST(numbers_have_ranges)
         if (strcmp(bad[k].name, "nodes/pad") == 0) pads[1] = bad[k].value;
         if (strcmp(bad[k].name, "nodes/x") == 0) x[1] = bad[k].value;
         head.nodes[NODES_X] = x;
-        ArrayFile *file = result_file_create(folder, &head, &err);
+        ArrayFile *file = result_file_create(place, &head, &err);
         assert_clean(&err);
         assert_true(array_file_cut(file, "nodes/pad", 0, &err));   // the width of series is of it
         assert_true(array_file_append(file, "nodes/pad", pads, NODES, &err));
@@ -166,7 +170,7 @@ TEST(numbers_have_ranges)
             if (strcmp(bad[k].name, result_table_name(t)) == 0)
                 assert_true(result_file_write_table(file, t, &bad[k].value, 1, &err));
         assert_true(array_file_close(file, &err));
-        file = result_file_open(folder, &err);
+        file = result_file_open(place, &err);
         assert_clean(&err);
         bool good = true;
         for (int32_t s = 0; good && s < RESULT_SERIES_COUNT; s++)
@@ -188,6 +192,8 @@ TEST(numbers_have_ranges)
         err = (Error){0};
         assert_true(array_file_close(file, &err));
     }
+    unlink(path);
+    assert_int_equal(rmdir(place), 0);
 }
 
 TEST(what_is_missing_is_named)
