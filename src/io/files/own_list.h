@@ -13,6 +13,7 @@
 #include "base/error.h"
 
 #include <limits.h>
+#include <stdio.h>
 
 #define OWN_LIST_NAME "amontons.files"
 
@@ -34,12 +35,13 @@ bool own_list_refuse_taken(const char *path, Error *err);
 // Lists `path` there, once more where it is listed. Without a list nothing is done.
 bool own_list_add(const char *path, Error *err);
 
-// The names in the list of `folder`, as a text for own_list_next (owned by the caller: memory_free);
-// "" where there is no list.
-char *own_list_read(const char *folder, Error *err);
+// The list of `folder`, to be read by own_list_next and closed by fclose; NULL: there is none, or an
+// error. No memory is asked for: an earlier result is put back where it is short, too.
+FILE *own_list_open(const char *folder, Error *err);
 
-// The next name of *rest; NULL: no more. A list may be a stranger's: names that lead out of its
-// folder, or deeper than one folder in it, are passed over, as are hidden ones.
-const char *own_list_next(char **rest);
+// The next name; false: no more. A list may be a stranger's: names that lead out of its folder, or
+// deeper than one folder in it, are passed over, as are hidden ones.
+enum { OWN_NAME_SIZE = 2 * NAME_MAX + 4 };
+bool own_list_next(FILE *list, char name[OWN_NAME_SIZE]);
 
 #endif
