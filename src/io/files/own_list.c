@@ -43,8 +43,9 @@ bool own_list_is_in(const char *folder)
     return lstat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// The folder whose list is asked about `path`: its own, or the one above that. Returns how that list
-// names the path, a part of `path`; NULL: neither has a list. A link between them leads elsewhere.
+// The folder whose list is asked about `path`: its own, or the one above that. Returns how that
+// list names the path, a part of `path`; NULL: neither has a list. A link between them leads
+// elsewhere.
 static const char *find_list(const char *path, char folder[PATH_SIZE])
 {
     struct stat status;
