@@ -292,7 +292,7 @@ class Sweep(unittest.TestCase):
         self.assertIn("5 points: 5 computed", self.sweep(study=study, status=1).stdout)
         self.assertEqual(self.without_times("out"), wanted)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
-                         ["lock", "reports", "sweep.csv", "sweep.h5"])
+                         ["amontons.files", "reports", "sweep.csv", "sweep.h5"])
         self.assertIn("5 points: 0 computed", self.sweep(study=study, status=1).stdout)
         lines = reports.read_bytes().splitlines(True)
         reports.write_bytes(b"".join(lines[:2]) + lines[2][:200])
@@ -560,7 +560,7 @@ class Sweep(unittest.TestCase):
     def test_one_sweep_a_folder(self):
         import fcntl
         (self.folder / "out").mkdir()
-        with open(self.folder / "out/lock", "w") as lock:
+        with open(self.folder / "out/amontons.lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             done = self.sweep(status=1)
         self.assertIn("another sweep is running", done.stderr)

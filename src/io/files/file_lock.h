@@ -4,8 +4,8 @@
 // nothing has to be cleared up after a kill. Called by io/cache/store and
 // run/result/result_folder; part_file shares file_lock_try and file_is_named.
 //
-//   take -> (the work) -> release     take also gives up: after its limit, or where the folder cannot
-//                                     be written to
+//   take -> (the work) -> release     take also gives up: after its limit, or where the folder
+//                                     cannot be written to
 #ifndef AMONTONS_IO_FILES_FILE_LOCK_H
 #define AMONTONS_IO_FILES_FILE_LOCK_H
 
@@ -16,7 +16,8 @@
 typedef enum LockTry { LOCK_OURS, LOCK_BUSY, LOCK_NONE } LockTry;
 
 // Locks the open file without waiting. LOCK_BUSY: another process holds it. LOCK_NONE: the file
-// system has no locks (Lustre without `-o flock`, NFS without lockd, ...): the work goes on without.
+// system has no locks (Lustre without `-o flock`, NFS without lockd, ...): the work goes on
+// without.
 LockTry file_lock_try(int descriptor);
 
 typedef struct FileLock {

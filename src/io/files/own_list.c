@@ -2,24 +2,21 @@
 // Names are added by one write each, at the end: several processes may add to one list.
 #include "io/files/own_list.h"
 
-#include "base/memory.h"
 #include "base/transfer.h"
 #include "io/files/open_file.h"
-#include "io/files/text_file.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LIST_MAX = 1 << 28, PATH_SIZE = PATH_MAX + 32 };
+enum { PATH_SIZE = PATH_MAX + 32 };
 
 static const char HEAD[] = "# Files that amontons wrote here; --overwrite removes these alone.\n";
 
-// A name that a list may hold: see own_list_next.
+// Whether a list may hold this name: see own_list_next.
 static bool is_a_name(const char *name)
 {
     int32_t slashes = 0;
@@ -46,8 +43,9 @@ bool own_list_is_in(const char *folder)
     return lstat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// The folder whose list is asked about `path`: its own, or the one above that. Returns how that list
-// names the path, a part of `path`; NULL: neither has a list. A link between them leads elsewhere.
+// The folder whose list is asked about `path`: its own, or the one above that. Returns how that
+// list names the path, a part of `path`; NULL: neither has a list. A link between them leads
+// elsewhere.
 static const char *find_list(const char *path, char folder[PATH_SIZE])
 {
     struct stat status;
@@ -95,21 +93,24 @@ bool own_list_make(const char *folder, Error *err)
     return cause == 0 || FAULT(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
 }
 
-char *own_list_read(const char *folder, Error *err)
+FILE *own_list_open(const char *folder, Error *err)
 {
-    char path[PATH_SIZE], *text = NULL;
-    int32_t size = 0;
+    char path[PATH_SIZE];
     list_path(folder, path);
-    if (!own_list_is_in(folder)) return memory_text("", err);
-    text_file_read(path, LIST_MAX, &text, &size, err);
-    return text;
+    return own_list_is_in(folder) ? open_stream(path, err) : NULL;
 }
 
-const char *own_list_next(char **rest)
+// What is longer than a name may be comes in pieces, none of which is one.
+bool own_list_next(FILE *list, char name[OWN_NAME_SIZE])
 {
-    for (char *line; (line = strsep(rest, "\n"));)
-        if (is_a_name(line)) return line;
-    return NULL;
+    for (bool inside = false; fgets(name, OWN_NAME_SIZE, list);) {
+        char *end = strchr(name, '\n');
+        bool whole = !inside && (end || feof(list));
+        inside = !end;
+        if (end) *end = 0;
+        if (whole && is_a_name(name)) return true;
+    }
+    return false;
 }
 
 // Window by window, each beginning with the end of the one before: files are written in the loop of

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whose a file is. A folder is ours if it is empty or has our list, amontons.files, of the files
 // that we wrote there; a file outside of such a folder is somebody's. Only what is listed is ever
-// written over or removed without `--overwrite`, and of an earlier result nothing else goes. A name is listed before its file is made, so that a kill leaves none that is not.
+// written over or removed without `--overwrite`, and of an earlier result nothing else goes. A name
+// is listed before its file is made, so that a kill leaves none that is not.
 //
 // The list has one name a line, as seen from its folder: force.csv, or figures/force.png. Names
 // that begin with "amontons." (the list, locks) are ours everywhere.
@@ -13,6 +14,7 @@
 #include "base/error.h"
 
 #include <limits.h>
+#include <stdio.h>
 
 #define OWN_LIST_NAME "amontons.files"
 
@@ -24,8 +26,8 @@ bool own_list_is_in(const char *folder);
 bool own_list_check(const char *folder, Error *err);
 bool own_list_make(const char *folder, Error *err);   // an empty list, where there is none
 
-// *has: `path` is in the list of its folder, or of the folder above that. false: a list could not be
-// read.
+// *has: `path` is in the list of its folder, or of the folder above that. false: a list could not
+// be read.
 bool own_list_has(const char *path, bool *has, Error *err);
 
 // ERROR_INPUT: `path` is there, and no list has it.
@@ -34,12 +36,13 @@ bool own_list_refuse_taken(const char *path, Error *err);
 // Lists `path` there, once more where it is listed. Without a list nothing is done.
 bool own_list_add(const char *path, Error *err);
 
-// The names in the list of `folder`, as a text for own_list_next (owned by the caller: memory_free);
-// "" where there is no list.
-char *own_list_read(const char *folder, Error *err);
+// The list of `folder`, to be read by own_list_next and closed by fclose; NULL: there is none, or
+// an error. No memory is asked for: an earlier result is put back where it is short, too.
+FILE *own_list_open(const char *folder, Error *err);
 
-// The next name of *rest; NULL: no more. A list may be a stranger's: names that lead out of its
-// folder, or deeper than one folder in it, are passed over, as are hidden ones.
-const char *own_list_next(char **rest);
+// The next name; false: no more. A list may be a stranger's: names that lead out of its folder, or
+// deeper than one folder in it, are passed over, as are hidden ones.
+enum { OWN_NAME_SIZE = 2 * NAME_MAX + 4 };
+bool own_list_next(FILE *list, char name[OWN_NAME_SIZE]);
 
 #endif

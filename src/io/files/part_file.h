@@ -26,7 +26,8 @@ bool part_file_name(const char *path, char *part);
 
 // Opens an empty `path`.part and locks it against other writers. What is there of either name is
 // written over where it is empty, or the folder's list has `path` (io/files/own_list), which is
-// added to it; else it is somebody's: ERROR_INPUT. The lock of a killed process is waited for, for a second.
+// added to it; else it is somebody's: ERROR_INPUT. The lock of a killed process is waited for, for
+// a second.
 // ERROR_FILE names the path and the cause, here and below: also a link, a pipe or a folder in the
 // part's place (io/files/open_file).
 bool part_file_create(PartFile *file, const char *path, Error *err);

@@ -8,7 +8,6 @@
 //   amontons.gone      the new run had begun: they go
 #include "run/result/result_folder.h"
 
-#include "base/memory.h"
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
 #include "io/files/own_list.h"
@@ -60,10 +59,10 @@ static bool move_file(const char *from, const char *to, Error *err)
 static bool move_listed(const char *list, const char *from, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE] = "", inner[PATH_SIZE];
+    char name[OWN_NAME_SIZE];
     struct stat status;
-    char *names = own_list_read(list, err), *rest = names;
-    TRY(names);
-    for (const char *name; (name = own_list_next(&rest));) {
+    FILE *names = own_list_open(list, err);
+    while (names && own_list_next(names, name)) {
         int inside = strchr(name, '/') ? (int)(strchr(name, '/') - name) : 0;
         snprintf(inner, sizeof inner, "%s/%.*s", from, inside, name);
         if (inside && (lstat(inner, &status) != 0 || !S_ISDIR(status.st_mode))) continue;
@@ -79,7 +78,7 @@ static bool move_listed(const char *list, const char *from, const char *to, Erro
         if (inside) rmdir(inner);
     }
 cleanup:
-    memory_free(names);
+    if (names) fclose(names);
     return error_is_clean(err);
 }
 
@@ -96,17 +95,17 @@ static bool move_list(const char *from, const char *to, Error *err)
 static bool find_earlier(ResultFolder *folder, bool overwrite, char found[PATH_SIZE], Error *err)
 {
     static const char stopped[] = "figures/accuracy.";
-    char *names = own_list_read(folder->path, err), *rest = names;
-    if (!names) return false;
-    for (const char *name; !folder->has_earlier && (name = own_list_next(&rest));) {
+    char name[OWN_NAME_SIZE];
+    FILE *names = own_list_open(folder->path, err);
+    while (names && !folder->has_earlier && own_list_next(names, name)) {
         if (!overwrite && strncmp(name, stopped, sizeof stopped - 1) == 0) continue;
         for (int k = 0; k < ENDING_COUNT && !folder->has_earlier; k++) {
             snprintf(found, PATH_SIZE, "%s/%s%s", folder->path, name, ENDINGS[k]);
             folder->has_earlier = open_is_there(found);
         }
     }
-    memory_free(names);
-    return true;
+    if (names) fclose(names);
+    return error_is_clean(err);
 }
 
 // A result needs this name: a file of somebody's is told before anything is computed.
