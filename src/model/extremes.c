@@ -53,7 +53,7 @@ bool model_blame_extremes(Model *model, Error *err)
                  "%s is %.3g, too much for the rounding of a reduction", largest.what,
                  largest.quotient);
     else
-        snprintf(model->not_reduced, NOT_REDUCED_SIZE, "%s", err->message);
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE, "%.*s", NOT_REDUCED_SIZE - 1, err->message);
     if (model->scene->reduction.use == REDUCE_AUTO) {
         error_clear(err);
         return true;
