@@ -214,7 +214,8 @@ int main(int argc, char **argv)
     keep_memory();
     occupy_standard_streams();
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it
-    setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
+    setenv("AMONTONS_APART", "yes",
+           0);   // base/child_process; empty: in this process, for a debugger
     setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);

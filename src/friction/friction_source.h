@@ -28,6 +28,7 @@ typedef struct FrictionSource {
     const double *parameters;   // [parameter_count] of a plug-in
     int32_t parameter_count;
     double end;   // of a formula or plug-in, velocity
+    bool trusted;   // a plug-in may be run
 } FrictionSource;
 
 // What one of the keys of that map is to a law.

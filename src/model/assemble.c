@@ -77,10 +77,11 @@ bool model_read_mesh(Model *model, Error *err)
     double started = clock_seconds();
     MeshFile file = {0};
     bool done = mesh_file_read(scene->mesh.file, scene->mesh.parameters,
-                               scene->mesh.parameter_count, &file, err);
+                               scene->mesh.parameter_count, scene->trusted, &file, err);
     done = done && check_memory(scene, file.node_count, err);
     TRY(scene_blame(scene, "mesh.file", done, err));
     model->mesh_origin = file.origin;
+    memcpy(model->mesh_warning, file.warning, sizeof file.warning);
     if (file.origin == MESH_OF_OTHER_FILES && scene->reduction.cache)
         snprintf(model->cache_note, sizeof model->cache_note,
                  "the mesh file draws on more than its own text: meshed anew");

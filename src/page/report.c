@@ -2,7 +2,7 @@
 // amontons_report: which page the results want, and the page as a file.
 #include "amontons.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
@@ -69,14 +69,14 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
                      Error *err)
 {
     ReportRequest request = {results, count, file, overwrite};
-    ApartWork work = {.path = count > 0 ? results[0] : "",
+    ChildWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
                       .advice = "its history is damaged",
                       .read = write_file,
                       .context = &request};
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
-    TRY(apart_do(&work, err));
+    TRY(child_do(&work, err));
 cleanup:
     if (!error_is_clean(err)) drop_part(file);
     return error_is_clean(err);

@@ -10,8 +10,8 @@
 #include <locale.h>
 #include <string.h>
 
-bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
-                         Scene **scene, Error *err)
+static bool read_new(const char *path, const char *const *overrides, int32_t override_count,
+                     bool trusted, Scene **scene, Error *err)
 {
     *scene = NULL;
     Scene *made = NEW_ARRAY(Scene, 1, err);
@@ -23,12 +23,24 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
              "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be "
              "C (uselocale sets it for one thread)",
              point);
-    TRY(scene_read(path, overrides, override_count, made, err));
+    TRY(scene_read(path, overrides, override_count, trusted, made, err));
     *scene = made;
     made = NULL;
 cleanup:
     memory_free(made);
     return error_is_clean(err);
+}
+
+bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                         Scene **scene, Error *err)
+{
+    return read_new(path, overrides, override_count, false, scene, err);
+}
+
+bool amontons_scene_read_trusted(const char *path, const char *const *overrides,
+                                 int32_t override_count, Scene **scene, Error *err)
+{
+    return read_new(path, overrides, override_count, true, scene, err);
 }
 
 void amontons_scene_destroy(Scene *scene)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is looked for in a .geo before gmsh sees it. It lies in a folder of its own, so that what it
 // includes is not another open file of the fuzzer.
-#include "io/mesh/geo_commands.h"
+#include "io/mesh/geo_script.h"
 #include "io/mesh/geo_parameters.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -29,7 +29,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     Error err = {0};
     GeoParameters known = {0};
     write_script(data, size);
-    if (geo_commands_refuse(path, true, &err)) geo_parameters_read(path, &known, &err);
+    if (geo_script_refuse(path, true, &err)) geo_parameters_read(path, &known, &err);
     geo_parameters_destroy(&known);
     fuzz_check_freed(before);
     return 0;

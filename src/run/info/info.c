@@ -16,10 +16,11 @@ static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE
 {
     MeshFile file = {0};
     Mesh mesh = {0};
-    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
-                       err));
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
+                       scene->trusted, &file, err));
     TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
     info_write_mesh(&mesh, out);
+    if (file.warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", file.warning);
     double middle = 0, width = 0;
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
     double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
@@ -38,7 +39,9 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
     Scene *scene = NULL;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
-    TRY(amontons_scene_read(path, options->overrides, options->override_count, &scene, err));
+    bool (*read)(const char *, const char *const *, int32_t, Scene **, Error *) =
+        options->trust ? amontons_scene_read_trusted : amontons_scene_read;
+    TRY(read(path, options->overrides, options->override_count, &scene, err));
     fprintf(out, "scene %s\n  %s\n\n", path, *scene->title ? scene->title : "(no title)");
     for (int32_t k = 0; k < count; k++) {
         char value[2000];

@@ -114,9 +114,10 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     if (!parameters) goto cleanup;
     for (int32_t k = 0; k < options->override_count; k++)
         TRY(read_parameter(options->overrides[k], &parameters[k], err));
-    TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
+    TRY(mesh_file_read(path, parameters, options->override_count, options->trust, &file, err));
     TRY(mesh_build(&file, path, &mesh, err));
     info_write_mesh(&mesh, out);
+    if (file.warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", file.warning);
     if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
 cleanup:
     mesh_file_destroy(&file);

@@ -110,8 +110,8 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
     MeshFile file = {0};
     Mesh mesh = {0};
     MeshContact contact = {0};
-    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
-                       err));
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
+                       scene->trusted, &file, err));
     TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
     if (mesh.dim > 2)
         FAIL(err, ERROR_INPUT,

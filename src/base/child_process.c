@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fork without exec: a few tenths of a millisecond, and the child has all that it needs. The pipe
 // carries the reply and at its end the Error; a reply without one is that of a crash.
-#include "base/apart.h"
+#include "base/child_process.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/shut_in.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100 };
+enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100, OPEN_MAX_TRIED = 1 << 16 };
 
-bool apart_is_wanted(void)
+bool child_is_wanted(void)
 {
     const char *wanted = getenv("AMONTONS_APART");
     return wanted && *wanted;
@@ -51,7 +55,7 @@ static void limit(__rlimit_resource_t resource, rlim_t most)
     setrlimit(resource, &now);
 }
 
-void apart_allow(int32_t seconds)
+void child_allow(int32_t seconds)
 {
     struct rlimit now;
     if (getrlimit(RLIMIT_CPU, &now) != 0) return;
@@ -59,10 +63,29 @@ void apart_allow(int32_t seconds)
     setrlimit(RLIMIT_CPU, &now);
 }
 
+// Closes what else is open: a child that was misled has nothing to write to but the pipe and, for
+// the words of a crash, standard error.
+static void keep_only(int pipe)
+{
+    int nothing = open("/dev/null", O_RDWR);
+    if (nothing >= 0) {
+        dup2(nothing, STDIN_FILENO);
+        dup2(nothing, STDOUT_FILENO);
+    }
+#ifdef SYS_close_range
+    unsigned first = STDERR_FILENO + 1, number = (unsigned)pipe;
+    bool below = number == first || syscall(SYS_close_range, first, number - 1, 0) == 0;
+    if (below && syscall(SYS_close_range, number + 1, ~0U, 0) == 0) return;
+#endif
+    for (int k = STDERR_FILENO + 1; k < (int)sysconf(_SC_OPEN_MAX) && k < OPEN_MAX_TRIED; k++)
+        if (k != pipe) close(k);
+}
+
 // Never returns, and leaves the parent's streams and exit handlers alone.
-static void be_child(const ApartWork *work, int pipe, pid_t parent)
+static void be_child(const ChildWork *work, int pipe, pid_t parent)
 {
     Error err = {0};
+    if (work->shut_in) keep_only(pipe);
     FILE *reply = fdopen(pipe, "wb");
     if (!work->stop) {
         signal(SIGTERM, SIG_DFL);
@@ -73,6 +96,7 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, (rlim_t)work->seconds);
     limit(RLIMIT_AS, space_in_use() + bytes_allowed());
+    if (work->shut_in) shut_in();
     work->read(work->context, reply, &err);
     err.file = NULL;   // may lie in a module that the parent has not opened
     bool written = fwrite(&err, sizeof err, 1, reply) == 1 && fflush(reply) == 0;
@@ -81,17 +105,25 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
 
 // --- in the parent ------------------------------------------------------------------------------
 
-// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends.
-static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *reply, Error *err)
+// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends. The
+// pipe may be open in a process that the child has started, so its end is not waited for when the
+// time is over.
+static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *reply, Error *err)
 {
     int64_t room = FIRST_BYTES;
     bool told = !work->stop;   // Ctrl-C comes to both; kill to one
     struct pollfd ready = {.fd = pipe, .events = POLLIN};
+    double started = clock_seconds();
     if (!(reply->bytes = memory_bytes(room, err))) return false;
     for (;;) {
         if (!told && *work->stop) told = kill(child, SIGTERM) == 0;
+        if (work->seconds_waited && clock_seconds() - started > work->seconds_waited) {
+            kill(child, SIGKILL);
+            return REFUSE(err, "%s: %s was still reading it after %d seconds, and was ended; %s",
+                          work->path, work->reader, work->seconds_waited, work->advice);
+        }
         // A signal that came before it waited does not interrupt it.
-        if (poll(&ready, 1, told ? -1 : WAKE_MS) <= 0) continue;
+        if (poll(&ready, 1, told && !work->seconds_waited ? -1 : WAKE_MS) <= 0) continue;
         if (reply->size == room) {
             if (!memory_resize(&reply->bytes, room, 2 * room, 1, err)) return false;
             room *= 2;
@@ -105,7 +137,7 @@ static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *r
 }
 
 // The child's own error, from the end of the reply.
-static void take_error(ApartReply *reply, Error *err)
+static void take_error(ChildReply *reply, Error *err)
 {
     Error said;
     reply->size -= (int64_t)sizeof said;
@@ -115,7 +147,7 @@ static void take_error(ApartReply *reply, Error *err)
 }
 
 // Why there is no answer. ending: as waitpid has it.
-static void blame(const ApartWork *work, int ending, const struct rusage *used, Error *err)
+static void blame(const ChildWork *work, int ending, const struct rusage *used, Error *err)
 {
     double kilobytes = (double)bytes_allowed() / 1024;
     char words[200];
@@ -141,12 +173,12 @@ static void blame(const ApartWork *work, int ending, const struct rusage *used, 
 }
 
 // What the streams of this process hold is written before: the child has a copy of them.
-bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
+bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
 {
     int ends[2] = {-1, -1};
     struct rusage used = {0};
     pid_t parent = getpid();
-    *reply = (ApartReply){0};
+    *reply = (ChildReply){0};
     fflush(NULL);
     if (pipe(ends) != 0) FAIL(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
     pid_t child = fork();
@@ -166,21 +198,21 @@ bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
     else
         blame(work, ending, &used, err);
 cleanup:
-    if (!error_is_clean(err)) apart_destroy(reply);
+    if (!error_is_clean(err)) child_destroy(reply);
     return error_is_clean(err);
 }
 
-bool apart_do(const ApartWork *work, Error *err)
+bool child_do(const ChildWork *work, Error *err)
 {
-    ApartReply reply = {0};
-    bool done = apart_is_wanted() ? apart_read(work, &reply, err)
+    ChildReply reply = {0};
+    bool done = child_is_wanted() ? child_read(work, &reply, err)
                                   : work->read(work->context, NULL, err);
-    apart_destroy(&reply);
+    child_destroy(&reply);
     return done;
 }
 
-void apart_destroy(ApartReply *reply)
+void child_destroy(ChildReply *reply)
 {
     memory_free(reply->bytes);
-    *reply = (ApartReply){0};
+    *reply = (ChildReply){0};
 }
