@@ -4,11 +4,7 @@
 // take longer than an image. One thread draws at a time.
 #include "render/canvas/gl_image.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GL/osmesa.h>
-
-#include <GL/glext.h>
+#include "render/canvas/gl_names.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -147,13 +143,11 @@ static bool egl_open(GlContext *context, Error *err)
                               {"eglCreateContext", &create},
                               {0}};
     if (!library_open(context, "libEGL.so.1", symbols, err)) return false;
-    context->display = display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (context->display == EGL_NO_DISPLAY || !begin(context->display, NULL, NULL) ||
-        !bind(EGL_OPENGL_API))
+    context->display = display(EGL_PLATFORM_SURFACELESS_MESA, NULL, NULL);
+    if (!context->display || !begin(context->display, NULL, NULL) || !bind(EGL_OPENGL_API))
         return FAULT(err, ERROR_LIBRARY, "EGL draws nothing without a surface here");
-    context->egl = create(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted[0]);
-    if (context->egl == EGL_NO_CONTEXT)
-        return FAULT(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
+    context->egl = create(context->display, NULL, NULL, wanted[0]);
+    if (!context->egl) return FAULT(err, ERROR_LIBRARY, "EGL gives no OpenGL 3.3 core context");
     return true;
 }
 
@@ -164,8 +158,7 @@ static bool context_use(GlContext *context, bool use)
         return use ? context->mesa_use(context->mesa, context->token, GL_UNSIGNED_BYTE, TOKEN_SIZE,
                                        TOKEN_SIZE)
                    : context->mesa_use(NULL, NULL, 0, 0, 0);
-    return context->egl_use(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE,
-                            use ? context->egl : EGL_NO_CONTEXT);
+    return context->egl_use(context->display, NULL, NULL, use ? context->egl : NULL);
 }
 
 // --- shaders and buffers -------------------------------------------------------------------------
@@ -370,8 +363,9 @@ static Gl *gl_choose(GlSource first, Error *err)
         said[source] = gl->ready ? "in use before this process was forked" : gl->failure.message;
     }
     error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-              "maps and fields need OpenGL, by libosmesa6 or by EGL: %s; %s", said[GL_OSMESA],
-              said[GL_EGL]);
+              "maps and fields need OpenGL, by OSMesa (package libosmesa6) or by EGL (libegl1 and "
+              "libgl1-mesa-dri): %s; %s",
+              said[GL_OSMESA], said[GL_EGL]);
     return NULL;
 }
 

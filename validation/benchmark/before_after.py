@@ -7,7 +7,7 @@
 BEFORE and AFTER are folders with `amontons` and its modules (build/bin). Figure 1, set B on pads and the peers' scenes
 run once by each, on the whole mesh and on the reduced one. Compared are all arrays that both histories have; of those
 that differ the largest difference is told, over the largest value. Instructions are callgrind's, of a shorter run of the
-same whose shape is in the cache, with the pinned libraries of tests/end_to_end/test_instructions.py. Prints a table."""
+same whose shape is in the cache, with the pinned libraries of tests/reports/test_instructions.py. Prints a table."""
 import argparse
 import os
 import re
@@ -20,7 +20,7 @@ import h5py
 import numpy
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/end_to_end"))
+sys.path.insert(0, str(ROOT / "tests/reports"))
 FIG1, PADS = ROOT / "validation/paper/fig1.yaml", ROOT / "validation/pads/pads-b.yaml"
 FULL = ["reduction.use=never"]
 PEERS = ["start.friction=off", "rod.ends=nodes", "mesh.set={shape: triangle, nx: 40, nz: 40}", "time.until.U=0.006"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every number of solver, stepper, elements, reduction and recorders: those that were chosen, which constants.py
 takes to half and to twice their value, and those that follow from something else, with the reason.
-tests/end_to_end/test_constants.py keeps both lists complete. A plain limit stands in neither: its
+tests/reports/test_constants.py keeps both lists complete. A plain limit stands in neither: its
 name ends in _LIMIT. It ends what would not end by itself, or keeps out what is rounding, so far
 beyond what was seen that half and twice its value changed no step and no answer of the scenes."""
 import re

@@ -2,7 +2,7 @@
 """A slower kernel is seen, on a busy machine and on another one: what callgrind counts, layer by
 layer of src, against instructions.json beside this file.
 
-    python3 tests/end_to_end/test_instructions.py --record
+    python3 tests/reports/test_instructions.py --record
 
 writes that file anew: after a change that costs or saves instructions on purpose; say in the commit
 by how much and what for. Counts of one program repeat to some 1e-5: OpenBLAS is held to one kernel
@@ -135,7 +135,7 @@ class Instructions(unittest.TestCase):
         if recorded["compiler"] != compiler():
             self.skipTest(f"recorded with {recorded['compiler']}, this is {compiler()}")
         more, less = compare(recorded, measure())
-        record = "record it: python3 tests/end_to_end/test_instructions.py --record"
+        record = "record it: python3 tests/reports/test_instructions.py --record"
         if less:
             print("cheaper than recorded, else a later loss hides behind this gain:", record, *less, sep="\n")
         if more:
