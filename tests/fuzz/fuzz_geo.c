@@ -28,9 +28,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int64_t before = memory_counters().live;
     Error err = {0};
     GeoParameters known = {0};
+    GeoScript script = {0};
     write_script(data, size);
-    if (geo_script_refuse(path, true, &err)) geo_parameters_read(path, &known, &err);
+    if (geo_script_read(path, &script, &err)) geo_parameters_read(path, &known, &err);
+    for (int32_t line = 1; script.text && line < 100; line += 7) {
+        const char *file = NULL;
+        int32_t file_line = 0;
+        geo_script_place(&script, line, &file, &file_line);
+    }
     geo_parameters_destroy(&known);
+    geo_script_destroy(&script);
     fuzz_check_freed(before);
     return 0;
 }

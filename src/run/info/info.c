@@ -14,13 +14,15 @@
 // The mesh that the scene names, with its parameters, and where the rod stands.
 static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
 {
-    MeshFile file = {0};
+    MeshFile file = {0};   // empty once the mesh is built
+    char warning[MESH_WARNING_SIZE];
     Mesh mesh = {0};
     TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
                        scene->trusted, &file, err));
+    memcpy(warning, file.warning, sizeof warning);
     TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
     info_write_mesh(&mesh, out);
-    if (file.warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", file.warning);
+    if (warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", warning);
     double middle = 0, width = 0;
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
     double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};

@@ -108,16 +108,18 @@ static bool read_parameter(const char *word, MeshParameter *parameter, Error *er
 
 bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
-    MeshFile file = {0};
+    MeshFile file = {0};   // empty once the mesh is built
+    char warning[MESH_WARNING_SIZE];
     Mesh mesh = {0};
     MeshParameter *parameters = NEW_ARRAY(MeshParameter, options->override_count, err);
     if (!parameters) goto cleanup;
     for (int32_t k = 0; k < options->override_count; k++)
         TRY(read_parameter(options->overrides[k], &parameters[k], err));
     TRY(mesh_file_read(path, parameters, options->override_count, options->trust, &file, err));
+    memcpy(warning, file.warning, sizeof warning);
     TRY(mesh_build(&file, path, &mesh, err));
     info_write_mesh(&mesh, out);
-    if (file.warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", file.warning);
+    if (warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", warning);
     if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
 cleanup:
     mesh_file_destroy(&file);
