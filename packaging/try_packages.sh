@@ -1,14 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# As root: makes the Debian packages of a build, installs them into a bare Debian 12 with what they depend on, uses them
+# As root: makes the Debian packages of a build, installs them into a bare root of this release with what they depend on, uses them
 # there as an ordinary user (program, C program, Python script), and removes them again. What it prints is the transcript:
 # packaging/transcript.txt is one. # begins what root does there, $ what the user does.
 #
 #     cmake --build build
-#     packaging/try_packages.sh build [MIRROR] >packaging/transcript.txt
+#     packaging/try_packages.sh build [RELEASE [MIRROR]] >packaging/transcript.txt
 set -eu
 build=$(realpath "$1")
-mirror=${2-http://deb.debian.org/debian}
+# shellcheck source=/dev/null
+release=${2-$(. /etc/os-release && echo "$VERSION_CODENAME")}
+mirror=${3-http://deb.debian.org/debian}
 root=$(mktemp -d /var/tmp/amontons-root-XXXXXX)
 trap 'umount "$root/dev/pts" "$root/proc" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 chmod 755 "$root"
@@ -27,7 +29,7 @@ clean=(env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=
 as_root() { printf '\n# %s\n' "$1"; "${clean[@]}" HOME=/root chroot "$root" bash -c "cd && $1"; }
 as_user() { printf '\n$ %s\n' "$1"; "${clean[@]}" HOME=/srv/user chroot --userspec=user "$root" bash -c "cd && $1" 2>&1; }
 
-debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" 2>&1 || { tail "$root.log" >&2; exit 1; }
+debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" 2>&1 || { tail "$root.log" >&2; exit 1; }
 rm "$root.log"
 mount -t proc proc "$root/proc"
 mount -t devpts devpts "$root/dev/pts"
@@ -36,7 +38,7 @@ cp /etc/resolv.conf "$root/etc/"
 cp "$build"/packages/*.deb "$root/srv/"
 "${clean[@]}" chroot "$root" apt-get -q update >/dev/null
 
-printf '\nIn a bare Debian 12 (debootstrap --variant=minbase), the packages in /srv\n'
+printf '\nIn a bare root (debootstrap --variant=minbase %s), the packages in /srv\n' "$release"
 as_root 'cat /etc/debian_version; ls -sh /srv'
 as_root 'apt-get -qq -y install --no-install-recommends /srv/*.deb gcc libc6-dev make cmake pkg-config >log 2>&1;
   grep "Setting up.*amontons" log; grep -c "^Setting up" log'

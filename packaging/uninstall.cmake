@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Removes what the last `cmake --install` wrote (DESTDIR is respected, as there), and folders that are empty then.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 if(NOT EXISTS ${MANIFEST})
     message(FATAL_ERROR "${MANIFEST} is not there: nothing was installed from this build folder")
 endif()

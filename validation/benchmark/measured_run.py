@@ -17,6 +17,7 @@ from pathlib import Path
 
 import h5py
 import numpy
+from scipy.integrate import trapezoid
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", ROOT / "build/bin"), "amontons")
@@ -58,7 +59,7 @@ def late_mean(path):
         return math.nan
     late = time > half   # steps may be long: the half begins within one
     at, value = [half, *time[late]], [numpy.interp(half, time, mu), *mu[late]]
-    return float(numpy.trapz(value, at) / half)
+    return float(trapezoid(value, at) / half)
 
 
 def run(scene, settings, cpu_limit=60, into=None, words=(), cache=None):

@@ -210,6 +210,16 @@ bool hand_on(vtkDataArray *array, const char *name, FieldTake take, void *contex
     return take(context, &part, err);
 }
 
+// Asked cell by cell, which all versions of VTK answer, however they keep the types.
+bool hand_on_types(vtkUnstructuredGrid *grid, FieldTake take, void *context, Error *err)
+{
+    vtkNew<vtkDoubleArray> types;
+    types->SetNumberOfValues(grid->GetNumberOfCells());
+    for (vtkIdType k = 0; k < grid->GetNumberOfCells(); k++)
+        types->SetValue(k, grid->GetCellType(k));
+    return hand_on(types, "types", take, context, err);
+}
+
 // "ERROR: In FILE, line 407\nvtkXMLReader (0x55...): Cannot read it.\n\n": what stands behind the
 // address, up to the end of its line.
 std::string sentence_of(const std::string &message)
@@ -261,7 +271,7 @@ bool decode(const char *path, FieldTake take, void *context, Error *err)
         hand_on(grid->GetPoints()->GetData(), "points", take, context, err) &&
         hand_on(grid->GetCells()->GetOffsetsArray(), "offsets", take, context, err) &&
         hand_on(grid->GetCells()->GetConnectivityArray(), "connectivity", take, context, err) &&
-        hand_on(grid->GetCellTypesArray(), "types", take, context, err);
+        hand_on_types(grid, take, context, err);
     vtkPointData *fields = grid->GetPointData();
     for (int k = 0; done && k < fields->GetNumberOfArrays(); k++)
         if (vtkDataArray *array = fields->GetArray(k))

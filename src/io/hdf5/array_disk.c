@@ -204,6 +204,9 @@ void array_disk_close(ArrayDisk *disk)
 bool array_disk_use(ArrayDisk *disk, hid_t access, hid_t *driver)
 {
     static const H5FD_class_t description = {
+#ifdef H5FD_CLASS_VERSION   // since HDF5 1.14
+        .version = H5FD_CLASS_VERSION,
+#endif
         .name = "amontons_disk",
         .maxaddr = INT64_MAX,
         .fc_degree = H5F_CLOSE_STRONG,   // closing the file closes the datasets left open

@@ -78,13 +78,21 @@ static bool gmsh_complained(void)
     return complained;
 }
 
+// Since 4.9 gmshInitialize also asks whether to mesh and show at once, as the program gmsh does.
+#if GMSH_API_VERSION_MAJOR > 4 || GMSH_API_VERSION_MINOR >= 9
+#define INITIALIZE(argc, argv, configuration, status)                                              \
+    gmshInitialize(argc, argv, configuration, 0, status)
+#else
+#define INITIALIZE gmshInitialize
+#endif
+
 // Starts gmsh without its configuration files (a user's must not change our mesh), silent, with one
 // thread (so that the same .geo gives the same mesh), and with a log.
 static bool gmsh_begin(Error *err)
 {
     char name[] = "gmsh", *argv[] = {name, NULL};
     int status = 0;
-    gmshInitialize(1, argv, 0, &status);
+    INITIALIZE(1, argv, 0, &status);
     if (status) return FAULT(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
     gmshOptionSetNumber("General.Terminal", 0, &status);
     gmshOptionSetNumber("General.NumThreads", 1, &status);

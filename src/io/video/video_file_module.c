@@ -63,7 +63,14 @@ struct VideoFile {
 
 // --- the file ------------------------------------------------------------------------------------
 
-static int bytes_write(void *self, uint8_t *bytes, int size)
+// Since FFmpeg 7 (libavformat 61) what is written is const.
+#if LIBAVFORMAT_VERSION_MAJOR >= 61
+typedef const uint8_t WrittenByte;
+#else
+typedef uint8_t WrittenByte;
+#endif
+
+static int bytes_write(void *self, WrittenByte *bytes, int size)
 {
     VideoFile *film = self;
     int cause = transfer_write(film->part.descriptor, bytes, size, -1);

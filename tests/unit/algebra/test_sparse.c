@@ -339,6 +339,21 @@ static void *allocate_zeroed(size_t count, size_t bytes)
     return made ? memset(made, 0, count * bytes) : NULL;
 }
 
+// Since SuiteSparse 6 the functions it allocates by are set by functions.
+static void use_memory(void *(*make)(size_t), void *(*make_zeroed)(size_t, size_t),
+                       void (*destroy)(void *))
+{
+#if SUITESPARSE_MAIN_VERSION >= 6
+    SuiteSparse_config_malloc_func_set(make);
+    SuiteSparse_config_calloc_func_set(make_zeroed);
+    SuiteSparse_config_free_func_set(destroy);
+#else
+    SuiteSparse_config.malloc_func = make;
+    SuiteSparse_config.calloc_func = make_zeroed;
+    SuiteSparse_config.free_func = destroy;
+#endif
+}
+
 TEST(test_memory_of_the_library)
 {
     Random random = {.state = 9};
@@ -348,9 +363,7 @@ TEST(test_memory_of_the_library)
     bool done = false;
     int32_t failed = 0;
     double motions[3 * 5] = {0}, x[3 * 20];
-    SuiteSparse_config.malloc_func = allocate;
-    SuiteSparse_config.calloc_func = allocate_zeroed;
-    SuiteSparse_config.free_func = release;
+    use_memory(allocate, allocate_zeroed, release);
     for (; !done; failed++) {
         Error err = {0};
         library_left = failed;
@@ -369,8 +382,6 @@ TEST(test_memory_of_the_library)
         assert_true(failed < 200);
     }
     assert_true(failed > 20);
-    SuiteSparse_config.malloc_func = malloc;
-    SuiteSparse_config.calloc_func = calloc;
-    SuiteSparse_config.free_func = free;
+    use_memory(malloc, calloc, free);
     free_case(&made);
 }
