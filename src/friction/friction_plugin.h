@@ -19,8 +19,8 @@ typedef struct FrictionPlugin {
 } FrictionPlugin;
 
 // Opens the file, which stays open until the program ends: copies of a law may be anywhere.
-// Runs its code: only of a scene that is trusted. ERROR_INPUT where it cannot be opened, or is no such
-// plug-in.
+// Runs its code: only of a scene that is trusted. ERROR_INPUT where it cannot be opened, or is no
+// such plug-in.
 bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err);
 
 #endif

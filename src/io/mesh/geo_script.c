@@ -23,7 +23,7 @@
 // gmsh ends a string after 1023 bytes, and takes the rest of it for statements.
 enum { FILES_MAX = 1000, STRING_MAX = 1000, WORD_SIZE = 64 };
 
-// --- the lists ------------------------------------------------------------------------------------
+// --- the lists -----------------------------------------------------------------------------------
 
 // What a script may say.
 static const char ALLOWED[] =
@@ -110,7 +110,7 @@ static const struct {
     {"GetValue GetStringValue", "asks a question at the terminal"},
     {"S2N StringToName", "makes a name of a text, which could be any word"}};
 
-// --- sets of words --------------------------------------------------------------------------------
+// --- sets of words -------------------------------------------------------------------------------
 
 typedef struct Word {
     const char *text;   // not zero-terminated
@@ -178,7 +178,7 @@ static const char *why_refused(const char *text, int32_t length)
     return NULL;
 }
 
-// --- tokens ---------------------------------------------------------------------------------------
+// --- tokens --------------------------------------------------------------------------------------
 
 typedef enum TokenKind { TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING, TOKEN_SIGN, TOKEN_END } TokenKind;
 
@@ -282,7 +282,7 @@ static bool refuse_at(const Reading *reading, int32_t k, const char *why, Error 
         path, file_line, shown, reading->raw + token->at, why);
 }
 
-// --- reading --------------------------------------------------------------------------------------
+// --- reading -------------------------------------------------------------------------------------
 
 static bool is_letter(char c)
 {
@@ -447,7 +447,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- what the script names itself -----------------------------------------------------------------
+// --- what the script names itself ----------------------------------------------------------------
 
 static bool is_open(const Reading *reading, int32_t k)
 {
@@ -538,7 +538,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- judging --------------------------------------------------------------------------------------
+// --- judging -------------------------------------------------------------------------------------
 
 // Appends raw from *from to `to`, which *from becomes; blank: its lines alone.
 static bool copy_to(Reading *reading, int32_t *from, int32_t to, bool blank, Error *err)

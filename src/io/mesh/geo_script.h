@@ -28,8 +28,9 @@ typedef struct GeoScript {
 
 // Reads the .geo `path`. The text has its statements, and those of the files that it includes or
 // merges, where these stand; comments, and statements that only show or write (Printf, Save, the
-// options General.*, View[0].*, ...) are blanks. *script is destroyed by the caller. ERROR_INPUT, with
-// file and line: a word that is not on the list, a file that cannot be read, includes too deep.
+// options General.*, View[0].*, ...) are blanks. *script is destroyed by the caller. ERROR_INPUT,
+// with file and line: a word that is not on the list, a file that cannot be read, includes too
+// deep.
 bool geo_script_read(const char *path, GeoScript *script, Error *err);
 void geo_script_destroy(GeoScript *script);
 

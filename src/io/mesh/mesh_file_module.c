@@ -191,9 +191,9 @@ static bool mesh_is_whole(void)
     return whole;
 }
 
-// gmsh has said "Error" and made its mesh nevertheless, as it does where an optimiser is not compiled
-// in: its words become a warning. An error in the script itself, which has a line, is none: what stood
-// there was not done.
+// gmsh has said "Error" and made its mesh nevertheless, as it does where an optimiser is not
+// compiled in: its words become a warning. An error in the script itself, which has a line, is
+// none: what stood there was not done.
 static bool only_warns(MeshRaw *raw)
 {
     char **log = NULL;
