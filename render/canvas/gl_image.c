@@ -174,7 +174,8 @@ static const char VERSION[] = "#version 330 core\n",
                       "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
                       "}\n";
 
-// What a pixel shows between corners, and of a table of values.
+// What a pixel shows between corners, and of a table of values. There NaN shows nothing: it is
+// known by its bits, as a driver may compile comparisons as if there were no NaN (Mesa 26 does).
 static const char *const VALUE_SOURCE[PROGRAMS] = {
     [BY_CORNERS] = "in float at;\n"
                    "float value_here() { return max(at, 0.0); }\n",
@@ -182,7 +183,8 @@ static const char *const VALUE_SOURCE[PROGRAMS] = {
                   "uniform sampler2D values;\n"
                   "float value_here() {\n"
                   "    float value = texelFetch(values, ivec2(gl_FragCoord.xy * scale), 0).r;\n"
-                  "    if (!(value >= -1.5)) discard;\n"
+                  "    bool number = (floatBitsToUint(value) & 0x7fffffffu) <= 0x7f800000u;\n"
+                  "    if (!number || value < -1.5) discard;\n"
                   "    return value;\n"
                   "}\n"};
 

@@ -2,6 +2,7 @@
 // Frames wait in a ring of few: one is encoded, one is ready, one is being filled.
 #include "render/film/film_sink.h"
 
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "io/files/folder.h"
 #include "io/files/own_mark.h"
@@ -167,6 +168,7 @@ cleanup:
 // Takes one frame after the other until none follows, or one fails.
 static void *encode(void *self)
 {
+    NUMBERS_HAVE_A_POINT;
     FilmSink *sink = self;
     Error err = {0};
     pthread_mutex_lock(&sink->lock);

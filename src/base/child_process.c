@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100, OPEN_MAX_TRIED = 1 << 16 };
+enum { LOADER_FAILED = 127 };   // exit status where a library lacks a function that is called
 
 bool child_is_wanted(void)
 {
@@ -164,6 +165,11 @@ static void blame(const ChildWork *work, int ending, const struct rusage *used, 
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
                   "%s: %s was ended while reading it, at %.1f GB of memory; %s", work->path,
                   work->reader, (double)used->ru_maxrss / (1 << 20), work->advice);
+    else if (WIFEXITED(ending) && WEXITSTATUS(ending) == LOADER_FAILED)
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "%s: the libraries of %s do not fit each other (the loader says above what is "
+                  "missing): is another one first in LD_LIBRARY_PATH?",
+                  work->path, work->reader);
     else
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
                   "%s: %s crashes while reading it (%s): the file is damaged, or asks for what %s "

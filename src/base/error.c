@@ -32,7 +32,8 @@ void error_context(Error *err, const char *format, ...)
     int length = vsnprintf(err->message, sizeof err->message, format, arguments);
     va_end(arguments);
     if (length < 0 || length >= ERROR_MESSAGE_SIZE - 2) length = 0;
-    snprintf(err->message + length, sizeof err->message - (size_t)length, ": %s", cause);
+    size_t room = sizeof err->message - (size_t)length;
+    snprintf(err->message + length, room, ": %.*s", (int)room - 3, cause);
 }
 
 void error_clear(Error *err)

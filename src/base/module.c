@@ -11,22 +11,75 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-// Of the module `name`: in the folder AMONTONS_MODULES, else where modules are installed, else
-// beside this object, which is the build folder, or another module.
-static bool module_path(const char *name, char *path, size_t size, Error *err)
+enum { MODULE_PATH_SIZE = 2 * PATH_MAX + 128 };
+
+// What a module is for, and the Debian packages that it is built with.
+typedef struct ModulePart {
+    const char *name, *part, *packages;
+} ModulePart;
+
+static const ModulePart PARTS[] = {
+    {"gmsh", "meshes", "libgmsh-dev"},
+    {"hdf5", "results", "libhdf5-dev"},
+    {"vtk", "fields", "libvtk9-dev"},
+    {"render", "pictures", "libcairo2-dev, libfontconfig-dev, libpng-dev and libqhull-dev"},
+    {"libav", "films", "libavformat-dev, libavcodec-dev and libswscale-dev"},
+    {"dlib", "optimise and fit", "libdlib-dev"},
+};
+
+static const ModulePart *part_of(const char *name)
+{
+    static const ModulePart other = {"", "this", "all of its packages"};
+    for (size_t k = 0; k < sizeof PARTS / sizeof *PARTS; k++)
+        if (strcmp(PARTS[k].name, name) == 0) return &PARTS[k];
+    return &other;
+}
+
+// Finds the file of the module `name`: in the folder AMONTONS_MODULES, else where modules are
+// installed, else beside this object, which is the build folder, or another module.
+static bool module_path(const char *name, char path[MODULE_PATH_SIZE], Error *err)
 {
     const char *given = getenv("AMONTONS_MODULES");
     char folder[PATH_MAX], installed[PATH_MAX];
     const char *const places[] = {installed};
     snprintf(installed, sizeof installed, "amontons/amontons_%s.so", name);
     if (!(given && given[0])) {
-        if (place_find(places, 1, path, size)) return true;
+        if (place_find(places, 1, path, MODULE_PATH_SIZE)) return true;
         if (!place_folder(folder, sizeof folder, err)) return false;
         given = folder;
     }
-    snprintf(path, size, "%s/amontons_%s.so", given, name);
+    snprintf(path, MODULE_PATH_SIZE, "%s/amontons_%s.so", given, name);
     return true;
+}
+
+static bool module_find(const char *name, char path[MODULE_PATH_SIZE], Error *err)
+{
+    const ModulePart *part = part_of(name);
+    if (!module_path(name, path, err)) return false;
+    if (access(path, F_OK) == 0) return true;
+    return FAULT(err, ERROR_LIBRARY,
+                 "%s: this build of amontons is without (there is no %s): build it with %s "
+                 "installed",
+                 part->part, path, part->packages);
+}
+
+bool module_check(const char *name, Error *err)
+{
+    char path[MODULE_PATH_SIZE];
+    return module_find(name, path, err);
+}
+
+// Says why a module that is there does not open. loader: the loader's own words.
+static void explain(const char *name, const char *path, const char *loader, Error *err)
+{
+    const char *first = getenv("LD_LIBRARY_PATH");
+    const char *advice = "; libraries are taken from LD_LIBRARY_PATH first, which is ";
+    bool set = first && first[0];
+    error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
+              "%s: a library that %s needs cannot be loaded: %s%s%s", part_of(name)->part, path,
+              loader, set ? advice : "", set ? first : "");
 }
 
 // A module that allocates counts where we do.
@@ -38,16 +91,19 @@ static void share_tally(void *handle)
     if (share) share(memory_tally());
 }
 
-// NULL with ERROR_LIBRARY, which has the loader's own words: most often that a library is not
-// installed. The caller casts the result to the function's own type.
+// The caller casts the result to the function's own type.
 ModuleFunction module_function(const char *name, const char *symbol, Error *err)
 {
     ModuleFunction function = NULL;
-    char path[2 * PATH_MAX + 128];
-    TRY(module_path(name, path, sizeof path, err));
-    // Lazy, as programs are linked: to bind all of VTK's functions at once takes 2 ms more.
+    char path[MODULE_PATH_SIZE];
+    TRY(module_find(name, path, err));
+    // The module's own calls are looked up at once (`-z now`), those inside of its libraries
+    // lazily: to bind all of VTK's takes 2 ms more.
     void *handle = dlopen(path, RTLD_LAZY | RTLD_LOCAL);
-    if (!handle) FAIL(err, ERROR_LIBRARY, "cannot open the module %s: %s", path, dlerror());
+    if (!handle) {
+        explain(name, path, dlerror(), err);
+        goto cleanup;
+    }
     void *address = dlsym(handle, symbol);
     if (!address) FAIL(err, ERROR_LIBRARY, "the module %s has no %s", path, symbol);
     share_tally(handle);

@@ -13,7 +13,11 @@ typedef void (*ModuleFunction)(void);
 // Finds `symbol` in the module `amontons_<name>.so` beside the program or library that this is part
 // of, or in the folder `amontons` beside it, as installed (tests: in the folder AMONTONS_MODULES).
 // A module stays open until the program ends; a second call is a look-up.
-// NULL with ERROR_LIBRARY set, naming the file and what the loader said, when it cannot be had.
+// NULL with ERROR_LIBRARY set: the build left it out (says which packages it is built with), or a
+// library that it needs cannot be loaded (says what the loader said).
 ModuleFunction module_function(const char *name, const char *symbol, Error *err);
+
+// Whether the build has that module, without opening it: for what long work needs at its end.
+bool module_check(const char *name, Error *err);
 
 #endif

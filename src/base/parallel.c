@@ -3,6 +3,7 @@
 // had the caller's does all.
 #include "base/parallel.h"
 
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/thread.h"
 
@@ -46,6 +47,7 @@ static void do_pieces(Work *work, int32_t worker)
 
 static void *help(void *self)
 {
+    NUMBERS_HAVE_A_POINT;
     Helper *helper = self;
     do_pieces(helper->work, helper->number);
     helper->counted = memory_counters();

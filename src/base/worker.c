@@ -3,16 +3,15 @@
 // moved its counter the other sees: both move under the lock.
 #include "base/worker.h"
 
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/thread.h"
 
-#include <locale.h>
 #include <string.h>
 
 struct Worker {
     WorkerDef def;
     pthread_t thread;
-    locale_t locale;   // of whoever made it: a thread of a caller may have its own; owned
     pthread_mutex_t lock;   // of all that follows
     pthread_cond_t changed;
     int64_t given, done;   // jobs
@@ -40,7 +39,7 @@ static void do_job(Worker *worker)
 static void *run(void *self)
 {
     Worker *worker = self;
-    uselocale(worker->locale);
+    NUMBERS_HAVE_A_POINT;
     pthread_mutex_lock(&worker->lock);
     while (!worker->ends || worker->done < worker->given) {
         if (worker->done < worker->given)
@@ -59,16 +58,10 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     Worker *worker = NEW_ARRAY(Worker, 1, err);
     if (!worker) return false;
     worker->def = *def;
-    worker->locale = duplocale(uselocale((locale_t)0));
-    if (!worker->locale) {
-        memory_free(worker);
-        return FAULT(err, ERROR_MEMORY, "no memory for a thread");
-    }
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->changed, NULL);
     int cause = thread_start(run, worker, &worker->thread);
     if (cause != 0) {
-        freelocale(worker->locale);
         memory_free(worker);
         return FAULT(err, ERROR_MEMORY, "no thread for work beside: %s", strerror(cause));
     }
@@ -116,6 +109,5 @@ void worker_destroy(Worker *worker)
     pthread_join(worker->thread, NULL);
     pthread_cond_destroy(&worker->changed);
     pthread_mutex_destroy(&worker->lock);
-    freelocale(worker->locale);
     memory_free(worker);
 }

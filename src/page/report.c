@@ -3,6 +3,7 @@
 #include "amontons.h"
 
 #include "base/child_process.h"
+#include "base/decimal_point.h"
 #include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
@@ -68,6 +69,7 @@ static void drop_part(const char *file)
 bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
                      Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     ReportRequest request = {results, count, file, overwrite};
     ChildWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",

@@ -8,6 +8,7 @@
 // follows from the largest part of the bar: a finer mesh, or more runs on this one. The last run is
 // the scene itself on the last mesh, with all that it asks to be written, and counts too.
 #include "base/clock.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "run/accuracy_figure.h"
 #include "run/accuracy_state.h"
@@ -320,6 +321,7 @@ cleanup:
 
 bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     if (!(scene->accuracy.mu > 0)) return simulation_run(scene, options, summary, err);
     *summary = (RunSummary){.mu_M = NAN};
     ResultFolder folder = {0};

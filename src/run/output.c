@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/module.h"
 #include "friction/friction_state.h"
 #include "io/files/open_file.h"
 #include "run/result/pictures.h"
@@ -16,6 +17,14 @@
 #include <string.h>
 
 enum { FILM_PARTS = 300 };   // of the way that the rod goes, between two files of a film
+
+bool output_check(const Scene *scene, Error *err)
+{
+    bool possible = (!scene->output.fields || module_check("vtk", err)) &&
+                    (scene->output.figures.count == 0 || module_check("render", err));
+    if (!possible) error_context(err, "%s", scene->path);
+    return possible;
+}
 
 // A name a line; freed by the caller. NULL: memory is short.
 static char *join_pad_names(const Interface *interface, Error *err)

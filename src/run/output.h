@@ -6,6 +6,7 @@
 
 #include "run/simulation_state.h"
 
+bool output_check(const Scene *scene, Error *err);   // that this build can write it
 bool output_open(Simulation *simulation, Error *err);   // history and fields
 void output_warn_of_window(Simulation *simulation);   // where nothing lay in it
 bool output_store_warnings(Simulation *simulation, Error *err);   // before the history's finish

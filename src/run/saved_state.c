@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "base/computation.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/transfer.h"
 #include "io/files/open_file.h"
@@ -219,6 +220,7 @@ cleanup:
 
 bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     *state = (SavedState){0};
     return steering_is_open(simulation, err) && save(simulation, true, state, err);
 }
@@ -281,6 +283,7 @@ cleanup:
 
 bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return steering_is_open(simulation, err) && restore(simulation, true, state, err);
 }
 
@@ -295,12 +298,14 @@ bool saved_state_take_back(Simulation *simulation, const SavedState *state, Erro
 
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return part_file_put(path, state->bytes, state->size, err);
 }
 
 // Checked when it is restored.
 bool amontons_state_read(const char *path, SavedState *state, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     struct stat status;
     *state = (SavedState){0};
     int descriptor = open_to_read(path, err);

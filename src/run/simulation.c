@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "model/obtain.h"
 #include "run/checkpoint.h"
@@ -176,6 +177,7 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const RunOptions *options = &simulation->options;
+    if (options->folder && !output_check(scene, err)) return false;
     if (!result_folder_claim(options->folder, options->overwrite || options->resume,
                              &simulation->folder, err))
         return false;
@@ -241,6 +243,7 @@ cleanup:
 bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
                                 Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return simulation_create_by(scene, options, INFINITY, out, err);
 }
 
@@ -288,6 +291,7 @@ static bool advance_implicit(Simulation *simulation, Error *err)
 // periodic regime where the scene asks for it.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     StepControl *control = &simulation->control;
     double started = clock_seconds();
     if (!steering_is_open(simulation, err)) return false;
@@ -382,6 +386,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
 
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return steering_is_open(simulation, err) && simulation_finish(simulation, NULL, summary, err);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a caller of amontons.h may look at between two steps.
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "run/simulation_state.h"
 #include "run/summary.h"
@@ -13,6 +14,7 @@ void amontons_simulation_view(const Simulation *simulation, StepView *view)
 // Recovered at each call: a product with all modes of a reduced bulk.
 bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     const Mesh *mesh = &simulation->model.mesh;
     const BulkOperator *system = &simulation->model.system;
     const State *now = &simulation->control.now;

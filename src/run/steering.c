@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a caller of amontons.h may change between two steps. The energy ledger needs nothing of it:
 // work is summed over the stages with the velocity and the load that act in them.
+#include "base/decimal_point.h"
 #include "run/simulation_state.h"
 #include "base/clock.h"
 #include "run/warnings.h"
@@ -75,6 +76,7 @@ static bool check_free(const Simulation *simulation, const SceneProgram *program
 
 bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocity, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     if (!check_implicit(simulation, err)) return false;
     if (!check_free(simulation, &simulation->scene.rod.program, "rod.program", err)) return false;
     if (!scene_size_holds(velocity))
@@ -94,6 +96,7 @@ bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocit
 // interface does: waves that a load put on at once sends out are not in it (model/obtain).
 bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     const Scene *scene = &simulation->scene;
     BulkOperator *system = &simulation->model.system;
     if (!check_implicit(simulation, err)) return false;

@@ -3,6 +3,7 @@
 // times, answers. Nothing is computed here that is not known already.
 #include "run/summary.h"
 
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "record/program_results.h"
@@ -148,6 +149,7 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
 
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
+    NUMBERS_HAVE_A_POINT;
     text_estimate(value, bar, known_to, text);
 }
 

@@ -3,11 +3,11 @@
 #include "scene/scene.h"
 
 #include "amontons.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/keys.h"
 
-#include <locale.h>
 #include <string.h>
 
 static bool read_new(const char *path, const char *const *overrides, int32_t override_count,
@@ -16,13 +16,7 @@ static bool read_new(const char *path, const char *const *overrides, int32_t ove
     *scene = NULL;
     Scene *made = NEW_ARRAY(Scene, 1, err);
     TRY(made);
-    // Numbers of scenes and results are written with a point; the locale is the caller's to change.
-    const char *point = localeconv()->decimal_point;
-    if (strcmp(point, ".") != 0)
-        FAIL(err, ERROR_INPUT,
-             "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be "
-             "C (uselocale sets it for one thread)",
-             point);
+    if (!decimal_point_is_set()) FAIL(err, ERROR_MEMORY, "no memory for a locale with a point");
     TRY(scene_read(path, overrides, override_count, trusted, made, err));
     *scene = made;
     made = NULL;
@@ -34,12 +28,14 @@ cleanup:
 bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
                          Scene **scene, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return read_new(path, overrides, override_count, false, scene, err);
 }
 
 bool amontons_scene_read_trusted(const char *path, const char *const *overrides,
                                  int32_t override_count, Scene **scene, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return read_new(path, overrides, override_count, true, scene, err);
 }
 
@@ -60,6 +56,7 @@ const char *amontons_scene_title(const Scene *scene)
 
 bool amontons_scene_reference(FILE *out, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     scene_write_reference(out);
     if (fflush(out) != 0 || ferror(out))
         return FAULT(err, ERROR_FILE, "cannot write the key reference");

@@ -14,6 +14,7 @@ SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents
 COLUMNS = 100
 CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
 MACHINE = re.compile(r"(?<![\w.])/(?:work|root|home|Users|media|mnt)/\w+")
+OUTSIDE = re.compile(r'"(/(?!(?:proc|dev|tmp|usr|bin|etc)/)[\w.-]+/[^"]*)"')   # absolute paths in strings of C, but for these
 LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
 
 
@@ -42,7 +43,7 @@ HABITS = [
      r"src/cli/|src/study/sweep/computing/pool\.c|src/base/child_process\.c",
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("changes what is the process's",
-     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|worker)\.c|src/io/mesh/mesh_file_module\.c",
+     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|decimal_point)\.c|src/io/mesh/mesh_file_module\.c",
      # there: processes and a thread of their own; what gmsh changes is put back
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
     ("allocates by itself", r"src/base/memory\.c",
@@ -74,6 +75,17 @@ class Style(unittest.TestCase):
                 with self.subTest(name):
                     self.assertEqual(bad_habits(name, path.read_text()), [])
 
+    def test_numbers_have_a_point(self):
+        """Each public function that can fail, or that writes numbers, begins by that (base/decimal_point.h)."""
+        headers = "".join(path.read_text() for path in (SOURCE / "src").glob("amontons*.h")
+                          if path.name != "amontons_friction.h")
+        wanted = {name for name, arguments in re.findall(r"(?m)^\w[\w ]*\*?(amontons_\w+)\(([^;]*)\);", headers)
+                  if re.search(r"\bError \*err|\bFILE \*|\bchar text\[", arguments)}
+        self.assertGreater(len(wanted), 25)
+        for path in (SOURCE / "src").rglob("*.c"):
+            wanted -= set(re.findall(r"(?m)^\w[\w ]*\*?(amontons_\w+)\([^;{]*\)\n\{\n    NUMBERS_HAVE_A_POINT;$", path.read_text()))
+        self.assertEqual(wanted, set())
+
     def test_sees_bad_habits(self):
         for line, place, count in [
                 ("    printf(\"%d\", a);", "src/run/a.c", 1), ("    exit(1);", "render/a.c", 1),
@@ -92,6 +104,14 @@ class Style(unittest.TestCase):
                 ("static Module *opened;", "src/base/module.c", 0)]:
             with self.subTest(line):
                 self.assertEqual(len(bad_habits(place, f"int a;\n\n{line}\n")), count)
+
+    def test_tests_stay_in_their_folder(self):
+        """Where a test needs a folder that is not there, it is one that nobody can make: /proc/none."""
+        for path in sorted((SOURCE / "tests").rglob("*.[ch]")):
+            with self.subTest(str(path.relative_to(SOURCE))):
+                self.assertEqual(OUTSIDE.findall(path.read_text()), [])
+        self.assertEqual(OUTSIDE.findall('create("/nonexistent/run.json"); use("%s/run.json", "/tmp/a_XXXXXX");'),
+                         ["/nonexistent/run.json"])
 
     def test_no_place_of_a_machine(self):
         """Nothing names a folder of the machine it was made on, published tables least of all."""

@@ -18,7 +18,7 @@ PLAIN = {name: os.environ[name] for name in ("PATH", "LSAN_OPTIONS", "TMPDIR") i
 # What a library that is a guest never calls: it prints, ends or changes the process.
 HOSTS_OWN = {"printf", "puts", "putchar", "perror", "exit", "abort", "setlocale", "sigaction", "stdout",
              "stderr", "setenv", "unsetenv", "putenv", "umask", "__printf_chk", "__fprintf_chk"}
-# uselocale: in the writer's own thread alone (base/worker; test_format names the files that may call it).
+# uselocale: for numbers, while it is called (base/decimal_point; test_format names the files that may call it).
 
 
 def run(*words, check=True, **more):
@@ -60,6 +60,32 @@ class Installed(unittest.TestCase):
         self.assertTrue((result / "fields.pvd").is_file())
         maps = run("ldd", self.program).stdout
         self.assertIn(f"libamontons.so.0.2 => {self.prefix}/", re.sub(r"/bin/\.\./", "/", maps))
+
+    def test_libraries_are_looked_for_in_named_folders(self):
+        """Nothing that is built or installed looks into the folder it is called in: no empty entry in a run path, no
+        relative one. All files at once: readelf is quick, its start is not."""
+        files = [path for top in (BUILD, self.prefix) for path in sorted(top.rglob("*"))
+                 if path.is_file() and not path.is_symlink() and "CMakeFiles" not in path.parts
+                 and (path.suffix in ("", ".so") or ".so." in path.name) and path.open("rb").read(4) == b"\x7fELF"]
+        self.assertGreater(len(files), 16)
+        said = run("readelf", "--dynamic", *files).stdout
+        checked = 0
+        for part in said.split("\nFile: ")[1:]:
+            for entries in re.findall(r"\(R(?:UN)?PATH\).*\[(.*)\]", part):
+                checked += 1
+                wrong = [entry for entry in entries.split(":") if not re.match(r"\$ORIGIN(/|$)|/", entry)]
+                self.assertEqual(wrong, [], f"{part.splitlines()[0]}: {entries}")
+        self.assertGreater(checked, 8)
+
+    def test_libraries_of_the_working_folder_are_not_loaded(self):
+        """A library that came with a stranger's scene, by the name of one that the program needs."""
+        (self.folder / "theirs").mkdir()
+        (self.folder / "seen.c").write_text('#include <stdio.h>\n'
+                                            '__attribute__((constructor)) static void seen(void) { puts("loaded"); }\n')
+        run("cc", "-shared", "-fPIC", self.folder / "seen.c", "-Wl,-soname,libxxhash.so.0",
+            "-o", self.folder / "theirs/libxxhash.so.0")
+        for program in (BUILD / "bin/amontons", self.program):
+            self.assertNotIn("loaded", run(program, "--version", cwd=self.folder / "theirs").stdout, program)
 
     def test_library_shows_what_its_headers_declare(self):
         library = self.prefix / "lib/libamontons.so"
@@ -128,7 +154,7 @@ class Installed(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0)
             self.assertRegex(re.sub(r"\s+", " ", done.stderr),
                              rf"{missing} is not built, nothing is installed. First: cmake --build {build}")
-            (build / "bin/amontons").touch()   # as after the demo
+            (build / "bin/amontons").touch()   # as where cmake --build was cut off
         self.assertFalse(prefix.exists())
 
     def test_program_by_find_package(self):

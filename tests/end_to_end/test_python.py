@@ -40,6 +40,15 @@ def has(module):
     return importlib.util.find_spec(module) is not None
 
 
+class Built(unittest.TestCase):
+    @unittest.skipUnless((MODULE.parent / "build.ninja").exists() and shutil.which("ninja"), "not built by ninja")
+    def test_whoever_builds_the_program_has_the_module(self):
+        """./amontons demo builds the target `amontons` alone; docs/python.md says that the module is there then."""
+        inputs = subprocess.run(["ninja", "-C", MODULE.parent, "-t", "graph", "amontons"], capture_output=True, text=True, check=True)
+        for name in ("__init__.py", "_structs.py"):
+            self.assertIn(f"python/amontons/{name}", inputs.stdout)
+
+
 class InFolder(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp(prefix="amontons-python-"))

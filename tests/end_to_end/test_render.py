@@ -702,7 +702,7 @@ class Errors(unittest.TestCase):
 
     def test_fonts(self):
         fixture.make(self.folder)
-        os.environ["AMONTONS_FONT"] = self.folder + "/none.ttf"
+        os.environ["AMONTONS_FONT"] = self.folder + "/proc/none.ttf"
         self.expect(ERROR_LIBRARY, "none.ttf")
         os.environ["AMONTONS_FONT"] = os.path.join(self.folder, "history.h5")
         self.expect(ERROR_LIBRARY, "history.h5", "not a font")
@@ -729,7 +729,7 @@ class Errors(unittest.TestCase):
         fixture.make(self.folder)
         self.assertEqual(render(self.folder, "force")[0], 0)
         before = read_bytes(self.folder, "force")
-        os.environ["AMONTONS_FONT"] = "/none.ttf"
+        os.environ["AMONTONS_FONT"] = "/proc/none.ttf"
         self.assertEqual(render(self.folder, "force")[0], ERROR_LIBRARY)
         self.assertEqual(read_bytes(self.folder, "force"), before)
 

@@ -31,9 +31,9 @@ class Stress(unittest.TestCase):
         """The whole benchmark says so in one line."""
         for words in (["run", "--quick"], ["stress.py"]):
             ended = subprocess.run([sys.executable, FOLDER / words[0], *words[1:]], capture_output=True, text=True,
-                                   env={**os.environ, "AMONTONS_BIN": "/no/such"})
+                                   env={**os.environ, "AMONTONS_BIN": "/proc/none"})
             self.assertEqual((ended.returncode, ended.stderr),
-                             (1, "/no/such/amontons is not built: `./amontons run --help` builds it\n"))
+                             (1, "/proc/none/amontons is not built: `./amontons run --help` builds it\n"))
 
     def judged(self, case, cpu_limit=CPU):
         word, faults, _ = stress.judge(case, run(stress.SCENE, case.settings, cpu_limit), cpu_limit)

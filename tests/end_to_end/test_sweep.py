@@ -379,7 +379,7 @@ class Sweep(unittest.TestCase):
         for words, said in ("{x: mu_M, y: load.presure}", "did you mean `load.pressure`"), \
                            ("{x: load.pressure, y: mesh.set.length, color: mu_M}", "name the key in which they differ"), \
                            ("{x: mu_M}", "`y` must be given"), ("{x: mu_M, y: = l_c +}", "the formula ends"), \
-                           ("{x: mu_M, y: l_c, with: /nowhere}", "no sweep.h5 in it"):
+                           ("{x: mu_M, y: l_c, with: /proc/none}", "no sweep.h5 in it"):
             done = self.call(*draw, words)
             self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
 
@@ -598,7 +598,7 @@ class Sweep(unittest.TestCase):
 
     def test_no_slurm(self):
         done = subprocess.run([PROGRAM, "sweep", self.study(), "-o", self.folder / "out", "--slurm"], text=True,
-                              capture_output=True, env={**self.place, "PATH": "/nowhere"}, check=False)
+                              capture_output=True, env={**self.place, "PATH": "/proc/none"}, check=False)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"--slurm needs Slurm's commands .* in PATH: cannot run `scontrol`: No such file")
         self.assertIn("8 points: 8 computed", self.sweep().stdout)   # nothing stands in the way

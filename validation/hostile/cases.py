@@ -283,8 +283,8 @@ AROUND = {
     "mesh is a pipe": 'rm block.geo; mkfifo block.geo; exec "$@"',
 }
 VARIABLES = [("AMONTONS_CACHE", "scene.yaml"), ("AMONTONS_CACHE", "/proc/none"), ("AMONTONS_CACHE", "x" * 5000),
-             ("AMONTONS_MODULES", "/nowhere"), ("AMONTONS_CACHE_LIMIT", "x"), ("AMONTONS_CACHE_LIMIT", "-1"),
-             ("AMONTONS_APART", ""), ("HOME", ""), ("TMPDIR", "/nowhere"), ("TZ", "Mars/Olympus"),
+             ("AMONTONS_MODULES", "/proc/none"), ("AMONTONS_CACHE_LIMIT", "x"), ("AMONTONS_CACHE_LIMIT", "-1"),
+             ("AMONTONS_APART", ""), ("HOME", ""), ("TMPDIR", "/proc/none"), ("TZ", "Mars/Olympus"),
              ("LC_ALL", "xx_XX"), ("LANG", "tr_TR.UTF-8"), ("COLUMNS", "-7"), ("COLUMNS", "1" * 40),
              ("OPENBLAS_NUM_THREADS", "999"), ("OPENBLAS_CORETYPE", "none"), ("OMP_NUM_THREADS", "-1"),
              ("TERM", "x" * 900), ("NO_COLOR", "")]
@@ -341,7 +341,7 @@ def signals(stock):
 WORDS = ["", "runn", "run", "run x", "run --set", "run scene.yaml --set a", "run scene.yaml --set =1",
          "run scene.yaml -o", "run scene.yaml scene.yaml", "run --help x", "help nothing", "--version x", "-x",
          "run scene.yaml --to 0%", "run scene.yaml --to x", "run scene.yaml --within -1", "run scene.yaml --to 1e-300%",
-         "run scene.yaml --nothing", "info", "info nothing", "info scene.yaml --picture /nowhere/a.png",
+         "run scene.yaml --nothing", "info", "info nothing", "info scene.yaml --picture /proc/none/a.png",
          "info block.geo --set nx", "info .", "info /", "info /dev/null", "render", "render scene.yaml", "render .",
          "render out --figure x", "sweep", "sweep scene.yaml -o out", "sweep scene.yaml -j 0", "sweep scene.yaml -j x",
          "sweep scene.yaml -j 99999999999", "static", "static nothing.yaml -o out", "stability scene.yaml --from x",

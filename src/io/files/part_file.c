@@ -108,6 +108,26 @@ bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
     return true;
 }
 
+bool part_file_begin_next(const PartFile *file, PartFile *next, Error *err)
+{
+    return part_file_replace(next, file->part, true, err);
+}
+
+// The lock of the new one is held before the other's is given up.
+bool part_file_take_next(PartFile *file, PartFile *next, Error *err)
+{
+    int cause = transfer_sync(next->descriptor);
+    if (cause)
+        return FAULT(err, ERROR_FILE, "cannot write %s to disk: %s", file->part, strerror(cause));
+    if (rename(next->part, file->part) != 0)
+        return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", next->part, file->part,
+                     strerror(errno));
+    close(file->descriptor);
+    file->descriptor = next->descriptor;
+    next->open = false;
+    return true;
+}
+
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
 {
     int cause = transfer_write(file->descriptor, bytes, size, -1);

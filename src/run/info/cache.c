@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `amontons cache` asks of io/cache/cache_folder.
 #include "amontons_cache.h"
+#include "base/decimal_point.h"
 #include "io/cache/cache_folder.h"
 
 #include <stdio.h>
@@ -15,6 +16,7 @@ static bool summarise(const CacheFolder *folder, CacheSummary *summary, Error *e
 
 bool amontons_cache_list(CacheCallback on_entry, void *context, CacheSummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     CacheFolder folder = {0};
     TRY(cache_folder_read(&folder, err));
     TRY(summarise(&folder, summary, err));
@@ -31,6 +33,7 @@ cleanup:
 
 bool amontons_cache_clean(CacheSummary *removed, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     CacheFolder folder = {0};
     TRY(cache_folder_read(&folder, err));
     TRY(summarise(&folder, removed, err));

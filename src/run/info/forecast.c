@@ -3,10 +3,12 @@
 #include "amontons_simulation.h"
 #include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/decimal_point.h"
 #include "model/obtain.h"
 
 bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     Model model = {0};
     double begun = clock_processor_seconds();
     *forecast = (RunForecast){0};

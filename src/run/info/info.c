@@ -3,6 +3,7 @@
 #include "run/info/info.h"
 
 #include "amontons.h"
+#include "base/decimal_point.h"
 #include "base/text.h"
 #include "model/model.h"
 #include "scene/keys.h"
@@ -81,6 +82,7 @@ static bool is_of_result(const char *path, char folder[AMONTONS_PATH_SIZE])
 // Problems with the output (a full disk, a closed pipe) are errors too.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     struct stat status;
     InfoOptions none = {0};
     char folder[AMONTONS_PATH_SIZE];

@@ -2,6 +2,7 @@
 // A film of a stored result, by the render module; where it is asked for, of fields that its run is
 // computed once more for.
 #include "base/child_process.h"
+#include "base/decimal_point.h"
 #include "base/module.h"
 #include "render/render.h"
 #include "run/result/film_fields.h"
@@ -29,6 +30,7 @@ static bool film_in_child(void *context, FILE *reply, Error *err)
 
 bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     FilmWork film = {folder, request};
     ChildWork work = {.path = folder,
                       .reader = "HDF5 or VTK",

@@ -10,7 +10,7 @@
 #define CHECKPOINT_FILE "checkpoint.bin"   // of a run (run/checkpoint)
 
 // What proves a result, in the order in which it is to be removed; NULL: no more. Beside each there
-// may be an unfinished one, name.part, and its name.journal (io/hdf5/array_journal).
+// may be an unfinished one, name.part, and name.part.part, which is to replace it.
 const char *own_file_name(int32_t k);
 
 bool own_file_is_figure(const char *name);   // in figures/: force.png

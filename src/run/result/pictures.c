@@ -3,6 +3,7 @@
 #include "run/result/pictures.h"
 
 #include "base/child_process.h"
+#include "base/decimal_point.h"
 #include "base/module.h"
 #include "io/text/picture_options.h"
 #include "render/render.h"
@@ -22,6 +23,7 @@ bool pictures_draw(const char *folder, const PictureRequest *request, Error *err
 
 bool amontons_picture_option(PictureStyle *style, const char *name, const char *value, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     return picture_option_set(style, name, value, err);
 }
 
@@ -49,6 +51,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
 // A stranger's history may crash HDF5, or keep it busy for ever.
 bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     static const PictureRequest all = {0};
     DrawRequest draw = {folder, request ? request : &all};
     ChildWork work = {.path = folder,
@@ -63,6 +66,7 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
                                Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     RenderPlotFunction render =
         (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
     return render && render(plot, picture, style, err);

@@ -114,10 +114,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The own file number k / 3, the unfinished one, and its journal; false: no more.
+// The own file number k / 3, the unfinished one, and what is to replace that; false: no more.
 static bool own_path(const char *folder, int32_t k, char path[PATH_SIZE])
 {
-    static const char *const ends[] = {"", ".part", ".journal"};
+    static const char *const ends[] = {"", ".part", ".part.part"};
     const char *name = own_file_name(k / 3);
     if (name) snprintf(path, PATH_SIZE, "%s/%s%s", folder, name, ends[k % 3]);
     return name;

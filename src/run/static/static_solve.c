@@ -7,6 +7,7 @@
 #include "run/static/static_solve.h"
 
 #include "algebra/dense.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "friction/friction_state.h"
 #include "fem/element_group.h"
@@ -275,6 +276,7 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     Model model = model_of(scene);
     StaticSolution solution = {0};
     ResultFolder place = {0};

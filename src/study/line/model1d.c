@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "friction/friction_state.h"
 #include "run/result/result_folder.h"
@@ -267,6 +268,7 @@ static void simulation_destroy(Model1dSimulation *simulation)
 bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1dSummary *summary,
                       Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     Model1dSimulation simulation = {.scene = scene, .options = options};
     ResultFolder folder = {0};
     double started = clock_seconds();

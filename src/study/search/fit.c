@@ -8,6 +8,7 @@
 #include "study/search/fit_regions.h"
 
 #include "base/clock.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "study/search/fit_report.h"
 
@@ -173,6 +174,7 @@ static void summarise(const Fit *fit, FitSummary *summary)
 
 bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     *summary = (FitSummary){.misfit = NAN};
     Fit *fit = NEW_ARRAY(Fit, 1, err);
     TRY(fit);

@@ -5,6 +5,7 @@
 #include "study/search/optimise_report.h"
 
 #include "base/clock.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -269,6 +270,7 @@ static void summarise(const Search *search, OptimiseSummary *summary)
 bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSummary *summary,
                        Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     *summary = (OptimiseSummary){.value = NAN, .bar = NAN, .start_value = NAN, .start_bar = NAN};
     Search *search = NEW_ARRAY(Search, 1, err);
     TRY(search);

@@ -12,6 +12,7 @@
 #include "study/stability/stability.h"
 
 #include "base/clock.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
 #include "friction/friction_pace.h"
 #include "friction/friction_state.h"
@@ -362,6 +363,7 @@ static void path_destroy(StabilityPath *path)
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     StabilityPath path = {
         .options = options, .pace = 1, .critical = -1, .at_rod = -1, .mu_snap = NAN};
     ResultFolder folder = {0};

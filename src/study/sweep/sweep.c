@@ -5,7 +5,9 @@
 
 #include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/decimal_point.h"
 #include "base/memory.h"
+#include "base/module.h"
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
 #include "io/files/own_mark.h"
@@ -170,6 +172,14 @@ bool sweep_show(const Sweep *sweep, bool whole, Error *err)
     }
     for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
         TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
+    Error none = {0};
+    bool described = whole && (sweep->study.rank.wanted || sweep->study.plot_count > 0);
+    if (sweep->options->out && described && !module_check("render", &none))
+        fprintf(
+            sweep->options->out,
+            "\nThe figures are not drawn, figures/*.json has what is in them (`amontons render` "
+            "of another build draws it). %s\n",
+            none.message);
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
     if (sweep->options->out && table.no_bar)
         fprintf(sweep->options->out,
@@ -259,6 +269,7 @@ void sweep_close(Sweep *sweep)
 bool amontons_sweep_element(const char *path, const SweepOptions *options, int32_t element,
                             Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     Sweep *sweep = NULL;
     TRY(sweep_open(path, options, &sweep, err));
     snprintf(sweep->folder, sizeof sweep->folder, "%s", options->folder);
@@ -272,6 +283,7 @@ cleanup:
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     *summary = (SweepSummary){0};
     Error stopped = {0};
     Sweep *sweep = NULL;

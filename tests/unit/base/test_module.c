@@ -43,7 +43,7 @@ TEST(test_beside_the_program)
     snprintf(given, sizeof given, "%s", getenv("AMONTONS_MODULES"));
     unsetenv("AMONTONS_MODULES");
     assert_null(module_function("no_such_part", "anything", &err));
-    assert_non_null(strstr(err.message, "/tests/amontons_no_such_part.so"));
+    assert_non_null(strstr(err.message, "tests/amontons_no_such_part.so"));
     setenv("AMONTONS_MODULES", given, 1);
 }
 

@@ -5,8 +5,6 @@
 #include "base/memory.h"
 #include "cases.h"
 
-#include <langinfo.h>
-#include <locale.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -109,32 +107,6 @@ TEST(after_a_failure_nothing_is_done)
     assert_int_equal(again.code, ERROR_FILE);
     worker_destroy(rig.worker);
     expect_all(&rig, 5);
-}
-
-static bool note_codes(void *context, int32_t slot, int32_t waiting, Error *err)
-{
-    (void)slot, (void)waiting, (void)err;
-    snprintf(context, 40, "%s", nl_langinfo(CODESET));
-    return true;
-}
-
-// Numbers are written with a comma in some: a caller's thread may have a locale of its own.
-TEST(the_thread_has_its_makers_locale)
-{
-    char codes[40] = "";
-    int32_t slot;
-    Error err = {0};
-    WorkerDef def = {.slots = 1, .work = note_codes, .context = codes};
-    Worker *worker = NULL;
-    locale_t other = newlocale(LC_ALL_MASK, "C.UTF-8", NULL), before = uselocale(other);
-    assert_true(worker_create(&def, &worker, &err));
-    uselocale(before);
-    freelocale(other);
-    assert_true(worker_slot(worker, &slot, &err));
-    worker_submit(worker);
-    worker_destroy(worker);
-    assert_string_equal(codes, "UTF-8");
-    assert_string_not_equal(nl_langinfo(CODESET), "UTF-8");
 }
 
 TEST(memory_may_be_short)

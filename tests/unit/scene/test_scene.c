@@ -245,7 +245,7 @@ TEST(test_si_units)
 {
     static const char text[] =
         "units: si\n"
-        "mesh: {file: /m/b.msh, set: {length: 10 mm, nx: 4, name: \"3 kg\"}}\n"
+        "mesh: {file: /proc/b.msh, set: {length: 10 mm, nx: 4, name: \"3 kg\"}}\n"
         "material: {young: 3 GPa, poisson: 0.3, density: 1.2 g/cm3, eta1: 2 MPa s, eta2: 5}\n"
         "friction: {law: exponential-weakening, mu_static: 0.5, mu_kinetic: 0.2,\n"
         "           critical_velocity: 10um/s}\n"
@@ -255,7 +255,7 @@ TEST(test_si_units)
     Scene scene;
     Error err = {0};
     if (!scene_of_text("s.yaml", text, &scene, &err)) fail_msg("%s", err.message);
-    assert_string_equal(scene.mesh.file, "/m/b.msh");
+    assert_string_equal(scene.mesh.file, "/proc/b.msh");
     assert_true(scene.mesh.parameters[0].value == 0.01);
     assert_string_equal(scene.mesh.parameters[2].text, "3 kg");
     assert_true(scene.material.young == 3e9 && scene.material.density == 1200);
@@ -293,7 +293,7 @@ TEST(test_public_face)
     assert_true(amontons_scene_read(fig1, &override, 1, &scene, &err));
     assert_string_equal(amontons_scene_title(scene), "Mine");
     amontons_scene_destroy(scene);
-    assert_false(amontons_scene_read("/no/such.yaml", NULL, 0, &scene, &err));
+    assert_false(amontons_scene_read("/proc/none.yaml", NULL, 0, &scene, &err));
     assert_null(scene);
     amontons_scene_destroy(NULL);
 }

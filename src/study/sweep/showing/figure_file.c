@@ -2,6 +2,7 @@
 #include "study/sweep/showing/figure_file.h"
 
 #include "base/memory.h"
+#include "base/module.h"
 #include "io/files/folder.h"
 
 #include <math.h>
@@ -52,8 +53,10 @@ bool figure_end(Figure *figure, Error *err)
     json_end(figure->json);
     ArrayFile *arrays = figure->arrays;
     figure->arrays = NULL;
-    return json_finish(figure->json, err) & array_file_close(arrays, err) &&
-           figure_path(figure, "json", path, err) && figure_path(figure, ending, picture, err) &&
+    if (!json_finish(figure->json, err) | !array_file_close(arrays, err)) return false;
+    Error no_pictures = {0};   // in this build: the description stays, for one that has them
+    if (!module_check("render", &no_pictures)) return true;
+    return figure_path(figure, "json", path, err) && figure_path(figure, ending, picture, err) &&
            amontons_render_plot_file(path, picture, figure->style, err);
 }
 

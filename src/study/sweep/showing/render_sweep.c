@@ -3,6 +3,7 @@
 #include "amontons.h"
 
 #include "base/child_process.h"
+#include "base/decimal_point.h"
 #include "base/text.h"
 #include "io/text/yaml_document.h"
 #include "study/sweep/showing/figure_plot.h"
@@ -67,6 +68,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
 bool amontons_render_sweep(const char *folder, const char *plot, const PictureStyle *style,
                            Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     DrawSweep draw = {folder, plot, style};
     ChildWork work = {.path = folder,
                       .reader = "HDF5",

@@ -157,12 +157,12 @@ TEST(a_missing_folder_is_named)
 {
     Error err = {0};
     FieldGrid bulk = bulk_grid(), lines = line_grid();
-    assert_false(field_file_write("/nonexistent/a.vtu", &bulk, &err));
-    assert_error(&err, ERROR_FILE, "/nonexistent/a.vtu", "No such file or directory");
-    assert_false(field_file_write("/nonexistent/a.vtp", &lines, &err));
-    assert_error(&err, ERROR_FILE, "/nonexistent/a.vtp", "No such file or directory");
-    assert_false(field_file_write_pvd("/nonexistent/a.pvd", NULL, 0, &err));
-    assert_error(&err, ERROR_FILE, "/nonexistent/a.pvd", "No such file or directory");
+    assert_false(field_file_write("/proc/none/a.vtu", &bulk, &err));
+    assert_error(&err, ERROR_FILE, "/proc/none/a.vtu", "No such file or directory");
+    assert_false(field_file_write("/proc/none/a.vtp", &lines, &err));
+    assert_error(&err, ERROR_FILE, "/proc/none/a.vtp", "No such file or directory");
+    assert_false(field_file_write_pvd("/proc/none/a.pvd", NULL, 0, &err));
+    assert_error(&err, ERROR_FILE, "/proc/none/a.pvd", "No such file or directory");
     assert_false(field_file_write_pvd("/proc/a.pvd", NULL, 0, &err));
     assert_error(&err, ERROR_FILE, "/proc/a.pvd", "");
 }
@@ -203,7 +203,7 @@ TEST(a_missing_module_is_named)
     name_file("module.vtu");
     const char *modules = getenv("AMONTONS_MODULES");
     char *kept = strdup(modules ? modules : "");
-    setenv("AMONTONS_MODULES", "/nonexistent", 1);
+    setenv("AMONTONS_MODULES", "/proc/none", 1);
     assert_false(field_file_write(path, &bulk, &err));
     assert_error(&err, ERROR_LIBRARY, "module.vtu", "amontons_vtk");
     setenv("AMONTONS_MODULES", kept, 1);

@@ -120,7 +120,7 @@ TEST(test_refused)
     write_bytes(10);
     expect_refused(path, 9, "more than the 9 bytes");
     expect_refused(folder, 9, "is a folder");
-    expect_refused("/tmp/amontons-no-such-file", 9, "No such file");
+    expect_refused("/proc/none", 9, "No such file");
 }
 
 TEST(test_memory)

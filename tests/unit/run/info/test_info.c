@@ -214,7 +214,7 @@ TEST(test_odd_folders)
     assert_false(amontons_info(path, NULL, stdout, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     unlink(path);
-    InfoOptions options = {.picture = "/nowhere/a.png"};
+    InfoOptions options = {.picture = "/proc/none/a.png"};
     write_text("run.json", "{}");
     error_clear(&err);
     assert_false(amontons_info(folder, &options, stdout, &err));

@@ -238,7 +238,7 @@ TEST_BETWEEN(test_back_until_settled, begin, end)
         assert_true(result_folder_clear(&folder, &err));
         expect_all(OWN, OWN_COUNT, false);
         assert_false(result_folder_is_settled(&folder));
-        place_write(place, "history.h5.journal", "new");
+        place_write(place, "history.h5.part.part", "new");
         char now[PLACE_SIZE + 40];
         snprintf(now, sizeof now, "%s", place_path(place, "amontons.earlier"));
         if (k < 3) {
@@ -250,7 +250,7 @@ TEST_BETWEEN(test_back_until_settled, begin, end)
         if (k < 3) assert_true(result_folder_claim(place, true, &folder, &err));
         result_folder_release(&folder);
         expect_all(OWN, OWN_COUNT, k != 2);
-        assert_int_equal(place_has(place, "history.h5.journal"), k == 0 || k == 2);
+        assert_int_equal(place_has(place, "history.h5.part.part"), k == 0 || k == 2);
         assert_false(place_has(place, "amontons.earlier") || place_has(place, "amontons.aside") ||
                      place_has(place, "amontons.gone"));
         assert_true(prepare(place, true, &err));

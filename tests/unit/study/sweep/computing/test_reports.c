@@ -115,7 +115,7 @@ TEST(test_no_file)
 {
     Reports reports;
     Error err = {0};
-    assert_false(reports_open(&reports, "/nowhere/reports", false, &err));
+    assert_false(reports_open(&reports, "/proc/none/reports", false, &err));
     assert_int_equal(err.code, ERROR_FILE);
     reports_close(&reports);
 }

@@ -90,7 +90,7 @@ TEST(test_refused)
     assert_says(err.message, "scancel fails: scancel: error: no controller");
     fake_slurm_says(place, "scancel", "", "0");
     fake_slurm_says(place, "sbatch", "", "0");
-    setenv("PATH", "/nowhere", 1);
+    setenv("PATH", "/proc/none", 1);
     unlink(place_path(place, "out/slurm/running"));
     assert_false(sweep("", &summary, &err));
     assert_says(err.message,
@@ -112,7 +112,7 @@ TEST(test_silence)
     assert_says(err.message, "squeue does not answer: no controller");
     fake_slurm_says(place, "squeue", "", "0");
     slurm_jobs_close(&jobs);
-    assert_false(slurm_jobs_open("/nowhere/at/all", 2, &jobs, &err));
+    assert_false(slurm_jobs_open("/proc/none/at/all", 2, &jobs, &err));
 }
 
 // A squeue that fails says nothing of the jobs: they are asked for again.
