@@ -374,8 +374,8 @@ TEST(test_not_a_mesh)
     read_badly(write_file("mesh.vtk", "x", path), NULL, "a .msh or a .geo", NULL, NULL);
     read_badly(write_file("junk.msh", "hello\nworld\n", path), NULL, "is not a gmsh mesh",
                "$MeshFormat", NULL);
-    read_badly(write_file("junk.geo", "hello world\n", path), NULL, "gmsh failed while reading it",
-               "line 1", NULL);
+    read_badly(write_file("junk.geo", "hello world\n", path), NULL, "junk.geo:1: `hello`",
+               "neither a word of gmsh", NULL);
     read_badly(write_file("head.msh", "$MeshFormat\n", path), NULL, "truncated", NULL, NULL);
     read_badly(write_file("none.msh", "$MeshFormat\nx 0 8\n", path), NULL, "no version", NULL,
                NULL);
