@@ -89,7 +89,7 @@ typedef struct RunPhase {   // of a run, for --profile
     char note[96];   // "Newton steps"; or why it was skipped
 } RunPhase;
 
-enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 6, RUN_WARNING_SIZE = 400 };
+enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 8, RUN_WARNING_SIZE = 400, MESH_MOVED_SIZE = 160 };
 typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
@@ -126,6 +126,7 @@ typedef struct RunSummary {
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;
+    char mesh_moved[MESH_MOVED_SIZE];   // how the mesh was scaled and moved; empty: not at all
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
@@ -165,7 +166,7 @@ typedef struct RunOptions {
 } RunOptions;
 
 // --- the library --------------------------------------------------------------------------------
-const char *amontons_version(void);   // "0.2.0"; static storage, like the next two
+const char *amontons_version(void);   // "0.3.0"; static storage, like the next two
 // Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
 const char *amontons_revision(void);
 const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."

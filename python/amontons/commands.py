@@ -333,5 +333,5 @@ def kernels() -> str:
 
 
 def version() -> str:
-    """"0.2.0"."""
+    """"0.3.0"."""
     return plain(lib.amontons_version())

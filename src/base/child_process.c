@@ -7,20 +7,20 @@
 #include "base/memory.h"
 #include "base/process.h"
 #include "base/shut_in.h"
+#include "base/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100, OPEN_MAX_TRIED = 1 << 16 };
+enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100 };
 enum { LOADER_FAILED = 127 };   // exit status where a library lacks a function that is called
 
 bool child_is_wanted(void)
@@ -31,24 +31,13 @@ bool child_is_wanted(void)
 
 // --- in the child -------------------------------------------------------------------------------
 
-// Bytes of address space that this process has. 0: not known.
-static rlim_t space_in_use(void)
-{
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (!file) return 0;
-    if (fscanf(file, "%ld", &pages) != 1) pages = 0;
-    fclose(file);
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
-}
-
 static rlim_t bytes_allowed(void)
 {
     return (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE) / 4 * 3;
 }
 
 // A limit that the user has set lower stays.
-static void limit(__rlimit_resource_t resource, rlim_t most)
+static void limit(int resource, rlim_t most)
 {
     struct rlimit now;
     if (getrlimit(resource, &now) != 0 || now.rlim_cur <= most) return;
@@ -65,38 +54,35 @@ void child_allow(int32_t seconds)
 }
 
 // Closes what else is open: a child that was misled has nothing to write to but the pipe and, for
-// the words of a crash, standard error.
-static void keep_only(int pipe)
+// the words of a crash, standard error. kept: another one that stays; below 1: none.
+static void keep_only(int pipe, int kept)
 {
     int nothing = open("/dev/null", O_RDWR);
+    int low = kept < 1 || pipe < kept ? pipe : kept, high = kept > pipe ? kept : pipe;
     if (nothing >= 0) {
         dup2(nothing, STDIN_FILENO);
         dup2(nothing, STDOUT_FILENO);
     }
-#ifdef SYS_close_range
-    unsigned first = STDERR_FILENO + 1, number = (unsigned)pipe;
-    bool below = number == first || syscall(SYS_close_range, first, number - 1, 0) == 0;
-    if (below && syscall(SYS_close_range, number + 1, ~0U, 0) == 0) return;
-#endif
-    for (int k = STDERR_FILENO + 1; k < (int)sysconf(_SC_OPEN_MAX) && k < OPEN_MAX_TRIED; k++)
-        if (k != pipe) close(k);
+    shut_in_close(STDERR_FILENO + 1, low - 1);
+    shut_in_close(low + 1, high - 1);
+    shut_in_close(high + 1, INT_MAX);
 }
 
 // Never returns, and leaves the parent's streams and exit handlers alone.
 static void be_child(const ChildWork *work, int pipe, pid_t parent)
 {
     Error err = {0};
-    if (work->shut_in) keep_only(pipe);
+    if (work->shut_in) keep_only(pipe, work->kept);
     FILE *reply = fdopen(pipe, "wb");
     if (!work->stop) {
         signal(SIGTERM, SIG_DFL);
         signal(SIGINT, SIG_DFL);
     }
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    system_end_with_parent();
     if (!reply || getppid() != parent) _exit(1);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, (rlim_t)work->seconds);
-    limit(RLIMIT_AS, space_in_use() + bytes_allowed());
+    limit(RLIMIT_AS, (rlim_t)system_address_space() + bytes_allowed());
     if (work->shut_in) shut_in();
     work->read(work->context, reply, &err);
     err.file = NULL;   // may lie in a module that the parent has not opened

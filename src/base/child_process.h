@@ -22,6 +22,7 @@ typedef struct ChildWork {
     const char *reader;   // whose fault it is when the process crashes: "gmsh"
     int32_t seconds;   // of processor time that it may take
     int32_t seconds_waited;   // that it may take by the clock, whatever it waits for; 0: no limit
+    int kept;   // a descriptor that a child which is shut in keeps; below 1: none
     bool shut_in;   // it may only read, and write to `reply`; its standard output goes nowhere
     const char *advice;   // what to do when that is not enough
     // NULL, or a flag that the caller's handler of SIGINT and SIGTERM sets and `read` looks at: the

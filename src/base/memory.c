@@ -6,10 +6,11 @@
 // not know its length: its owner keeps it.
 #include "base/memory.h"
 
+#include "base/system.h"
+
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 enum { ALIGNMENT = 64, FIRST_ROOM = 16, LARGE_PAGE = 1 << 21 };
 
@@ -44,7 +45,7 @@ static void *aligned(size_t bytes)
     if (bytes < 2 * LARGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
     void *array = NULL;   // posix_memalign: aligned_alloc takes multiples of the alignment only
     if (posix_memalign(&array, LARGE_PAGE, bytes) != 0) return NULL;
-    madvise(array, bytes, MADV_HUGEPAGE);
+    system_use_large_pages(array, bytes);
     return array;
 }
 

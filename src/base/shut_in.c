@@ -5,6 +5,10 @@
 // lie in memory, where a filter cannot look.
 #include "base/shut_in.h"
 
+#include <unistd.h>
+
+enum { DESCRIPTORS_MAX = 1 << 16 };   // that are closed one by one
+
 #ifdef __linux__
 
 #include <errno.h>
@@ -19,7 +23,6 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
-#include <unistd.h>
 
 #if defined __x86_64__
 #define ARCHITECTURE AUDIT_ARCH_X86_64
@@ -172,3 +175,14 @@ bool shut_in(void)
 }
 
 #endif
+
+void shut_in_close(int first, int last)
+{
+    if (last < first) return;
+#ifdef SYS_close_range
+    if (syscall(SYS_close_range, (unsigned)first, (unsigned)last, 0) == 0) return;
+#endif
+    long most = sysconf(_SC_OPEN_MAX);
+    if (most < 0 || most > DESCRIPTORS_MAX) most = DESCRIPTORS_MAX;
+    for (int k = first; k <= last && k < most; k++) close(k);
+}

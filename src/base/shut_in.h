@@ -13,4 +13,7 @@
 // cannot do that, and nothing is changed but that no process can be started by an ordinary user.
 bool shut_in(void);
 
+// Closes the descriptors from `first` to `last` that are open.
+void shut_in_close(int first, int last);
+
 #endif

@@ -233,6 +233,7 @@ static void print_answers(const RunSummary *summary)
     print_critical_length(summary);
     print_resolution(summary);
     print_program(summary);
+    if (*summary->mesh_moved) say("  mesh            %s\n", summary->mesh_moved);
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;

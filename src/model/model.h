@@ -40,7 +40,6 @@ typedef struct Model {
     double breadth;   // of the block along y, length; 1 in the plane, where forces are per width
     double middle;   // x of its middle, length
     MeshOrigin mesh_origin;   // where it was read
-    char mesh_warning[MESH_WARNING_SIZE];   // MeshFile.warning
     ObservationScales scales;   // what forces, times and velocities are measured with
     ChoiceSizes choice;   // what reduction.use: auto goes by
     ExpectedCost expected;

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/computation.h"
+#include "base/system.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
@@ -14,10 +15,10 @@
 #include "model/contact_laws.h"
 #include "model/extremes.h"
 #include "model/gaps.h"
+#include "model/scene_mesh.h"
 #include "model/stages.h"
 #include "scene/materials.h"
 
-#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -110,7 +111,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
     bool built = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count, &def,
                                           &model->reduced, err);
     TRY(model_blame_extremes(model, built, err));
-    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
+    system_give_back_memory();   // what a reduction needs at once nothing needs afterwards
     basis_cache_store(name, &model->reduced, model->cache_note);
 cleanup:
     file_lock_release(&lock);

@@ -15,11 +15,6 @@ static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error 
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
     const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
     if (!group) return false;
-    if (group->blurred)
-        return REFUSE(err,
-                      "%s: which elements belong to group '%s' cannot be told: another group has "
-                      "its elementary number (save the mesh in format 4.1)",
-                      mesh->path, name);
     for (int32_t k = 0; k < group->element_count; k++) {
         int32_t e = group->elements[k];
         if (owner[e])

@@ -87,6 +87,8 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_boolean(json, "by_halves", model->reduced.part_count > 1);
     json_text(json, "mesh_by", model->mesh_origin == MESH_OF_CACHE ? "cache" : "gmsh");
     json_boolean(json, "from_cache", model->from_cache);
+    json_number(json, "mesh_scale", model->mesh.move.scale);
+    json_number_list(json, "mesh_shift", model->mesh.move.shift, model->mesh.dim);
     write_expected(json, model);
     json_numbers_of(json, {"length", model->length}, {"height", model->height});
     json_object_of(json, "wave_speeds", {"longitudinal", speeds.longitudinal},

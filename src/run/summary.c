@@ -205,6 +205,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .figures = simulation->figures};
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
+    mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
     note_slip(simulation, answers->first, summary);
     note_program(&simulation->readings, summary);
     memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);

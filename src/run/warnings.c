@@ -15,6 +15,7 @@
 
 #include "friction/friction_state.h"
 #include "record/drops.h"
+#include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
 
@@ -249,6 +250,35 @@ void warnings_of_shape(const Scene *scene, double length, double height, RunWarn
                      "mesh.set.height is not, so it is %.4g, that of the mesh file, over a length "
                      "of %.4g: set mesh.set.height",
                      height / length, height, length);
+}
+
+// A block longer than this was drawn in mm, most likely, m.
+static const double LENGTH_PLAUSIBLE = 20;
+// Speeds of longitudinal waves in solids, m/s: soft gels have some 1, diamond 18 000.
+static const double SOUND_SLOWEST = 0.2, SOUND_FASTEST = 3e4;
+
+void warnings_of_units(const Model *model, RunWarnings *warnings)
+{
+    const Scene *scene = model->scene;
+    if (scene->units != UNITS_SI) return;
+    bool by_scene = scene->mesh.scale != 1 || scene->given[scene_key_index("mesh.unit")];
+    if (model->length > LENGTH_PLAUSIBLE && !by_scene)
+        warnings_add(
+            warnings,
+            "a block of %.3g m: an SI scene takes the coordinates of a mesh for metres; one "
+            "that is drawn in mm needs `mesh: {unit: mm}`",
+            model->length);
+    for (int32_t k = 0; k < model->materials.count; k++) {
+        const Material *material = &model->materials.list[k];
+        double sound = material_speeds(material).longitudinal;
+        if (sound >= SOUND_SLOWEST && sound <= SOUND_FASTEST) continue;
+        warnings_add(
+            warnings,
+            "sound of %.3g m/s in `%s`: no solid has that; are Young's modulus, %.3g Pa, and "
+            "density, %.4g kg/m3, in these units (3.3 GPa, 1190 kg/m3)?",
+            sound, scene_region_name(scene, k), material->young, material->density);
+        return;
+    }
 }
 
 // Less of the strip than this may miss the face, relative to its width: rounding of either.

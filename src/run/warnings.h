@@ -31,6 +31,8 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings);
 // A block that is taller than long though only its length was given: one that a mesh file made so
 // by a height of its own.
 void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings);
+// In an SI scene: a block, or a speed of sound, of a size that a unit left out would explain.
+void warnings_of_units(const Model *model, RunWarnings *warnings);
 // The rod's strip against the extent of its face; height: H, length.
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);

@@ -182,6 +182,14 @@ static bool check_groups(const Check *check)
     return true;
 }
 
+static bool check_mesh(const Check *check)
+{
+    bool plain = check->scene->units == UNITS_NORMALISED && is_given(check, "mesh.unit");
+    return !plain ||
+           blame(check, "mesh.unit",
+                 "a normalised scene has no units of length: give mesh.scale, or units: si");
+}
+
 static bool check_rod(const Check *check)
 {
     if (check->scene->rod.kind != ROD_NONE || !is_given(check, "rod.stiffness")) return true;
@@ -351,6 +359,7 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_materials(&check) && check_groups(&check) && check_rod(&check) &&
-           check_programs(&check) && check_time(&check) && check_output(&check);
+           check_materials(&check) && check_groups(&check) && check_mesh(&check) &&
+           check_rod(&check) && check_programs(&check) && check_time(&check) &&
+           check_output(&check);
 }

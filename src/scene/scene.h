@@ -29,6 +29,21 @@ typedef enum SceneScheme {
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
 
+// The units of a drawing, and how many metres they have.
+#define SCENE_LENGTHS(X)                                                                           \
+    X(LENGTH_M, "m", 1)                                                                            \
+    X(LENGTH_CM, "cm", 1e-2)                                                                       \
+    X(LENGTH_MM, "mm", 1e-3)                                                                       \
+    X(LENGTH_UM, "um", 1e-6)                                                                       \
+    X(LENGTH_NM, "nm", 1e-9)                                                                       \
+    X(LENGTH_KM, "km", 1e3)                                                                        \
+    X(LENGTH_INCH, "inch", 0.0254)
+typedef enum SceneLength {
+#define X(symbol, name, metres) symbol,
+    SCENE_LENGTHS(X)
+#undef X
+} SceneLength;
+
 typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
     char title[SCENE_TEXT_SIZE];
@@ -37,11 +52,15 @@ typedef struct Scene {
         char file[SCENE_TEXT_SIZE];   // resolved against the scene file's folder
         int32_t parameter_count;
         MeshParameter parameters[SCENE_LIST_MAX];   // mesh.set.*
+        SceneLength unit;   // of the drawing
+        double scale;   // of its coordinates, beside its unit
+        SceneNumbers shift;   // by so much it is moved, [dim], length; none: onto the substrate
     } mesh;
     struct {
         char top[GROUP_NAME_SIZE], rod[GROUP_NAME_SIZE];   // groups.top, groups.rod
         SceneNames contact;   // groups.contact: one name or a list; empty: every curve
             // group called "contact" or "contact_..."
+        SceneNames body;   // regions that are the block; none: all
     } groups;
     struct {
         double young, poisson, density, eta1, eta2;

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "scene/units.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -84,14 +85,34 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
     return true;
 }
 
+// ERROR_INPUT: "0,003", or a minus sign that is none of ASCII, as word processors and spreadsheets
+// have it.
+static bool check_typing(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    static const char minus[] = "\xE2\x88\x92", dash[] = "\xE2\x80\x93";   // U+2212, U+2013
+    const char *text = yaml_text(value->document, value->node);
+    const char *comma = strchr(text, ',');
+    if (comma > text && isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`, with a comma: decimals follow a point, as in 0.003",
+                          key->name, text);
+    if (strstr(text, minus) || strstr(text, dash))
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`, with a minus sign or dash of a word processor: the "
+                          "hyphen of the keyboard, -, is needed",
+                          key->name, text);
+    return true;
+}
+
 // Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
                         double *number, Error *err)
 {
     const char *suffix = "";
     if (!expect_scalar(key, value, err)) return false;
-    if (!split_number(yaml_text(value->document, value->node), number, &suffix))
-        return report_wrong(key, value, err);
+    const char *text = yaml_text(value->document, value->node);
+    if (!check_typing(key, value, err)) return false;
+    if (!split_number(text, number, &suffix)) return report_wrong(key, value, err);
     if (!apply_unit(key, value, units, suffix, number, err)) return false;
     if (!isfinite(*number)) return report_wrong(key, value, err);
     if (!scene_size_holds(*number))

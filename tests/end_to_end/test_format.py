@@ -46,7 +46,7 @@ HABITS = [
      r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|decimal_point)\.c|src/io/mesh/mesh_file_module\.c",
      # there: processes and a thread of their own; what gmsh changes is put back
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
-    ("allocates by itself", r"src/base/memory\.c",
+    ("allocates by itself", r"src/base/(memory|system)\.c",
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
     ("opens a file by itself", r"src/io/files/open_file\.c",   # HDF5, libav, VTK and Cairo get what is open already
      r'(?<![>.])\b(fopen|freopen|creat|mkstemp|mkostemp|open|openat)\((?!"/dev/null"|"/proc/|[^;]*O_DIRECTORY)'

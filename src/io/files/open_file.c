@@ -4,12 +4,12 @@
 // killed. A file system without such bits (FAT) forgets it: what was left there is then refused.
 #include "io/files/open_file.h"
 
+#include "base/system.h"
+
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/magic.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 // What is no file, in words.
@@ -34,8 +34,7 @@ static const char *kind_of(const struct stat *status)
 // A pipe without a name in any folder: its other end is open.
 static bool is_of_shell(const char *path, const struct stat *status)
 {
-    struct statfs system;
-    return S_ISFIFO(status->st_mode) && statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+    return system_is_shell_pipe(path, status->st_mode);
 }
 
 bool open_check(const char *path, Error *err)

@@ -42,7 +42,6 @@ static bool read_by_gmsh(void *context, FILE *reply, Error *err)
     if (reply && request.trusted) dup2(STDERR_FILENO, STDOUT_FILENO);
     MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
     bool done = read && read(&request, &raw, err);
-    raw.version = request.version;
     done = done && mesh_raw_convert(&raw, request.path, reading->mesh, err);
     if (done) memcpy(reading->mesh->warning, raw.warning, sizeof raw.warning);
     mesh_raw_destroy(&raw);
@@ -60,6 +59,7 @@ bool mesh_child_read(const MeshRawRequest *request, MeshFile *mesh, Error *err)
                       .seconds = READING_SECONDS,
                       .seconds_waited = SECONDS_WAITED,
                       .shut_in = !request->trusted,
+                      .kept = request->descriptor,
                       .advice = "where it is not endless: coarser cells, or mesh it by gmsh itself "
                                 "and name the .msh",
                       .read = read_by_gmsh,

@@ -146,7 +146,8 @@ static bool gmsh_open(const MeshRawRequest *request, int *status, Error *err)
 {
     char name[SCRIPT_NAME_SIZE];
     int file = -1;
-    bool by_path = request->trusted && request->parameter_count == 0;
+    const char *path = request->opened_as ? request->opened_as : request->path;
+    bool by_path = request->opened_as || (request->trusted && request->parameter_count == 0);
     if (request->script || request->parameter_count > 0)
         file = memfd_create("geo", MFD_CLOEXEC);
     else if (!by_path)
@@ -155,7 +156,7 @@ static bool gmsh_open(const MeshRawRequest *request, int *status, Error *err)
         FAIL(err, ERROR_FILE, "%s: cannot be opened: %s", request->path, strerror(errno));
     if (request->script || request->parameter_count > 0) TRY(write_script(request, file, err));
     snprintf(name, sizeof name, "/proc/self/fd/%d", file);
-    gmshOpen(by_path ? request->path : name, status);
+    gmshOpen(by_path ? path : name, status);
 cleanup:
     if (file >= 0) close(file);
     return error_is_clean(err);

@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "study/sweep/computing/tally.h"
 
@@ -16,7 +17,6 @@
 #include <malloc.h>
 #include <poll.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -59,7 +59,7 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
     int32_t point;
     signal(SIGTERM, SIG_DFL);
     signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    system_end_with_parent();
     if (getppid() != parent) _exit(1);
     mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
     mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);

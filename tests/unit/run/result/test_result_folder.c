@@ -40,9 +40,9 @@ static const char *ours(const char *name)
     if (strcmp(name, "figures/accuracy.json") == 0) return "{\"x\": {\"label\": \"contact nodes\"";
     for (size_t k = 0; k < sizeof held / sizeof *held; k++)
         if (text_ends_with(name, held[k][0])) return held[k][1];
-    if (text_ends_with(name, ".html")) return "<meta name='generator' content='amontons 0.2.0'>";
-    if (text_ends_with(name, ".svg")) return "<svg/><!-- amontons 0.2.0 -->";
-    return "/Creator (amontons 0.2.0)";
+    if (text_ends_with(name, ".html")) return "<meta name='generator' content='amontons 0.3.0'>";
+    if (text_ends_with(name, ".svg")) return "<svg/><!-- amontons 0.3.0 -->";
+    return "/Creator (amontons 0.3.0)";
 }
 
 static void write_ours(const char *const *names, size_t count)
@@ -50,7 +50,7 @@ static void write_ours(const char *const *names, size_t count)
     mkdir(place_path(place, "fields"), 0777);
     mkdir(place_path(place, "figures"), 0777);
     for (size_t k = 0; k < count; k++) {
-        static const char png[] = "Software\0amontons 0.2.0";
+        static const char png[] = "Software\0amontons 0.3.0";
         place_write(place, names[k], ours(names[k]));
         if (!text_ends_with(names[k], ".png")) continue;
         FILE *file = fopen(place_path(place, names[k]), "wb");
