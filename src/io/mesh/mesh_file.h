@@ -92,8 +92,8 @@ typedef struct MeshParameter {
 //
 // Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has
 // a volume in 3D, else in 2D. A .geo that has made such a mesh itself keeps it; Mesh.ScalingFactor
-// and Mesh.SaveAll of a .geo count as where gmsh writes a mesh. trusted: a .geo may do what gmsh can
-// (run commands, write files, open others); else what io/mesh/geo_script allows. Errors
+// and Mesh.SaveAll of a .geo count as where gmsh writes a mesh. trusted: a .geo may do what gmsh
+// can (run commands, write files, open others); else what io/mesh/geo_script allows. Errors
 // (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind that is
 // not in ELEMENT_KINDS, a parameter the .geo does not know, a name that two
 // groups of one dimension have. A mesh without volumes that is not in the plane z = 0 of gmsh is
