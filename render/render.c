@@ -3,6 +3,7 @@
 #include "render/render.h"
 
 #include "io/files/folder.h"
+#include "io/text/picture_options.h"
 #include "render/canvas/foot.h"
 #include "render/figure_data.h"
 #include "render/figures/figures.h"
@@ -219,8 +220,14 @@ static bool request_check(const char *folder, const PictureRequest *request, Err
 {
     struct stat about;
     Picture picture;
+    const char *names[PANELS_MAX];
     for (int32_t k = 0; k < picture_count(request); ++k)
         if (!find_picture(request, k, &picture, err)) return false;
+    for (int32_t k = 0; request->panels && k < picture.count; ++k) names[k] = picture.parts[k].name;
+    const char *const *asked = request->panels ? names : request->figures;
+    int32_t count = request->panels ? picture.count : request->figure_count;
+    if (count > 0 && !picture_options_fit(&request->style, &request->field, asked, count, err))
+        return false;
     if (stat(folder, &about) != 0)
         return REFUSE(err, "cannot find the result folder %s: %s", folder, strerror(errno));
     return S_ISDIR(about.st_mode) || REFUSE(err, "%s is not a folder", folder);

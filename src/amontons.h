@@ -106,6 +106,7 @@ typedef struct RunSummary {
     // Of an error bar (accuracy.mu): runs, meshes, contact nodes of the last, why no more (static).
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
+    bool bar_goes_on;   // its runs go on where time.until would have ended the scene's own
     const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted, period;   // seen; in mu_M; they repeat after so many, or 0
@@ -113,12 +114,15 @@ typedef struct RunSummary {
     bool drops_enough;   // and repeat, or the mean of 30 and more is known to 2 %
     const char *run_in;   // why run-in is not over (static storage); NULL: it is
     double run_in_drift, run_in_drops_left;   // of mu a drop, relative; for so many more; NaN
-    int32_t quasi_static, bounded, leading;   // events by kind
+    int32_t quasi_static, bounded, leading, slight;   // events by kind; slight: no precursors
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
     // Of the load drops that count, the one with the fewest cells: how much slipped where slow slip
     // turned fast, length and cells; NaN: none. The pad's name; empty: a contact in one piece.
     double slip_length, slip_cells;
     char slip_pad[64];
+    // Names in the order in which pads let go before the last sliding of the whole block, "left,
+    // middle with right"; empty: there was none, or the contact is one piece.
+    char pads_order[200];
     // Of a program whose velocity jumps (results.program): value and error; NaN: not known.
     int32_t velocity_steps, holds;
     double direct_effect[2], level_change[2];   // per ln(V2/V1)

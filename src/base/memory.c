@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each thread has counters of its own, so that simulations in several threads count what is theirs;
-// a module counts in those of the library that opened it (memory_use_tally).
+// a module counts in those of the library that opened it (amontons_module_tally).
 // Every array begins at a multiple of 64 bytes, a cache line and the widest vector, and its size is
 // rounded up to whole lines, so that loops over it may be vectorised to its end. An array does
 // not know its length: its owner keeps it.

@@ -207,10 +207,24 @@ static void keep_memory(void)
     mallopt(M_TRIM_THRESHOLD, -1);
 }
 
+// With fewer gmsh and others find nothing in a file that they cannot open, and blame that.
+static void meet_open_files(void)
+{
+    enum { OPEN_LEAST = 16 };
+    struct rlimit limit;
+    char words[160];
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= OPEN_LEAST) return;
+    int length = snprintf(words, sizeof words,
+                          "amontons: error: only %lu files may be open (ulimit -n); it takes %d\n",
+                          (unsigned long)limit.rlim_cur, (int)OPEN_LEAST);
+    refuse_to_start(words, length);
+}
+
 // A full disk or a closed pipe may show only when the last output is written: a command whose
 // answer is lost has failed.
 int main(int argc, char **argv)
 {
+    meet_open_files();
     keep_memory();
     occupy_standard_streams();
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it

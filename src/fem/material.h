@@ -67,6 +67,10 @@ typedef struct WaveSpeeds {
 // Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
+// Damping over critical damping of the least damped wave of `length` (half a wave long): above 1 no
+// wave of this length or shorter runs, as damping grows with the wave number.
+double material_wave_damping(const Material *material, double length);
+
 // The norm of the displacement gradient under a pressure across it and a shear stress along it:
 // (tau/G, p/E'), E' that of uniaxial stress in the plane.
 double material_gradient(const Material *material, double pressure, double shear);

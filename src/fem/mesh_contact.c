@@ -32,7 +32,7 @@ double mesh_gap(const Mesh *mesh, int32_t node)
     return z > PLACE_TOLERANCE * extent(mesh) ? z : 0;
 }
 
-// By x first, by z last. `context` comes third, as system_sort passes it: no state outside the call.
+// By x first, by z last. `context` comes third, as system_sort passes it: no state outside of it.
 static int compare_places(const void *a, const void *b, void *context)
 {
     const Mesh *mesh = context;

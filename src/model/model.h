@@ -25,6 +25,7 @@ typedef struct Model {
     Materials materials;
     RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
     int32_t contact_region;   // of which of them the contact (its first pad) is
+    bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
     FrictionLaw law;
     FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
     Mesh mesh;   // owned, like all that follows

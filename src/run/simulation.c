@@ -214,6 +214,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     StageNotice notice = {.tell = tell_stage, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
     TRY(start_prepare_steps(simulation, err));
+    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
     if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
         warnings_add(&simulation->warnings,
                      "material.plane means nothing here: the mesh is in space");
@@ -367,7 +368,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
-    warnings_of_turning(&simulation->turning, &simulation->warnings);
+    warnings_of_turning(&simulation->scene, &simulation->turning, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside &&
         !(output_store_warnings(simulation, err) &&

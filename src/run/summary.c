@@ -40,7 +40,7 @@ StepView step_view(const Observation *seen, const Events *events, const ContactA
                       .max_slip_rate = seen->max_slip_rate,
                       .fraction = fmin(seen->t / t_end, 1),
                       .certified = seen->certified,
-                      .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
+                      .events = events->count - kinds[EVENT_QUASI_STATIC],
                       .slidings = kinds[EVENT_LEADING],
                       .contact = contact_view(seen->interface, contact)};
 }
@@ -145,12 +145,20 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
     summary->bar_wanted = levels->wanted;
     summary->bar_window = simulation->scene.accuracy.window;
     summary->bar_ended = levels->ended;
+    const Scene *scene = &simulation->scene;
+    summary->bar_goes_on = scene->time.until_periodic || scene->time.until_slidings > 0 ||
+                           scene->time.until_mu_below > 0;
 }
 
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
     NUMBERS_HAVE_A_POINT;
     text_estimate(value, bar, known_to, text);
+}
+
+void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
+{
+    text_known_to(value, known_to, text);
 }
 
 static void note_program(const ProgramReadings *readings, RunSummary *summary)
@@ -192,6 +200,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .quasi_static = kinds[EVENT_QUASI_STATIC],
                             .bounded = kinds[EVENT_BOUNDED],
                             .leading = kinds[EVENT_LEADING],
+                            .slight = kinds[EVENT_SLIGHT],
                             .critical_length = answers->critical_length / simulation->model.length,
                             .energy_error = simulation->errors.energy,
                             .moment_error = simulation->errors.moment,
@@ -207,6 +216,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
     note_slip(simulation, answers->first, summary);
+    if (simulation->pads.count > 1) pads_order(&simulation->pads, summary->pads_order);
     note_program(&simulation->readings, summary);
     memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);
     memcpy(summary->mu_hold_parts, &answers->mu_hold_parts, sizeof summary->mu_hold_parts);

@@ -54,6 +54,19 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     return count;
 }
 
+void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings)
+{
+    if (!(friction_drop(&scene->friction) > 0) || amontons_scene_warning(scene)) return;
+    for (int32_t k = 0; k < model->materials.count; k++) {
+        if (!model->on_contact[k] || model->materials.list[k].eta1 > 0) continue;
+        warnings_add(warnings,
+                     "eta1 is 0 in %s, which touches the floor: with friction that weakens, the "
+                     "shortest wave that the mesh can hold grows fastest, so the answer has no "
+                     "limit as the mesh gets finer (an ill-posed problem)",
+                     k == 0 ? "material" : scene->materials.region[k - 1].group);
+    }
+}
+
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
     double worst = 0;
@@ -149,14 +162,15 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
 // before it is said. A symmetric block keeps within rounding.
 static const double TURNING_SEEN = 0.01;
 
-void warnings_of_turning(const Turning *turning, RunWarnings *warnings)
+void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings)
 {
+    const char *unit = scene->units == UNITS_SI ? " m" : "";
     double share = turning_share(turning);
     if (share <= TURNING_SEEN) return;
     warnings_add(warnings,
-                 "the block does not go straight: it turned about z by %.2g rad and went %.2g "
-                 "across the drive, on a way of %.2g: %.2g %% of it at its sides",
-                 turning->angle, turning->drift, turning->way, 100 * share);
+                 "the block does not go straight: it turned about z by %.2g rad and went %.2g%s "
+                 "across the drive, on a way of %.2g%s: %.2g %% of it at its sides",
+                 turning->angle, turning->drift, unit, turning->way, unit, 100 * share);
 }
 
 static bool gives_parameter(const Scene *scene, const char *name)

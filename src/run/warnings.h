@@ -21,6 +21,9 @@
 // evenly spread. 0 without damping.
 int32_t undamped_nodes(const Certificate *certificate, double load, double *worst);
 
+// Materials without viscosity on which friction that weakens acts, where others have some.
+void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings);
+
 // Says so. Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
@@ -42,7 +45,7 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
 void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings);
 
 // The block turned about z, or went across the drive, by a part of its way that can be seen.
-void warnings_of_turning(const Turning *turning, RunWarnings *warnings);
+void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

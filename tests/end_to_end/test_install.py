@@ -66,7 +66,7 @@ class Installed(unittest.TestCase):
         relative one. All files at once: readelf is quick, its start is not."""
         files = [path for top in (BUILD, self.prefix) for path in sorted(top.rglob("*"))
                  if path.is_file() and not path.is_symlink() and "CMakeFiles" not in path.parts
-                 and (path.suffix in ("", ".so") or ".so." in path.name) and path.open("rb").read(4) == b"\x7fELF"]
+                 and (path.suffix in ("", ".so") or ".so." in path.name) and path.read_bytes().startswith(b"\x7fELF")]
         self.assertGreater(len(files), 16)
         said = run("readelf", "--dynamic", *files).stdout
         checked = 0

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What tries.py does to the program, described in lists: each function yields tries of one group. A
 try has a folder of its own with scene.yaml, block.geo and block.msh of `stock`."""
+import os
 import random
 import re
 import shutil
@@ -256,6 +257,130 @@ def plots(stock):
         yield Try("plot", name, ["render", "plot.yaml"], {"plot.yaml": text}, says="plot.yaml")
 
 
+# Every file that is read: the words that read it, what stands in it, and whether it is a text. One that is missing
+# here is one that nobody tried.
+FIT = """title: Fit
+scene: scene.yaml
+search: {material.eta1: {log: [0.5, 2]}}
+fit: {measured: measured.csv, designs: 3}
+"""
+READ = {
+    "scene.yaml": (RUN, SCENE, True),
+    "block.geo": (["info", "block.geo"], ROOT / "meshes/block.geo", True),
+    "block.msh": (["info", "block.msh"], square(), False),
+    "study.yaml": (["sweep", "study.yaml", "-o", "sweep"], STUDY, True),
+    "fit.yaml": (["fit", "fit.yaml", "-o", "fit"], FIT, True),
+    "measured.csv": (["fit", "fit.yaml", "-o", "fit"], "load.pressure,mu_M,mu_M_error\n0.003,0.3,0.01\n", True),
+    "plot.yaml": (["render", "plot.yaml"], PLOT, True),
+    "profile.csv": ([*RUN, "--set", "contact.profile=profile.csv"], "x,gap\n0,0\n1,0\n", True),
+    "law.csv": ([*RUN, "--set", "friction={law: table, table: law.csv}"], "v,mu\n0,0.3\n1,0.1\n", True),
+    "law.so": ([*RUN, "--set", "friction={law: plugin, plugin: law.so}", "--trust"], "no library", False),
+    "compared.csv": (["render", "out", "--figure", "force", "--compare", "compared.csv"], "U,F_T/F_N\n0,0\n1e-4,0.1\n", True),
+    "out/run.json": (["info", "out"], "run.json", True),
+    "out/history.h5": (["render", "out", "--figure", "force"], "history.h5", False),
+    "out/history.h5.part": (["info", "out"], None, False),
+    "out/checkpoint.bin": (["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"], "checkpoint.bin", False),
+    "out/fields.pvd": (["film", "out", "-o", "film.mp4", "--of", "velocity"], None, True),
+}
+IN_ITS_PLACE = {"a pipe": "mkfifo", "a folder": "mkdir", "a link to a device": "ln -s /dev/zero",
+                "a link to itself": "ln -s itself"}
+RESULT = ("run.json", "history.h5", "checkpoint.bin")
+
+
+def readers(stock):
+    """Something else in the place of each file that is read, and a zero byte in each text."""
+    whole = {f"out/{name}": stock.result / name for name in RESULT if (stock.result / name).exists()}
+    for name, (words, content, is_text) in READ.items():
+        files = {"fit.yaml": FIT, "measured.csv": READ["measured.csv"][1]} if "fit" in words else {}
+        files |= whole if "out" in words and "run" not in words[:1] else {}
+        files |= whole if "checkpoint" in name else {}
+        if name.endswith(".part"):
+            files.pop("out/history.h5", None)
+        if content is not None and not name.startswith("out/"):
+            files[name] = content
+        for what, make in IN_ITS_PLACE.items():
+            if "itself" in make:
+                make = f"ln -s {Path(name).name}"
+            optional = name in ("out/run.json", "out/history.h5.part", "out/fields.pvd") and "itself" in what
+            may = (DONE, REFUSED, FAILED) if optional else (REFUSED, FAILED)
+            yield Try("readers", f"{name} is {what}", words, files, may=may,
+                      says="" if ".part" in name else Path(name).name,
+                      shell=f'mkdir -p out; rm -rf {name}; {make} {name}; exec "$@"')
+        if is_text and content is not None:
+            text = (stock.result / content).read_text() if name.startswith("out/") else \
+                content.read_text() if isinstance(content, Path) else content
+            for at in (0, len(text) // 2, len(text)):
+                bad = text[:at].encode() + b"\0" + text[at:].encode()
+                yield Try("readers", f"{name} with a zero byte at {at}", words, files | {name: bad},
+                          may=(REFUSED, FAILED), says=name)
+
+
+def others(file, pipe):
+    """[(name, change of an open HDF5 file)]: arrays in other files, links by name, numbers that cannot be."""
+    import h5py
+    import numpy
+
+    def replace(make):
+        def change(file):
+            rows = file["series/mu"].shape[0]
+            del file["series/mu"]
+            make(file, rows)
+        return change
+
+    def virtual(file, rows):
+        layout = h5py.VirtualLayout(shape=(rows,), dtype="f8")
+        layout[:] = h5py.VirtualSource(pipe, "x", shape=(rows,))
+        file.create_virtual_dataset("series/mu", layout)
+
+    yield "array in another file", replace(
+        lambda f, n: f.create_dataset("series/mu", (n,), "f8", external=[(pipe, 0, 8 * n)]))
+    yield "virtual array", replace(virtual)
+    yield "link out", replace(lambda f, n: f.__setitem__("series/mu", h5py.ExternalLink(pipe, "/x")))
+    yield "link by name", replace(lambda f, n: f.__setitem__("series/mu", h5py.SoftLink("/series/time")))
+    yield "group that is a link out", lambda f: (f.move("pads", "was"),
+                                                 f.__setitem__("pads", h5py.ExternalLink(pipe, "/x")))
+    names = []
+    file.visititems(lambda name, item: names.append(name) if hasattr(item, "shape") else None)
+    for name in names:
+        for value in (-1, 2, 2000000000, 1e300, -1e300, numpy.inf, numpy.nan):
+            kind = file[name].dtype
+            if kind.kind in "iu" and not (numpy.isfinite(value) and
+                                          numpy.iinfo(kind).min <= value <= numpy.iinfo(kind).max):
+                continue
+            yield f"{name} has {value}", lambda f, name=name, value=value: (
+                f[name].size and f[name].__setitem__((0,) * f[name].ndim, value))
+    for name in file.attrs:
+        if not isinstance(file.attrs[name], str):
+            for value in (-1, 0, 1e300, numpy.inf, numpy.nan):
+                yield f"attribute {name} is {value}", lambda f, name=name, value=value: (
+                    f.attrs.__setitem__(name, float(value)))
+
+
+def histories(stock):
+    """A stranger's history: nothing outside of it is read, written or waited for, and no number makes a loop."""
+    import h5py
+    pipe = str(stock.scratch / "pipe")
+    if not os.path.exists(pipe):
+        os.mkfifo(pipe)
+    with h5py.File(stock.result / "history.h5") as whole:
+        changes = list(others(whole, pipe))
+    for number, (name, change) in enumerate(changes):
+        made = stock.scratch / f"history{number}.h5"
+        shutil.copy(stock.result / "history.h5", made)
+        with h5py.File(made, "r+") as file:
+            change(file)
+        files = {"out/history.h5": made} | {f"out/{beside}": stock.result / beside
+                                            for beside in ("run.json", "checkpoint.bin")}
+        leads = number < 5
+        asked = {"info": ["info", "out"], "report": ["report", "out", "-o", "page.html"], "render": ["render", "out"]}
+        if leads:
+            asked["extend"] = ["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"]
+        for what, words in asked.items():
+            # A page is written without what cannot be read, and says so.
+            may = (REFUSED, FAILED) if leads and what != "report" else (DONE, REFUSED, FAILED)
+            yield Try("histories", f"{what}, {name}", words, files, may=may)
+
+
 # Around the program; "$@" is it. The answer, where there is one, is that of an undisturbed run.
 AROUND = {
     **{f"streams closed: {streams}": f'"$@" {streams}' for streams in
@@ -357,7 +482,7 @@ def command_lines(stock):
 
 
 GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, own_tables, signals,
-          command_lines]
+          command_lines, readers, histories]
 
 
 def put(folder, files):

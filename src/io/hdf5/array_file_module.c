@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/transfer.h"
+#include "io/files/file_lock.h"
 #include "io/files/part_file.h"
 #include "io/hdf5/array_attribute.h"
 #include "io/hdf5/array_parts.h"
@@ -32,6 +33,7 @@ struct ArrayFile {
     ArrayParts parts;   // of which `id` is the last
     bool writing;   // created here: what follows is in use
     bool changed;   // since the last flush
+    int64_t flushed;   // bytes of the last flush
     bool broken;   // HDF5 failed to write: it is not to be closed
     PartFile part;
     int32_t series_count, series_capacity;
@@ -124,10 +126,29 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Somebody may have removed or cut the last part, which is written again; earlier ones are lost.
+static bool look_after_parts(ArrayFile *file, Error *err)
+{
+    char name[PATH_MAX + 24];
+    struct stat status;
+    if (!file_is_named(file->part.part, file->part.descriptor) ||
+        fstat(file->part.descriptor, &status) != 0 || status.st_size != file->flushed)
+        file->changed = true;
+    for (int32_t number = 1; number <= file->parts.count; number++) {
+        array_part_name(&file->parts, number, name);
+        if (lstat(name, &status) != 0 || !S_ISREG(status.st_mode))
+            return FAULT(err, ERROR_FILE,
+                         "%s is gone, and with it the rows of the history that it held", name);
+    }
+    return true;
+}
+
 // Two turns where the file has become too large.
 static bool hdf5_flush(ArrayFile *file, Error *err)
 {
-    if (!file->writing || !file->changed) return true;
+    if (!file->writing) return true;
+    if (!look_after_parts(file, err)) return false;
+    if (!file->changed) return true;
     if (!may_change(file, err) || !hand_over_all(file, err)) return false;
     while (file->changed) {
         int64_t size = 0;
@@ -140,6 +161,7 @@ static bool hdf5_flush(ArrayFile *file, Error *err)
         bool done = aside ? put_aside(file, bytes, size, err) : put_bytes(file, bytes, size, err);
         H5free_memory(bytes);
         if (!done) return false;
+        file->flushed = size;
         file->changed = aside;
     }
     return true;
@@ -235,6 +257,7 @@ static ArrayFile *hdf5_reopen(const char *path, Error *err)
     file->parts = (ArrayParts){.path = file->part.part};
     if (fstat(file->part.descriptor, &status) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", file->part.part, strerror(errno));
+    file->flushed = status.st_size;
     TRY(status.st_size > PART_BYTES ? follow(file, err) : load(file, status.st_size, err));
     file->parts.last = file->id;
     return file;

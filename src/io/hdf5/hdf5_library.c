@@ -5,6 +5,7 @@
 #include "io/files/open_file.h"
 
 #include <stdio.h>
+#include <sys/stat.h>
 
 enum { GROWTH = 1 << 20 };   // bytes by which a file in memory grows
 
@@ -176,7 +177,13 @@ void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err)
 
 hid_t hdf5_disk_open(const char *path, Error *err)
 {
+    struct stat status;
     if (!open_check(path, err)) return -1;
+    if (stat(path, &status) == 0 && status.st_size == 0) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__,
+                  "%s is empty: what wrote it ended before anything was on the disk", path);
+        return -1;
+    }
     start();
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_file_locking(access, false, true);

@@ -386,7 +386,7 @@ bool result_file_read_table(ArrayFile *file, ResultTable table, double **values,
     if (array_file_has(file, name)) {
         if (!read_column(file, name, values, count, err)) return false;
         bool good = true;
-        if (table == EVENTS_KIND) good = check_whole(name, *values, *count, 0, 2, err);
+        if (table == EVENTS_KIND) good = check_whole(name, *values, *count, 0, 3, err);
         if (table == PEAKS_COUNTS) good = check_whole(name, *values, *count, 0, 1, err);
         return keep(good, values);
     }

@@ -99,7 +99,7 @@ static bool check_msh(const char *path, MendedFile *mended, Error *err)
     int32_t size = 0;
     int64_t made = 0;
     double version = 0;
-    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
+    TRY(text_file_bytes(path, GEO_BYTES_MAX, &bytes, &size, err));
     if (strncmp(bytes, begin, strlen(begin)) != 0 &&
         strncmp(bytes, comments, strlen(comments)) != 0)
         FAIL(err, ERROR_INPUT,

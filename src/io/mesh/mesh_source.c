@@ -43,7 +43,7 @@ bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t
 {
     char *bytes = NULL;
     int32_t size = 0;
-    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
+    TRY(text_file_bytes(path, GEO_BYTES_MAX, &bytes, &size, err));
     *whole = !has_options(path) && (!is_geo(path) || !reaches_outside(bytes));
     hash_text(hash, is_geo(path) ? "geo" : "msh");
     hash_bytes(hash, bytes, (size_t)size);

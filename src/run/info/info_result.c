@@ -67,7 +67,9 @@ static bool write_estimate(const char *text, const char *path, FILE *out)
     bool has_bar = error == known_to;
     text_estimate(value, has_bar ? error : (double)NAN, known_to, words);
     fputs(words, out);
-    if (!has_bar && !isnan(value)) fprintf(out, " (on this mesh %.6g)", value);
+    if (has_bar || isnan(value)) return true;
+    text_known_to(value, known_to, words);
+    fprintf(out, ", %s (on this mesh %.6g)", words, value);
     return true;
 }
 

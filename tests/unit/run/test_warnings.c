@@ -72,6 +72,17 @@ TEST(test_without_viscosity)
         warnings_of("material.eta1=0", "friction={law: coulomb, mu_static: 0.3}").count, 0);
 }
 
+// A holder of steel without viscosity above a sole that has some is none of friction's business; a
+// sole without it is.
+TEST(test_one_material_without_viscosity)
+{
+    const char *mesh = "mesh={file: ../../meshes/layers.geo, set: {nx: 10, nz: 10, nz_layer: 2}}";
+    assert_int_equal(warnings_of(mesh, "materials={body: {eta1: 0}}").count, 0);
+    RunWarnings found = warnings_of(mesh, "materials={layer: {eta1: 0}}");
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "eta1 is 0 in layer, which touches the floor"));
+}
+
 // Strip 0.2 to 0.3 of a face from 0 to 0.5; then half of it above the face, then a fifth below.
 TEST(test_rod_beside_its_face)
 {

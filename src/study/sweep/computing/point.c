@@ -124,7 +124,8 @@ void point_path(const Sweep *sweep, int32_t point, const char *file,
              sweep->points[point].hash, *file ? "/" : "", file);
 }
 
-// Missing is no error; unreadable is.
+// Missing is no error; unreadable is. One that a power cut left with zero bytes is cut there, and
+// computed again.
 char *point_report(const Sweep *sweep, int32_t point, Error *err)
 {
     const SweepPoint *first = &sweep->points[sweep->points[point].same_as];
@@ -133,7 +134,7 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
     int32_t size = 0;
     point_path(sweep, point, RUN_REPORT, path);
-    if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
+    if (access(path, F_OK) == 0) text_file_bytes(path, REPORT_BYTES_MAX, &bytes, &size, err);
     return bytes;
 }
 

@@ -84,7 +84,7 @@ TEST(test_result)
     static const char *const unfinished[] = {"no run.json", "By hand", NULL};
     static const char *const whole[] = {
         "status             done",
-        "mu_M               0.25 (on this mesh 0.251234)\n",
+        "mu_M               0.251, one mesh: known to about 2 % (on this mesh 0.251234)\n",
         "mu_M spread        none",
         "mu_hold            0.234568\n",
         "mu_max             0.375\n",

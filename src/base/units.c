@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A unit is four integer powers: of ten, and of length, mass and time. Powers of ten are kept whole
-// so that "10 um/s" is the double nearest to 1e-5.
-#include "scene/units.h"
+// A unit is five integer powers: of ten, of sixty, and of length, mass and time. Powers of ten are
+// kept whole so that "10 um/s" is the double nearest to 1e-5.
+#include "base/units.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -11,24 +11,25 @@
 
 typedef struct Unit {
     const char *name;
-    int32_t ten;   // power of ten that leads to SI base units
+    int32_t ten, sixty;   // powers of ten and of 60 that lead to SI base units
     int32_t powers[3];   // of metre, kilogram, second
     const char *examples;   // of a dimension only
 } Unit;
 
 static const Unit dimensions[] = {
-    {"1", 0, {0, 0, 0}, ""},
-    {"length", 0, {1, 0, 0}, "m, mm, um"},
-    {"time", 0, {0, 0, 1}, "s, ms, us"},
-    {"velocity", 0, {1, 0, -1}, "m/s, mm/s, um/s"},
-    {"stress", 0, {-1, 1, -2}, "Pa, kPa, MPa, GPa"},
-    {"density", 0, {-3, 1, 0}, "kg/m3, g/cm3"},
-    {"viscosity", 0, {-1, 1, -1}, "Pa s, kPa s, MPa s"},
+    {"1", 0, 0, {0, 0, 0}, ""},
+    {"length", 0, 0, {1, 0, 0}, "m, mm, um"},
+    {"time", 0, 0, {0, 0, 1}, "s, ms, us"},
+    {"velocity", 0, 0, {1, 0, -1}, "m/s, mm/s, um/s"},
+    {"stress", 0, 0, {-1, 1, -2}, "Pa, kPa, MPa, GPa"},
+    {"density", 0, 0, {-3, 1, 0}, "kg/m3, g/cm3"},
+    {"viscosity", 0, 0, {-1, 1, -1}, "Pa s, kPa s, MPa s"},
 };
 
 static const Unit bases[] = {
-    {"m", 0, {1, 0, 0}, NULL},  {"s", 0, {0, 0, 1}, NULL},    {"g", -3, {0, 1, 0}, NULL},
-    {"N", 0, {1, 1, -2}, NULL}, {"Pa", 0, {-1, 1, -2}, NULL}, {"J", 0, {2, 1, -2}, NULL},
+    {"m", 0, 0, {1, 0, 0}, NULL},   {"s", 0, 0, {0, 0, 1}, NULL},    {"g", -3, 0, {0, 1, 0}, NULL},
+    {"N", 0, 0, {1, 1, -2}, NULL},  {"Pa", 0, 0, {-1, 1, -2}, NULL}, {"J", 0, 0, {2, 1, -2}, NULL},
+    {"min", 0, 1, {0, 0, 1}, NULL},
 };
 
 static const struct {
@@ -98,28 +99,50 @@ static bool read_factor(const char **text, int32_t sign, Unit *product)
         *text = end;
     }
     product->ten += ten * (int32_t)power * sign;
+    product->sixty += base->sixty * (int32_t)power * sign;
     for (int32_t i = 0; i < 3; i++) product->powers[i] += base->powers[i] * (int32_t)power * sign;
     return true;
 }
 
-bool unit_to_si(const char *suffix, const char *dimension, double *value)
+// All of `text` is a unit.
+static bool read_unit(const char *text, Unit *product)
 {
-    Unit product = {0};
     int32_t sign = 1;
-    const char *text = suffix;
+    *product = (Unit){0};
     for (;;) {
-        if (!read_factor(&text, sign, &product)) return false;
+        if (!read_factor(&text, sign, product)) return false;
         text += strspn(text, " ");
-        if (!*text) break;
+        if (!*text) return true;
         if (*text == '/' && sign < 0) return false;   // a/b/c is read two ways
         if (*text == '/') sign = -1;
         text += strspn(text, "/.*") ? 1 : 0;
         text += strspn(text, " ");
     }
-    const Unit *wanted = find_dimension(dimension);
-    if (memcmp(product.powers, wanted->powers, sizeof product.powers) != 0) return false;
-    double power = pow(10, abs(product.ten));
-    *value = product.ten < 0 ? *value / power : *value * power;
+}
+
+static double times_power(double value, double base, int32_t power)
+{
+    double factor = pow(base, abs(power));
+    return power < 0 ? value / factor : value * factor;
+}
+
+bool unit_to_si(const char *suffix, const char *dimension, double *value)
+{
+    Unit unit;
+    if (!read_unit(suffix, &unit)) return false;
+    const Unit *wanted = dimension ? find_dimension(dimension) : &unit;
+    if (memcmp(unit.powers, wanted->powers, sizeof unit.powers) != 0) return false;
+    *value = times_power(times_power(*value, 10, unit.ten), 60, unit.sixty);
+    return true;
+}
+
+bool unit_ratio(const char *a, const char *b, double *ratio)
+{
+    Unit over, under;
+    if (!read_unit(a, &over) || !read_unit(b, &under) ||
+        memcmp(over.powers, under.powers, sizeof over.powers) != 0)
+        return false;
+    *ratio = times_power(times_power(1, 10, over.ten - under.ten), 60, over.sixty - under.sixty);
     return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Conversions worked out by hand; equality is exact, because powers of ten are kept whole.
-#include "scene/units.h"
+#include "base/units.h"
 
 #include "cases.h"
 
@@ -40,6 +40,8 @@ TEST(test_conversions)
         {6, "m s-1", "velocity", 6},
         {2, "J/m3", "stress", 2},
         {9, "s/s", "1", 9},
+        {2, "min", "time", 120},
+        {6, "m/min", "velocity", 0.1},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double value = cases[k].given;
