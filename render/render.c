@@ -31,13 +31,13 @@ static const struct FigureShape {
     FigureFunction draw;
     bool own_axes;   // no U along x: it cannot be a panel, and is drawn for who asks
     WholeFigureFunction draw_whole;   // in its place: begins the page itself, and needs fields
-} SHAPES[FIGURE_COUNT] = {[FIGURE_FORCE] = {0.85, figure_force},
-                          [FIGURE_SLIP_MAP] = {0.62, figure_slip_map},
-                          [FIGURE_CONTACT_DENSITY] = {0.62, figure_contact_density},
-                          [FIGURE_STATE_MAP] = {0.62, figure_state_map},
+} SHAPES[FIGURE_COUNT] = {[FIGURE_FORCE] = {0.85, .draw = figure_force},
+                          [FIGURE_SLIP_MAP] = {0.62, .draw = figure_slip_map},
+                          [FIGURE_CONTACT_DENSITY] = {0.62, .draw = figure_contact_density},
+                          [FIGURE_STATE_MAP] = {0.62, .draw = figure_state_map},
                           [FIGURE_CONTACT_PLANE] = {.draw_whole = figure_contact_plane},
-                          [FIGURE_PRECURSORS] = {0.62, figure_precursors, true},
-                          [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, true},
+                          [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
+                          [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, .own_axes = true},
                           [FIGURE_FIELD] = {.draw_whole = figure_field},
                           [FIGURE_STRIP] = {.draw_whole = figure_strip}};
 
@@ -82,7 +82,8 @@ typedef struct Picture {
 
 static void add_part(Picture *picture, const Figure *figure)
 {
-    picture->parts[picture->count++] = (PanelFigure){.name = figure->name, .figure = figure->id};
+    picture->parts[picture->count++] =
+        (PanelFigure){.name = figure->name, .figure = (int32_t)figure->id};
 }
 
 // The figures that `names` has, separated by commas.

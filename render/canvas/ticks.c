@@ -136,5 +136,6 @@ void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 
 void ticks_power(const Ticks *ticks, char words[TICK_LABEL_SIZE])
 {
-    snprintf(words, TICK_LABEL_SIZE, ticks->exponent ? "\u00d710^{%d}" : "", ticks->exponent);
+    words[0] = 0;
+    if (ticks->exponent) snprintf(words, TICK_LABEL_SIZE, "\u00d710^{%d}", ticks->exponent);
 }
