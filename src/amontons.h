@@ -188,6 +188,10 @@ bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE]);
 // file:line:column or the override, the key, what was found and what is allowed.
 bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
                          Scene **scene, Error *err);
+// The same of a scene that you know: its .geo may run commands, write files and open others, its
+// friction law may be a plug-in (--trust). Elsewhere these are refused.
+bool amontons_scene_read_trusted(const char *path, const char *const *overrides,
+                                 int32_t override_count, Scene **scene, Error *err);
 void amontons_scene_destroy(Scene *scene);   // NULL is fine
 const char *amontons_scene_title(const Scene *scene);   // owned by the scene
 bool amontons_scene_is_si(const Scene *scene);   // else its numbers are normalised
@@ -242,6 +246,7 @@ typedef struct SweepOptions {
     const char *slurm;   // by jobs of Slurm: more words for sbatch, or ""; NULL: here
     bool retry;   // compute failed points again
     bool fresh;   // compute all points again
+    bool trust;   // of its scenes, as amontons_scene_read_trusted
     SweepCallback on_point;   // NULL: none
     void *context;
     FILE *out;   // for the ranked table that the study asks for; NULL: not shown
@@ -268,6 +273,7 @@ typedef struct InfoOptions {
     int32_t override_count;
     const char *picture;   // .png, .pdf or .svg of the mesh, or a scene's mesh and rod; NULL: none
     bool overwrite;   // what is there goes; else it is refused, if no list has it
+    bool trust;   // of a mesh or scene, as amontons_scene_read_trusted
 } InfoOptions;
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds; NULL: plain.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);

@@ -133,6 +133,7 @@ typedef struct FilmRequest {
     double magnification;   // of the deformation; 0: chosen
     bool
         fields;   // the run is computed once more for as many fields of the block as the film shows
+    bool trust;   // of the run that is computed, as amontons_scene_read_trusted
     const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
     bool overwrite;   // what is there goes; else it is refused, if no list has it

@@ -215,9 +215,10 @@ class Owner:
 class Scene(Owner):
     """A scene that was read and checked, to be given to functions as it is. Destroyed with this object."""
 
-    def __init__(self, path: Any, settings: Mapping[str, Any] | None) -> None:
+    def __init__(self, path: Any, settings: Mapping[str, Any] | None, trust: bool = False) -> None:
         self._as_parameter_ = ctypes.c_void_p()
-        call(lib.amontons_scene_read, c_text(path), *setting_words(settings), ctypes.byref(self._as_parameter_))
+        read = lib.amontons_scene_read_trusted if trust else lib.amontons_scene_read
+        call(read, c_text(path), *setting_words(settings), ctypes.byref(self._as_parameter_))
 
     def __del__(self) -> None:
         if lib is not None and getattr(self, "_as_parameter_", None):

@@ -36,12 +36,13 @@ class Simulation(Owner):
     is that of friction that remembers ([nodes, states] where there are several), None where nothing does.
 
     folder: for results, written by `finish`; None: nothing is written. whole_block: `displacement` will be asked for.
+    trust: as for `run`.
     """
 
     def __init__(self, scene: Any, settings: Mapping[str, Any] | None = None, folder: Any = None, *,
-                 overwrite: bool = False, whole_block: bool = False) -> None:
+                 overwrite: bool = False, whole_block: bool = False, trust: bool = False) -> None:
         self._handle = ctypes.c_void_p()
-        self._scene = Scene(scene, settings)
+        self._scene = Scene(scene, settings, trust)
         self._options = c.RunOptions(folder=c_text_or_none(folder), overwrite=overwrite, whole_block=whole_block)
         self._finished = ctypes.c_bool(False)
         self._block: c.BlockView | None = None

@@ -164,7 +164,8 @@ int main(int argc, char **argv)
         unsetenv(KERNELS);   // read by now; whoever chose it before would have kept us from it
     else
         take_better_kernels(&commands, argv);
-    setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
+    setenv("AMONTONS_APART", "yes",
+           0);   // base/child_process; empty: in this process, for a debugger
     setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none
     return commands.run(argc, argv);
 }

@@ -68,7 +68,6 @@ static error_t take_word(int key, char *word, struct argp_state *state)
         const Option *option = &reading->options[k];
         if (option_key(reading->options, k) != key) continue;
         if (option->flag) *option->flag = true;
-        if (option->variable) setenv(option->variable, "yes", 1);
         if (option->word) *option->word = word ? word : "";
         if (option->words) add_word(option->words, word);
         return 0;
@@ -157,12 +156,12 @@ int option_may_write(const char *named, bool overwrite)
     return report_misuse("%s is there already: name another file, or say --overwrite", named);
 }
 
-Option option_trust(void)
+Option option_trust(bool *trust)
 {
     return (Option){
         "trust", 0, NULL,
         "Also use a .geo that runs commands or writes files, and a friction law that is a plug-in",
-        .variable = "AMONTONS_TRUST"};
+        .flag = trust};
 }
 
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the

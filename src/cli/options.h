@@ -24,7 +24,6 @@ typedef struct Option {
     bool *flag;
     const char **word;   // the last one given
     OptionWords *words;   // all of them, also `--set a=1 b=2`
-    const char *variable;   // of the environment, which is then "yes"
 } Option;
 
 typedef struct Command Command;
@@ -56,9 +55,8 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 Option option_overwrite(bool *overwrite);
 int option_may_write(const char *named, bool overwrite);
 
-// `--trust`, of every command that reads meshes, for this process and those that it starts: a .geo
-// may run commands.
-Option option_trust(void);
+// `--trust`, of every command that reads meshes: a .geo may run commands.
+Option option_trust(bool *trust);
 
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);

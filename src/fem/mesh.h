@@ -25,6 +25,7 @@ typedef struct MeshMove {
 // is a face of an element, listed once; all elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
+    char warning[MESH_WARNING_SIZE];   // MeshFile.warning
     int32_t dim;   // numbers of a place, and displacements of a node
     int32_t node_count;
     double *position;   // [node_count * dim] from x to z, length; owned

@@ -51,6 +51,7 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
                    .groups = file->groups,
                    .move = {.scale = 1}};
     snprintf(mesh->path, sizeof mesh->path, "%s", path);
+    memcpy(mesh->warning, file->warning, sizeof file->warning);
     *file = (MeshFile){0};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "friction/friction_plugin.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "io/files/open_file.h"
 
 #include <dlfcn.h>
@@ -59,19 +59,13 @@ static bool try_load(void *path, FILE *reply, Error *err)
 // process of its own tries it first, where there may be one.
 bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
 {
-    const char *trust = getenv("AMONTONS_TRUST");
-    ApartWork work = {.path = path,
+    ChildWork work = {.path = path,
                       .reader = "the system's loader",
                       .seconds = SECONDS_MAX,
                       .advice = "it does not come to an end",
                       .read = try_load,
                       .context = (void *)path};
-    if (!trust || !*trust)
-        return REFUSE(err,
-                      "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, "
-                      "if you know where it comes from",
-                      path);
     if (!open_check(path, err)) return false;   // the loader would wait for a pipe
-    if (apart_is_wanted() && !apart_do(&work, err)) return false;
+    if (child_is_wanted() && !child_do(&work, err)) return false;
     return load(path, plugin, err);
 }

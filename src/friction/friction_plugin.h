@@ -20,8 +20,8 @@ typedef struct FrictionPlugin {
 } FrictionPlugin;
 
 // Opens the file, which stays open until the program ends: copies of a law may be anywhere.
-// ERROR_INPUT where the user has not said that such a file may be trusted (variable AMONTONS_TRUST,
-// --trust), where it cannot be opened, or is no such plug-in.
+// Runs its code: only of a scene that is trusted. ERROR_INPUT where it cannot be opened, or is no
+// such plug-in.
 bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err);
 
 #endif

@@ -28,6 +28,7 @@ typedef struct FrictionSource {
     const double *parameters;   // [parameter_count] of a plug-in
     int32_t parameter_count;
     double end;   // of a formula or plug-in, velocity
+    bool trusted;   // a plug-in may be run
 } FrictionSource;
 
 // Whether a law takes, needs or ignores one of the keys of that map.

@@ -55,8 +55,8 @@ bool scene_mesh_read(const Scene *scene, Mesh *mesh, MeshOrigin *origin, Error *
     const SceneNames *body = &scene->groups.body;
     const char *path = scene->mesh.file;
     *mesh = (Mesh){0};
-    bool done =
-        mesh_file_read(path, scene->mesh.parameters, scene->mesh.parameter_count, &file, err);
+    bool done = mesh_file_read(path, scene->mesh.parameters, scene->mesh.parameter_count,
+                               scene->trusted, &file, err);
     if (origin) *origin = file.origin;
     done = done && check_memory(scene, file.node_count, err);
     TRY(scene_blame(scene, "mesh.file", done, err));

@@ -2,7 +2,7 @@
 // amontons_report: which page the results want, and the page as a file.
 #include "amontons.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
@@ -62,7 +62,7 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
 {
     NUMBERS_HAVE_A_POINT;
     ReportRequest request = {results, count, file, overwrite};
-    ApartWork work = {.path = count > 0 ? results[0] : "",
+    ChildWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
                       .advice = "its history is damaged",
@@ -72,7 +72,7 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
     bool left = part_file_name(file, part) && open_is_there(part);   // by whom, is not known
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
     for (int32_t k = 0; k < count; k++) TRY(own_file_adopt(results[k], err));
-    TRY(apart_do(&work, err));
+    TRY(child_do(&work, err));
 cleanup:
     // A process that crashed leaves what it began.
     if (!error_is_clean(err) && !left && part_file_name(file, part)) unlink(part);

@@ -224,6 +224,9 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
         warnings_add(&simulation->warnings,
                      "material.plane means nothing here: the mesh is in space");
     Schedule load = scene_schedule(&scene->load.program);
+    if (simulation->model.mesh.warning[0])
+        warnings_add(&simulation->warnings, "gmsh made the mesh, but says: %s",
+                     simulation->model.mesh.warning);
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);

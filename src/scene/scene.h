@@ -133,6 +133,7 @@ typedef struct Scene {
         SceneNames figures;   // names of render's RENDER_FIGURES
         char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file
     } output;
+    bool trusted;   // not a key: its .geo and plug-in may do what they want
     bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
     int32_t line[SCENE_KEYS_MAX];   // where, in the file `path`, from 1; 0: not in that file
 } Scene;
@@ -143,7 +144,7 @@ typedef struct Scene {
 // Errors (ERROR_INPUT) give file:line:column (or the --set text), the key, what was found and what
 // is allowed; an unknown key comes with the nearest known one.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
-                Scene *scene, Error *err);
+                bool trusted, Scene *scene, Error *err);
 
 // Passes on whether a use of the value of `key` was `done`. If not, the error is wrong input, and
 // says where it stands: "FILE:LINE: KEY: ...", without a line where the file does not give it.
@@ -157,7 +158,7 @@ typedef struct SceneSetting {
 } SceneSetting;
 
 typedef struct SceneSource SceneSource;   // a file read once, for many scenes of other settings
-bool scene_source_open(const char *path, SceneSource **source, Error *err);
+bool scene_source_open(const char *path, bool trusted, SceneSource **source, Error *err);
 void scene_source_close(SceneSource *source);   // also of one half opened
 bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,
                         Scene *scene, Error *err);

@@ -209,19 +209,30 @@ class Misuse(InFolder):
         scene = self.scene(FIG1.read_text().replace("../../meshes/block.geo", "a.geo"))
         touch = f'SystemCall "touch {self.folder}/ran";'
         inner.write_text(touch)
+        process = f'Field[1] = ExternalProcess; Field[1].CommandLine = "touch {self.folder}/ran; cat"; Background Field = 1;'
         for text in (touch, f"s = '\"'; {touch} t = '\"';", f'NonBlocking{touch}', 'Include "inner.geo";',
-                     'Merge "inner.geo";', 'Include Str("inner", ".geo");', f'Printf("x") > "{self.folder}/ran";',
-                     f'Print "{self.folder}/ran";', f'General.LogFileName = "{self.folder}/ran";'):
+                     'Merge "inner.geo";', 'Include Str("inner", ".geo");', process):
             with self.subTest(text):
                 geo.write_text(block + text + "\n")
                 for command in (["info", geo], ["static", scene],
                                 ["run", scene, "-q", "--overwrite", *COARSE, *PLAIN]):
                     self.assert_refused(command, ".geo:", "--trust")
                 self.assertFalse((self.folder / "ran").exists())
+        for text in (f'Printf("x") > "{self.folder}/ran";', f'Print "{self.folder}/ran";', f'Save "{self.folder}/ran";',
+                     f'General.LogFileName = "{self.folder}/ran";', f"// {touch}", "General.Terminal = 1;", "Exit;"):
+            with self.subTest(text):
+                geo.write_text(block + text + "\n")
+                self.assertIn("1600 Q4", self.informed(geo))
+                self.assertFalse((self.folder / "ran").exists())
+        subprocess.run(["gmsh", "-2", SOURCE / "meshes/block.geo", "-o", self.folder / "a.msh"], capture_output=True, check=True)
+        for options in ("a.geo.opt", "a.msh.opt"):      # gmsh would read them
+            (self.folder / options).write_text(touch)
         geo.write_text(block)
-        (self.folder / "a.geo.opt").write_text(touch)
-        self.assert_refused(["info", geo], "a.geo.opt:1: `SystemCall`")
-        (self.folder / "a.geo.opt").unlink()
+        self.informed(geo)
+        self.informed(self.folder / "a.msh")
+        self.assertFalse((self.folder / "ran").exists())
+        for options in ("a.geo.opt", "a.msh.opt"):
+            (self.folder / options).unlink()
         mesh = self.folder / "a.msh"
         mesh.write_text(f"// \n{touch}\n/*\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$EndElements\n*/\n")
         self.assert_refused(["info", mesh], "does not begin with $MeshFormat")
@@ -230,6 +241,45 @@ class Misuse(InFolder):
         done = amontons("info", geo, "--trust", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "ran").exists())
+
+    def informed(self, path, *words):
+        """What info says of a mesh: the block, and nothing before it."""
+        cache = self.folder / "cache"
+        shutil.rmtree(cache, ignore_errors=True)    # so that gmsh reads it
+        done = amontons("info", path, *words, cwd=self.folder, AMONTONS_CACHE=str(cache))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith("mesh "), done.stdout)
+        return done.stdout
+
+    def test_a_geo_that_meshes_itself(self):
+        """Its own mesh is kept, with all that it did to it; options for writing a mesh count."""
+        corners = "".join(f"Point({k}) = {{{x}, {y}, 0, 10}};\n" for k, (x, y) in enumerate(((0, 0), (100, 0), (100, 50), (0, 50)), 1))
+        block = corners + """Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4};
+            Plane Surface(1) = {1}; Physical Curve("contact") = {1}; Physical Curve("top") = {3}; Physical Curve("rod") = {4};
+            Physical Surface("body") = {1};\n"""
+        geo = self.folder / "a.geo"
+        for text, wanted in (("", r"\b(\d+) T3\n  x from 0 to 100,"), ("Mesh 2; SetOrder 2;", r"\d+ T6\n"), ("Mesh 2; SetOrder 2; Exit;", r"\d+ T6\n"),
+                             ("Mesh 2; RecombineMesh;", r"\d+ Q4\b"), ("Mesh.ScalingFactor = 0.001;", r"x from 0 to 0.1,"),
+                             ("Mesh 1; Mesh.ScalingFactor = 0.001;", r"x from 0 to 0.1,"), ("Mesh.SaveAll = 1;", r"\d+ T3\n")):
+            with self.subTest(text):
+                geo.write_text(block + text + "\n")
+                self.assertRegex(self.informed(geo), wanted)
+        counts = {}
+        for text in ("", "Mesh 2; RefineMesh;"):
+            geo.write_text(block + text + "\n")
+            counts[text] = int(re.search(r"(\d+) T3", self.informed(geo))[1])
+        self.assertEqual(counts["Mesh 2; RefineMesh;"], 4 * counts[""])
+
+    def test_what_gmsh_says(self):
+        """An error after which there is a mesh is a warning; one in the script has its file and line."""
+        geo, box = self.folder / "a.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, .6, .4};\n"
+        groups = 'Physical Surface("contact") = {5}; Physical Surface("rod") = {1}; Physical Surface("top") = {6}; Physical Volume("b") = {1};\n'
+        geo.write_text(box + groups + "Mesh.MeshSizeMax = .3;\nMesh.OptimizeNetgen = 1;\n")
+        if "gmsh made it" in self.informed(geo):    # where its gmsh has no Netgen
+            self.assertIn("Netgen", self.informed(geo))
+        (self.folder / "b.geo").write_text("x = 1;\ny = nowhere(;\nnowhere = 2;\n")
+        geo.write_text(box + 'Include "b.geo";\n' + groups)
+        self.assert_refused(["info", geo], "b.geo:2: ", "syntax error")
 
     def test_files_of_no_known_kind(self):
         self.assert_refused(["info", "none"], "none: No such file")

@@ -40,7 +40,7 @@ def faults(path):
 # What no file of the library does, and the one place that may.
 HABITS = [
     ("prints or ends the program",   # there: a forked child
-     r"src/cli/|src/study/sweep/computing/pool\.c|src/base/apart\.c",
+     r"src/cli/|src/study/sweep/computing/pool\.c|src/base/child_process\.c",
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("changes what is the process's",
      r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|decimal_point)\.c|src/io/mesh/mesh_file_module\.c",

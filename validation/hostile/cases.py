@@ -173,8 +173,20 @@ def meshes(stock):
         yield Try("mesh", name, ["info", "bad.msh"], {"bad.msh": text}, says="bad.msh")
 
 
+FIELD = 'Field[1] = ExternalProcess; Field[1].CommandLine = "rm own.txt; cat"; Background Field = 1; Point(1) = {0, 0, 0};\n'
 GEOMETRIES = {
-    "commands": 'SystemCall "touch own.txt";\n', "writes": 'Printf("x") > "own.txt";\n',
+    "commands": 'SystemCall "rm own.txt";\n', "a command by a field": FIELD, "a command behind a comment": '// "\n' + FIELD,
+    "a command behind a quote": "s = '\"'; SystemCall \"rm own.txt\"; t = '\"';\n",
+    "a command behind what is skipped": 'If(0)\n s = "EndIf SystemCall"; t = " own.txt ";\nEndIf\n',
+    "a command by a name": 'S2N["SystemCall"] "rm own.txt";\n', "a command of its own": 'Foo = 1; Foo "rm own.txt";\n',
+    "a client": 'OnelabRun("x", "rm own.txt");\n', "prints": 'Print "own.txt";\n', "saves": 'Save "own.txt";\n',
+    "a log": 'General.LogFileName = "own.txt";\nError("x");\n', "a plug-in that writes":
+    'Plugin(AnalyseMeshQuality).Run; Plugin(Distance).FileName = "own.txt"; Plugin(Distance).Run;\n',
+    "a folder": 'CreateDir "own.txt";\n', "sleeps": "Sleep 100000;\n", "asks": 'x = GetValue("how many?", 3);\n',
+    "a shape that is a terminal": 'Merge "/dev/tty.step";\nMerge "/dev/zero";\n',
+    "many threads": "General.NumThreads = 1000; Mesh.MaxNumThreads2D = 1000; Mesh.MaxNumThreads3D = 1000;\nMesh 2;\n",
+    "a script that is a mesh": 'Merge "own.msh";\n',
+ "writes": 'Printf("x") > "own.txt";\n',
     "merges": 'Merge "own.txt";\n', "includes itself": 'Include "bad.geo";\n',
     "an error": "Point(1) = {0, 0,\n", "no surface": "Point(1) = {0, 0, 0};\n",
     "Exit": "Exit;\n", "Abort": "Abort;\n", "Error": 'Error("no");\n', "calls itself":

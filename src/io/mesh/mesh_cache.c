@@ -78,6 +78,7 @@ void mesh_archive(void *self, Archive *archive)
     mesh->groups = archive_new(archive, mesh->groups, mesh->group_count, sizeof *mesh->groups);
     if (!mesh->groups) mesh->group_count = 0;
     for (int32_t k = 0; k < mesh->group_count; k++) archive_group(&mesh->groups[k], mesh, archive);
+    archive_text(archive, mesh->warning, sizeof mesh->warning);
 }
 
 bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)

@@ -31,7 +31,7 @@ typedef enum ElementKind {
 #undef X
 } ElementKind;
 
-enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3 };
+enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3, MESH_WARNING_SIZE = 300 };
 
 // x to z in as many numbers as the mesh has dimensions: (x, z) in the plane, (x, y, z) in space.
 typedef double MeshPlace[DIM_MAX];
@@ -70,6 +70,7 @@ typedef struct MeshFile {
     int32_t *element_nodes;   // [first_node[element_count]] node indices; owned
     int32_t group_count;
     MeshGroup *groups;   // [group_count] by dimension, then by number; owned
+    char warning[MESH_WARNING_SIZE];   // an error of gmsh after which it made a mesh; empty: none
 } MeshFile;
 
 // What the end of a file's name says, in capitals too; gmsh's own endings are .msh2, .msh4 and
@@ -90,12 +91,15 @@ typedef struct MeshParameter {
 // not declare it itself, gmsh halves all edges, so that it must be a power of two.
 //
 // Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has
-// a volume in 3D, else in 2D. Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh,
-// no elements, an element kind that is not in ELEMENT_KINDS, a parameter the .geo does not know, a
-// name that two groups of one dimension have. A mesh without volumes that is not in the plane z = 0
-// of gmsh is refused. *mesh is destroyed by the caller.
+// a volume in 3D, else in 2D. A .geo that has made such a mesh itself keeps it; Mesh.ScalingFactor
+// and Mesh.SaveAll of a .geo count as where gmsh writes a mesh. trusted: a .geo may do what gmsh
+// can (run commands, write files, open others); else what io/mesh/geo_script allows. Errors
+// (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind that is
+// not in ELEMENT_KINDS, a parameter the .geo does not know, a name that two
+// groups of one dimension have. A mesh without volumes that is not in the plane z = 0 of gmsh is
+// refused. *mesh is destroyed by the caller.
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    MeshFile *mesh, Error *err);
+                    bool trusted, MeshFile *mesh, Error *err);
 void mesh_file_destroy(MeshFile *mesh);
 
 // The group called `name`. An error (ERROR_INPUT) names `path`, lists the groups that exist with

@@ -6,9 +6,9 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/text_file.h"
-#include "io/mesh/geo_commands.h"
+#include "io/mesh/geo_script.h"
 #include "io/mesh/geo_parameters.h"
-#include "io/mesh/mesh_apart.h"
+#include "io/mesh/mesh_child.h"
 #include "io/mesh/mesh_cache.h"
 #include "io/mesh/msh2_entities.h"
 
@@ -182,13 +182,38 @@ cleanup:
     return error_is_clean(err);
 }
 
+// gmsh names a script that it was given as text by a descriptor, and the line of that text.
+static void name_the_file(const char *path, const GeoScript *script, Error *err)
+{
+    static const char given[] = "/proc/self/fd/", behind[] = "', line ";
+    char message[sizeof err->message];
+    const char *file = path;
+    int32_t line = 0, rest = 0, number = 0;
+    char *found = strstr(err->message, given);
+    if (!found || sscanf(found + strlen(given), "%d%n", &number, &rest) != 1) return;
+    char *at = found + strlen(given) + rest;
+    if (script->text && strncmp(at, behind, strlen(behind)) == 0 && found > err->message &&
+        sscanf(at + strlen(behind), "%d%n", &line, &rest) == 1) {
+        geo_script_place(script, line, &file, &line);
+        at += strlen(behind) + (size_t)rest;
+        at += strspn(at, ": ");
+        snprintf(message, sizeof message, "%.*s%s:%d: %s", (int)(found - 1 - err->message),
+                 err->message, file, line, at);
+    } else {
+        snprintf(message, sizeof message, "%.*s%s%s", (int)(found - err->message), err->message,
+                 file, at);
+    }
+    memcpy(err->message, message, sizeof message);
+}
+
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    MeshFile *mesh, Error *err)
+                    bool trusted, MeshFile *mesh, Error *err)
 {
     char key[HASH_TEXT_SIZE];
     bool found = false;
+    GeoScript script = {0};
     MeshFormat format = mesh_file_format(path);
-    MeshRawRequest request = {.path = path, .generate = format == MESH_SCRIPT};
+    MeshRawRequest request = {.path = path, .generate = format == MESH_SCRIPT, .trusted = trusted};
     MendedFile mended = {.descriptor = -1};
     Parameters given = {.count = parameter_count};
     *mesh = (MeshFile){0};
@@ -199,8 +224,11 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     if (parameter_count > 0)
         memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
     TRY(check_file(path, err));
-    const char *trusted = getenv("AMONTONS_TRUST");
-    if (!trusted || !*trusted) TRY(geo_commands_refuse(path, request.generate, err));
+    if (request.generate && !trusted) {
+        TRY(geo_script_read(path, &script, err));
+        request.script = script.text;
+        request.script_size = script.size;
+    }
     if (request.generate)
         TRY(check_geo(path, &given, &request.splits, err));
     else
@@ -211,17 +239,22 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
             "%s: parameters ('%s') need a .geo; a .msh is meshed already, and knows `refine` alone",
             path, given.list[0].name);
     if (mended.descriptor >= 0) request.opened_as = mended.name;
+    request.descriptor = mended.descriptor;
     request.parameters = given.list;
     request.parameter_count = given.count;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
     if (!found) {
-        TRY(mesh_apart_read(&request, mesh, err));
+        if (!mesh_child_read(&request, mesh, err)) {
+            name_the_file(path, &script, err);
+            goto cleanup;
+        }
         mesh_cache_store(key, mesh);
     }
     mesh->origin = found ? MESH_OF_CACHE : key[0] ? MESH_OF_GMSH : MESH_OF_OTHER_FILES;
 cleanup:
     if (mended.descriptor >= 0) close(mended.descriptor);
     memory_free(given.list);
+    geo_script_destroy(&script);
     return error_is_clean(err);
 }

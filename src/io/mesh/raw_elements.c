@@ -58,6 +58,7 @@ int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block)
 // Whether the file says which surfaces count.
 static bool has_region(const MeshRaw *raw, int32_t dim)
 {
+    if (raw->all_elements) return false;
     for (int32_t k = 0; k < raw->group_count; k++)
         if (raw->groups[k].dimension == dim) return true;
     return false;

@@ -36,7 +36,9 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
     Scene *scene = NULL;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
-    TRY(amontons_scene_read(path, options->overrides, options->override_count, &scene, err));
+    bool (*read)(const char *, const char *const *, int32_t, Scene **, Error *) =
+        options->trust ? amontons_scene_read_trusted : amontons_scene_read;
+    TRY(read(path, options->overrides, options->override_count, &scene, err));
     fprintf(out, "scene %s\n  %s\n\n", path, *scene->title ? scene->title : "(no title)");
     for (int32_t k = 0; k < count; k++) {
         char value[2000];

@@ -91,6 +91,7 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
             summary.edge_max, summary.aspect_max);
     if (*mesh_move_text(mesh, moved)) fprintf(out, "  %s\n", moved);
     write_groups(mesh, out);
+    if (mesh->warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", mesh->warning);
 }
 
 // Which regions each part has, and which of them to name.
@@ -139,7 +140,7 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     if (!parameters) goto cleanup;
     for (int32_t k = 0; k < options->override_count; k++)
         TRY(read_parameter(options->overrides[k], &parameters[k], err));
-    TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
+    TRY(mesh_file_read(path, parameters, options->override_count, options->trust, &file, err));
     TRY(mesh_build_parts(&file, path, &mesh, &parts, err));
     if (parts.count == 1) TRY(stand(&mesh, err));
     info_write_mesh(&mesh, out);

@@ -21,7 +21,7 @@
 
 enum { PATH_SIZE = PATH_MAX + 300 };
 
-// A run that was killed while a process of its own read for it (base/apart) leaves that for a
+// A run that was killed while a child process read for it (base/child_process) leaves that for a
 // moment, with its lock; s.
 static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock";

@@ -227,7 +227,8 @@ bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, E
     sweep->started = clock_seconds();
     if (!(sweep->scene = NEW_ARRAY(Scene, 1, err))) return false;
     dense_use_one_thread();   // before forking
-    return study_read(path, options->overrides, options->override_count, &sweep->study, err);
+    return study_read(path, options->overrides, options->override_count, options->trust,
+                      &sweep->study, err);
 }
 
 // The folder is made when the study has turned out to be right.

@@ -20,7 +20,7 @@ static Scene read_fig1(const char *const *overrides, int32_t count)
 {
     Scene scene;
     Error err = {0};
-    if (!scene_read(fig1, overrides, count, &scene, &err)) fail_msg("%s", err.message);
+    if (!scene_read(fig1, overrides, count, false, &scene, &err)) fail_msg("%s", err.message);
     return scene;
 }
 

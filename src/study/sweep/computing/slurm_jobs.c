@@ -140,6 +140,7 @@ bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *stu
     print_quoted(out, " sweep --element -o ", jobs->folder);
     for (int32_t k = 0; k < options->override_count; k++)
         print_quoted(out, " --set ", options->overrides[k]);
+    if (options->trust) fprintf(out, " --trust");
     print_quoted(out, " -- ", study);
     fprintf(out, "\n");
     TRY(text_writer_finish(&script, err));

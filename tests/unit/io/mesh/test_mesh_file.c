@@ -58,7 +58,7 @@ static void read_well(const char *path, const MeshParameter *parameters, int32_t
                       MeshFile *mesh)
 {
     Error err = {0};
-    bool done = mesh_file_read(path, parameters, count, mesh, &err);
+    bool done = mesh_file_read(path, parameters, count, false, mesh, &err);
     if (!done) fail_msg("%s", err.message);
 }
 
@@ -69,7 +69,7 @@ static void read_badly(const char *path, const MeshParameter *parameter, const c
     Error err = {0};
     MeshFile mesh;
     int64_t live = memory_counters().live;
-    bool done = mesh_file_read(path, parameter, parameter ? 1 : 0, &mesh, &err);
+    bool done = mesh_file_read(path, parameter, parameter ? 1 : 0, false, &mesh, &err);
     mesh_file_destroy(&mesh);
     assert_false(done);
     assert_int_equal(err.code, ERROR_INPUT);
@@ -467,8 +467,8 @@ TEST(test_not_a_mesh)
     read_badly(write_file("mesh.vtk", "x", path), NULL, "a .msh or a .geo", NULL, NULL);
     read_badly(write_file("junk.msh", "hello\nworld\n", path), NULL, "is not a gmsh mesh",
                "$MeshFormat", NULL);
-    read_badly(write_file("junk.geo", "hello world\n", path), NULL, "gmsh failed while reading it",
-               "line 1", NULL);
+    read_badly(write_file("junk.geo", "hello world\n", path), NULL, "junk.geo:1: `hello`",
+               "neither a word of gmsh", NULL);
     read_badly(write_file("head.msh", "$MeshFormat\n", path), NULL, "truncated", NULL, NULL);
     read_badly(write_file("none.msh", "$MeshFormat\nx 0 8\n", path), NULL, "no version", NULL,
                NULL);
@@ -610,7 +610,7 @@ static void exhaust(const char *path, const MeshParameter *parameters, int32_t c
         Error err = {0};
         MeshFile mesh;
         memory_fail_after(k);
-        done = mesh_file_read(path, parameters, count, &mesh, &err);
+        done = mesh_file_read(path, parameters, count, false, &mesh, &err);
         memory_fail_after(-1);
         if (!done) assert_int_equal(err.code, ERROR_MEMORY);
         mesh_file_destroy(&mesh);

@@ -29,7 +29,7 @@ static Study *read_with(const char *body, const char *const *overrides, int32_t 
     Error err = {0};
     write_study(body);
     Study *study = NEW_ARRAY(Study, 1, &err);
-    if (!study_read(path, overrides, count, study, &err)) fail_msg("%s", err.message);
+    if (!study_read(path, overrides, count, false, study, &err)) fail_msg("%s", err.message);
     return study;
 }
 
@@ -353,7 +353,7 @@ TEST(test_faults)
         write_study(known[k].body);
         Study *study = NEW_ARRAY(Study, 1, &err);
         Scene *scene = NEW_ARRAY(Scene, 1, &err);
-        bool done = study_read(path, NULL, 0, study, &err);
+        bool done = study_read(path, NULL, 0, false, study, &err);
         for (int32_t i = 0; done && i < study->point_count; i++)
             done = study_scene(study, &(PointChoice){.point = i}, scene, &err);
         if (done) fail_msg("%s: not refused", known[k].body);
@@ -379,7 +379,7 @@ TEST(test_faults_of_plots)
         Error err = {0};
         write_study(known[k][0]);
         Study *study = NEW_ARRAY(Study, 1, &err);
-        assert_false(study_read(path, NULL, 0, study, &err));
+        assert_false(study_read(path, NULL, 0, false, study, &err));
         if (!strstr(err.message, known[k][1])) fail_msg("%s", err.message);
         drop(study);
     }
@@ -395,7 +395,7 @@ TEST(test_faults_of_overrides)
         Error err = {0};
         write_study("vary: {load.pressure: [1]}\n");
         Study *study = NEW_ARRAY(Study, 1, &err);
-        assert_false(study_read(path, &overrides[k][0], 1, study, &err));
+        assert_false(study_read(path, &overrides[k][0], 1, false, study, &err));
         assert_non_null(strstr(err.message, overrides[k][1]));
         drop(study);
     }
@@ -414,7 +414,7 @@ TEST(test_memory)
     for (bool done = false; !done; failures++) {
         err = (Error){0};
         memory_fail_after(failures);
-        done = study_read(path, overrides, 1, study, &err) &&
+        done = study_read(path, overrides, 1, false, study, &err) &&
                study_scene(study, &(PointChoice){.point = 1}, scene, &err);
         memory_fail_after(-1);
         study_destroy(study);

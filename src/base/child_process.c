@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fork without exec: a few tenths of a millisecond, and the child has all that it needs. The pipe
 // carries the reply and at its end the Error; a reply without one is that of a crash.
-#include "base/apart.h"
+#include "base/child_process.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/shut_in.h"
 #include "base/system.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -19,7 +23,7 @@
 enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100 };
 enum { LOADER_FAILED = 127 };   // exit status where a library lacks a function that is called
 
-bool apart_is_wanted(void)
+bool child_is_wanted(void)
 {
     const char *wanted = getenv("AMONTONS_APART");
     return wanted && *wanted;
@@ -41,7 +45,7 @@ static void limit(int resource, rlim_t most)
     setrlimit(resource, &now);
 }
 
-void apart_allow(int32_t seconds)
+void child_allow(int32_t seconds)
 {
     struct rlimit now;
     if (getrlimit(RLIMIT_CPU, &now) != 0) return;
@@ -49,10 +53,26 @@ void apart_allow(int32_t seconds)
     setrlimit(RLIMIT_CPU, &now);
 }
 
+// Closes what else is open: a child that was misled has nothing to write to but the pipe and, for
+// the words of a crash, standard error. kept: another one that stays; below 1: none.
+static void keep_only(int pipe, int kept)
+{
+    int nothing = open("/dev/null", O_RDWR);
+    int low = kept < 1 || pipe < kept ? pipe : kept, high = kept > pipe ? kept : pipe;
+    if (nothing >= 0) {
+        dup2(nothing, STDIN_FILENO);
+        dup2(nothing, STDOUT_FILENO);
+    }
+    shut_in_close(STDERR_FILENO + 1, low - 1);
+    shut_in_close(low + 1, high - 1);
+    shut_in_close(high + 1, INT_MAX);
+}
+
 // Never returns, and leaves the parent's streams and exit handlers alone.
-static void be_child(const ApartWork *work, int pipe, pid_t parent)
+static void be_child(const ChildWork *work, int pipe, pid_t parent)
 {
     Error err = {0};
+    if (work->shut_in) keep_only(pipe, work->kept);
     FILE *reply = fdopen(pipe, "wb");
     if (!work->stop) {
         signal(SIGTERM, SIG_DFL);
@@ -63,6 +83,7 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, (rlim_t)work->seconds);
     limit(RLIMIT_AS, (rlim_t)system_address_space() + bytes_allowed());
+    if (work->shut_in) shut_in();
     work->read(work->context, reply, &err);
     err.file = NULL;   // may lie in a module that the parent has not opened
     bool written = fwrite(&err, sizeof err, 1, reply) == 1 && fflush(reply) == 0;
@@ -71,17 +92,25 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
 
 // --- in the parent ------------------------------------------------------------------------------
 
-// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends.
-static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *reply, Error *err)
+// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends. The
+// pipe may be open in a process that the child has started, so its end is not waited for when the
+// time is over.
+static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *reply, Error *err)
 {
     int64_t room = FIRST_BYTES;
     bool told = !work->stop;   // Ctrl-C comes to both; kill to one
     struct pollfd ready = {.fd = pipe, .events = POLLIN};
+    double started = clock_seconds();
     if (!(reply->bytes = memory_bytes(room, err))) return false;
     for (;;) {
         if (!told && *work->stop) told = kill(child, SIGTERM) == 0;
+        if (work->seconds_waited && clock_seconds() - started > work->seconds_waited) {
+            kill(child, SIGKILL);
+            return REFUSE(err, "%s: %s was still reading it after %d seconds, and was ended; %s",
+                          work->path, work->reader, work->seconds_waited, work->advice);
+        }
         // A signal that came before it waited does not interrupt it.
-        if (poll(&ready, 1, told ? -1 : WAKE_MS) <= 0) continue;
+        if (poll(&ready, 1, told && !work->seconds_waited ? -1 : WAKE_MS) <= 0) continue;
         if (reply->size == room) {
             if (!memory_resize(&reply->bytes, room, 2 * room, 1, err)) return false;
             room *= 2;
@@ -95,7 +124,7 @@ static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *r
 }
 
 // The child's own error, from the end of the reply.
-static void take_error(ApartReply *reply, Error *err)
+static void take_error(ChildReply *reply, Error *err)
 {
     Error said;
     reply->size -= (int64_t)sizeof said;
@@ -105,7 +134,7 @@ static void take_error(ApartReply *reply, Error *err)
 }
 
 // Why there is no answer. ending: as waitpid has it.
-static void blame(const ApartWork *work, int ending, const struct rusage *used, Error *err)
+static void blame(const ChildWork *work, int ending, const struct rusage *used, Error *err)
 {
     double kilobytes = (double)bytes_allowed() / 1024;
     char words[200];
@@ -136,12 +165,12 @@ static void blame(const ApartWork *work, int ending, const struct rusage *used, 
 }
 
 // What the streams of this process hold is written before: the child has a copy of them.
-bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
+bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
 {
     int ends[2] = {-1, -1};
     struct rusage used = {0};
     pid_t parent = getpid();
-    *reply = (ApartReply){0};
+    *reply = (ChildReply){0};
     fflush(NULL);
     if (pipe(ends) != 0) FAIL(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
     pid_t child = fork();
@@ -161,21 +190,21 @@ bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
     else
         blame(work, ending, &used, err);
 cleanup:
-    if (!error_is_clean(err)) apart_destroy(reply);
+    if (!error_is_clean(err)) child_destroy(reply);
     return error_is_clean(err);
 }
 
-bool apart_do(const ApartWork *work, Error *err)
+bool child_do(const ChildWork *work, Error *err)
 {
-    ApartReply reply = {0};
-    bool done = apart_is_wanted() ? apart_read(work, &reply, err)
+    ChildReply reply = {0};
+    bool done = child_is_wanted() ? child_read(work, &reply, err)
                                   : work->read(work->context, NULL, err);
-    apart_destroy(&reply);
+    child_destroy(&reply);
     return done;
 }
 
-void apart_destroy(ApartReply *reply)
+void child_destroy(ChildReply *reply)
 {
     memory_free(reply->bytes);
-    *reply = (ApartReply){0};
+    *reply = (ChildReply){0};
 }
