@@ -60,7 +60,7 @@ typedef struct PictureStyle {
     double width;   // mm; 0: the style's, 86, the column of a journal
     double dpi;   // dots per inch, of a PNG and of maps in the others; 0: 600, or the style's
     bool dark;   // light lines on dark paper
-    bool overwrite;   // a file that is there and is not ours goes; else it is refused
+    bool overwrite;   // what is there goes; else it is refused, if no list has it
     double height;   // mm; 0: as the figure asks
     // As PICTURE_OPTIONS has them; NULL: the default.
     const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *line, *compare,
@@ -112,8 +112,8 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
                            Error *err);
 
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
-// run, of a sweep, or of several runs side by side. overwrite: a file that is there and is not ours
-// goes; else it is refused.
+// run, of a sweep, or of several runs side by side. overwrite: what is there goes; else
+// it is refused, if the list of its folder (amontons.files) does not have it.
 bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
                      Error *err);
 
@@ -135,7 +135,7 @@ typedef struct FilmRequest {
         fields;   // the run is computed once more for as many fields of the block as the film shows
     const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
-    bool overwrite;   // a file that is there and is not ours goes; else it is refused
+    bool overwrite;   // what is there goes; else it is refused, if no list has it
     FrameCallback on_frame;   // NULL: none
     void *context;   // handed to it
     const volatile sig_atomic_t *stop;   // non-zero: ERROR_INTERRUPT, and no file; NULL: never

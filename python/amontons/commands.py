@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _structs as c
-from ._library import (Scene, c_text, c_text_or_none, call, call_stoppable, lib, printed, setting_words, words)
+from ._library import (Scene, c_text, c_text_or_none, c_word, call, call_stoppable, fields, lib, path_of, printed, setting_words, words)
 from .results import Answer, Result, plain
 
 Settings = Mapping[str, Any]
@@ -85,8 +85,8 @@ def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: P
 
 
 def forecast(scene: Any, settings: Settings | None = None) -> Answer:
-    """What a run would be and roughly what it would cost: `amontons run --dry-run`. Attributes: those of RunForecast
-    (elements, contact_nodes, unknowns, reduced, stages; mesh, reduction, steps: processor seconds, ...)."""
+    """How large a run would be: `amontons run --dry-run`. Attributes: those of RunForecast
+    (elements, contact_nodes, unknowns, reduced, held; mesh: processor seconds to read it; memory: bytes)."""
     read = Scene(scene, settings)
     expected = c.RunForecast()
     call(lib.amontons_forecast, read, ctypes.byref(expected))
@@ -187,7 +187,7 @@ def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, j
             return sweep(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
     _compute_study(lib.amontons_sweep, c.SweepSummary(), study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
                    slurm=c_text_or_none(slurm), retry=retry, fresh=fresh)
-    return read_table(Path(folder) / "sweep.csv")
+    return read_table(path_of(folder) / "sweep.csv")
 
 
 def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
@@ -230,7 +230,7 @@ def fit(study: Any, settings: Settings | None = None, folder: Any = None, *, job
 def _picture_style(style: dict[str, Any]) -> Any:
     """Numbers and words go through the library's own table, as the command's do."""
     given, plain = c.PictureStyle(format=c_text(style.get("format", "png"))), {"dark", "overwrite", "format"}
-    given.words = [(c_text(name.rstrip("_")), c_text(value)) for name, value in style.items() if name not in plain and value is not None]
+    given.words = [(c_text(name.rstrip("_")), c_word(value)) for name, value in style.items() if name not in plain and value is not None]
     for name in plain & set(style) - {"format"}:
         setattr(given, name, style[name])
     for name, value in given.words:
@@ -246,7 +246,7 @@ def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: 
     block in space is cut open ("y=0.25"). style: format ("png", "pdf", "svg"), dark,
     overwrite (also files that amontons did not write), and each option of `amontons render --help` by its name: style="columns",
     width (mm), height, dpi, title, legend, limits="1%,99%", from_="U=0.01", ... The files, in the folder figures/ of the result."""
-    folder = result.folder if isinstance(result, Result) else Path(result)
+    folder = result.folder if isinstance(result, Result) else path_of(result)
     given = _picture_style(style)
     request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=given,
                                field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges,
@@ -275,11 +275,10 @@ def film(result: Any, path: Any, **options: Any) -> Path:
     PNG frames. options: seconds, rate (frames a second), width and height (pixels), begin and end ("U=0.0117"),
     last_cycle, of (field), magnification, fields (the run is computed once more for them), title, dark, overwrite. Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
-    folder = result.folder if isinstance(result, Result) else Path(result)
-    words_of = {name: c_text(value) if isinstance(value, str) else value for name, value in options.items()}
-    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), **words_of)
+    folder = result.folder if isinstance(result, Result) else path_of(result)
+    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), **fields(c.FilmRequest, options))
     call_stoppable(lib.amontons_film, stop, c_text(folder), ctypes.byref(request))
-    return Path(path)
+    return path_of(path)
 
 
 def info(path: Any, settings: Settings | None = None, picture: Any = None, *, overwrite: bool = False) -> str:

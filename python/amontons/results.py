@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _structs as c
+from ._library import path_of
 
 _SHORT = {"t": "series/time", "U": "series/rod_displacement", "x": "nodes/x"}
 _FOLDERS = ("series", "interface", "nodes", "pads")
@@ -118,7 +119,7 @@ class Result:
     mu_max, peaks, ...); of a folder that was opened they come from run.json (`results`)."""
 
     def __init__(self, folder: Any) -> None:
-        self.folder = Path(folder)
+        self.folder = path_of(folder)
         self.summary: c.RunSummary | None = None
         self._history: History | None = None
         if not (self.folder / "run.json").is_file() and not self.folder.is_dir():

@@ -204,6 +204,7 @@ static void print_bar(const RunSummary *summary)
     else
         say("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
             slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
+    if (summary->bar_runs == 0) return;   // the first of them was cut short
     say("                  from %d run%s on %d mesh%s of up to %d contact nodes, at pressures "
         "within %g %%\n",
         summary->bar_runs, summary->bar_runs == 1 ? "" : "s", summary->bar_meshes,

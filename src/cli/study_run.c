@@ -93,7 +93,8 @@ int study_run_status(StudyRun *run, bool done, const Error *err)
 {
     if (done && run->failures > 0) {
         fflush(stdout);
-        tell("amontons: points failed, the first of them:\n  %s\n", run->failed[0]);
+        tell("amontons: points failed (--retry computes them again), the first of them:\n  %s\n",
+             run->failed[0]);
     }
     free(run->answer);
     if (!done) return report_error(err);

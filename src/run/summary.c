@@ -138,10 +138,10 @@ static void note_slip(const Simulation *simulation, int32_t first, RunSummary *s
 static void note_levels(const Simulation *simulation, RunSummary *summary)
 {
     const Levels *levels = simulation->levels;
-    const Level *last = &levels->list[levels->count - 1];
+    const Level *last = levels_last(levels);
     for (int32_t l = 0; l < levels->count; l++) summary->bar_runs += levels->list[l].run_count;
     summary->bar_meshes = levels->count;
-    summary->bar_nodes = last->contact_nodes;
+    summary->bar_nodes = last ? last->contact_nodes : 0;
     summary->bar_wanted = levels->wanted;
     summary->bar_window = simulation->scene.accuracy.window;
     summary->bar_ended = levels->ended;
@@ -158,6 +158,7 @@ void amontons_estimate(double value, double bar, double known_to, char text[ESTI
 
 void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
 {
+    NUMBERS_HAVE_A_POINT;
     text_known_to(value, known_to, text);
 }
 

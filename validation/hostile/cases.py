@@ -415,8 +415,25 @@ def surroundings(stock):
                   keeps=("own.txt", "scene.yaml", "block.geo"))
 
 
+LIST = "amontons.files"   # of a folder of ours: src/io/files/own_list.h
+EMPTY_LIST = "# Files that amontons wrote here; --overwrite removes these alone.\n"
+FIELDS = ["--set", "output.figures=[force]", "output.fields=states"]
+# Every file that a command writes into a folder of results, and the command.
+WRITTEN = {name: [*RUN, *FIELDS] for name in ("run.json", "history.h5", "checkpoint.bin", "fields.pvd", "fields/bulk_000000.vtu",
+                                              "fields/interface_000000.vtp", "figures/force.png")}
+WRITTEN |= {name: ["static", "scene.yaml", "-o", "out", "-q"] for name in ("static.json", "static.h5", "static.vtu")}
+WRITTEN |= {name: ["model1d", "scene.yaml", "-o", "out", "-q"] for name in ("model1d.json", "model1d.h5")}
+WRITTEN |= {name: ["stability", "scene.yaml", "-o", "out", "-q"] for name in ("stability.json", "stability.h5")}
+WRITTEN |= {name: ["sweep", "study.yaml", "-o", "out", "-q"] for name in ("sweep.csv", "sweep.h5")}
+# And every file with a name that is given, or follows from one.
+NAMED = {"mine.mp4": ["film", "out", "-o", "mine.mp4", "--seconds", "0.1", "-q"], "out.gif": ["film", "out", "-o", "out.gif", "--seconds", "0.1", "-q"],
+         "mine.html": ["report", "out", "-o", "mine.html"], "out/report.html": ["report", "out"], "comparison.html": ["report", "out", "out"],
+         "mesh.png": ["info", "block.msh", "--picture", "mesh.png"], "plot.png": ["render", "plot.yaml"],
+         "out/figures/force.png": ["render", "out", "--figure", "force"], "out/figures/force.csv": ["render", "out", "--figure", "force"]}
+
+
 def own_files(stock):
-    """What stands in the result folder and is not ours stays, whatever becomes of the run."""
+    """What stands in the result folder and is not in its list stays, whatever becomes of the run."""
     own = {"out/figures/mine.png": "mine", "out/fields/mine.vtu": "mine", "out/mine.txt": "mine",
            "out/history.h5.bak": "mine"}
     for name, words in {"a good scene": RUN, "with --overwrite": RUN + ["--overwrite"],
@@ -425,23 +442,37 @@ def own_files(stock):
                         "figures anew": RUN + ["--overwrite", "--set", "output.figures=[force]"],
                         "a bad mesh": RUN + ["--overwrite", "--set", "mesh.file=none.geo"],
                         "fields anew": RUN + ["--overwrite", "--set", "output.fields=states"]}.items():
-        yield Try("own files", name, words, own, keeps=tuple(own))
+        yield Try("own files", name, words, own | {f"out/{LIST}": EMPTY_LIST}, keeps=tuple(own))
+        yield Try("own files", f"{name}, no list", words, own, may=(REFUSED,), keeps=tuple(own))
         linked = {"else/mine.png": "mine"}
         yield Try("own files", f"{name}, figures linked", words, linked, keeps=tuple(linked),
                   shell='mkdir -p out; ln -s ../else out/figures; exec "$@"')
-    for name in ("figures/force.png", "fields/bulk_000000.vtu", "figures/accuracy.json", "report.html", "static.json",
-                 "checkpoint.bin", "fields.pvd", "history.h5"):
-        named = {f"out/{name}": "mine"}
-        for where, beside in (("", {}), (" beside a result", {"out/run.json": stock.result / "run.json"})):
-            yield Try("own files", f"named as ours: {name}{where}", RUN + ["--overwrite"], named | beside,
-                      may=(REFUSED,), says=name, keeps=tuple(named))
+    for name, words in WRITTEN.items():
+        for place in (name, f"{name}.part"):
+            if place == "checkpoint.bin.part" or (place.endswith(".part") and "/" in place):   # told when it is written
+                continue
+            mine = {f"out/{place}": "a series of mine, amontons run \"status\": \"done\""} | ({"study.yaml": STUDY} if "sweep" in words else {})
+            again = words + (["--overwrite"] if "sweep" not in words else [])
+            for how, beside in (("", {}), (" in a folder of ours", {f"out/{LIST}": EMPTY_LIST})):
+                yield Try("own files", f"{words[0]} over {place}{how}", again, mine | beside, may=(REFUSED,), says=name.split("/")[0],
+                          keeps=(f"out/{place}",))
+    strange = {"mine.txt": "mine", "out/.mine": "mine", "behind/mine.txt": "mine"}
+    paths = "../mine.txt\n.mine\ninner/mine.txt\ninner/../../mine.txt\n/etc/hostname\nfigures/../../mine.txt\n"
+    yield Try("own files", "a list that leads out of its folder", RUN + ["--overwrite"], strange | {f"out/{LIST}": EMPTY_LIST + paths},
+              keeps=tuple(strange), shell='ln -s ../behind out/inner; exec "$@"')
+    yield Try("own files", "a list that is a link", RUN + ["--overwrite"], {"mine.txt": "mine"}, may=(REFUSED, FAILED), keeps=("mine.txt",),
+              shell=f'mkdir out; ln -s ../mine.txt out/{LIST}; exec "$@"')
 
 
-def own_tables(stock):
-    """A sweep writes its tables where these are its own."""
-    for name in ("sweep.csv", "sweep.h5", "ranking.csv"):
-        yield Try("own files", f"a sweep over somebody's {name}", ["sweep", "study.yaml", "-q", "-o", "out"],
-                  {"study.yaml": STUDY, f"out/{name}": "mine"}, may=(REFUSED,), says=name, keeps=(f"out/{name}",))
+def named_files(stock):
+    """A file that is named, or named by default outside of what the list has, gives way to --overwrite alone."""
+    result = {f"out/{path.relative_to(stock.result)}": path for path in stock.result.rglob("*") if path.is_file()} | {"plot.yaml": PLOT}
+    for name, words in NAMED.items():
+        files = result | {name: "mine"}
+        yield Try("own files", f"{words[0]} over {name}", words, files, may=(REFUSED,), says=name.split("/")[-1], keeps=(name,))
+        part = result | {f"{name}.part": "mine"}
+        yield Try("own files", f"{words[0]} over {name}.part", words, part, may=(REFUSED,), says=f"{name.split('/')[-1]}.part",
+                  keeps=(f"{name}.part",))
 
 
 def signals(stock):
@@ -469,7 +500,7 @@ def command_lines(stock):
     yield Try("words", "bytes that are no UTF-8", ["run", b"\xff\xfe.yaml", "--set", b"title=\xff"])
 
 
-GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, own_tables, signals,
+GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, named_files, own_tables, signals,
           command_lines, readers, histories]
 
 

@@ -15,9 +15,9 @@ static ssize_t write_bytes(void *self, const char *bytes, size_t count)
     return (ssize_t)count;
 }
 
-bool text_writer_open(TextWriter *writer, const char *path, bool any, Error *err)
+bool text_writer_open(TextWriter *writer, const char *path, bool overwrite, Error *err)
 {
-    if (!part_file_replace(&writer->file, path, any, err)) return false;
+    if (!part_file_replace(&writer->file, path, overwrite, err)) return false;
     writer->out = system_stream(writer, write_bytes);
     if (writer->out && setvbuf(writer->out, NULL, _IOFBF, BUFFER) == 0) return true;
     text_writer_close(writer);

@@ -34,7 +34,7 @@ static bool write_scene(const char *folder, const char *path, Error *err)
     TRY(text_file_read(report, INT32_MAX / 2, &text, &size, err));
     const char *scene = json_find_raw(text, "scene", &length);
     if (!scene) FAIL(err, ERROR_INPUT, "%s holds no scene to be computed again", report);
-    TRY(part_file_put(path, scene, length, err));
+    TRY(part_file_put(path, false, scene, length, err));
 cleanup:
     memory_free(text);
     return error_is_clean(err);

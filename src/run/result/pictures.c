@@ -7,6 +7,7 @@
 #include "base/module.h"
 #include "io/text/picture_options.h"
 #include "render/render.h"
+#include "run/result/own_file.h"
 
 #include <errno.h>
 #include <string.h>
@@ -60,7 +61,8 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
                       .advice = "its history is damaged",
                       .read = draw_apart,
                       .context = &draw};
-    return pictures_check_folder(folder, err) && apart_do(&work, err);
+    return pictures_check_folder(folder, err) && own_file_adopt(folder, err) &&
+           apart_do(&work, err);
 }
 
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,

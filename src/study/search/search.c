@@ -354,7 +354,7 @@ void search_close(Search *search, Error *err)
 {
     Error ignored = {0};
     bool whole = error_is_clean(err), stopped = err->code == ERROR_INTERRUPT;
-    if (search->sweep && search->sweep->lock >= 0) {
+    if (search->sweep && search->sweep->lock.held) {
         sweep_share_results(search->sweep);
         if (whole || stopped) sweep_show(search->sweep, whole, whole ? err : &ignored);
     }

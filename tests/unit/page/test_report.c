@@ -66,9 +66,13 @@ TEST_BETWEEN(test_refused, begin, end)
     refuse(results, 1, "is no table of a sweep");
     place_write(place, "sweep.csv", "status,b\ndone,2\n");
     refuse(results, 1, "is no table of a sweep");
-    place_write(place, "page.html.part", "of a process that crashed");
-    assert_int_equal(chmod(place_path(place, "page.html.part"), 01644), 0);   // as ours are
-    refuse(results, 1, "is no table of a sweep");
+    char file[PLACE_SIZE + 20];
+    Error err = {0};
+    snprintf(file, sizeof file, "%s/page.html", place);
+    place_write(place, "page.html.part", "of somebody");   // is neither used nor removed
+    assert_false(amontons_report(results, 1, file, false, &err));
+    assert_non_null(strstr(err.message, "page.html.part is there already"));
+    assert_true(place_has(place, "page.html.part"));
 }
 
 // A report alone: its numbers, its scene, the film beside it; nothing of a history.

@@ -4,6 +4,7 @@
 
 #include "base/computation.h"
 #include "base/memory.h"
+#include "io/files/own_list.h"
 #include "io/files/text_file.h"
 #include "io/mesh/mesh_source.h"
 #include "io/text/json_reader.h"
@@ -111,7 +112,6 @@ const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
     Scene *scene = sweep->scene;
     double accuracy = sweep->points[point].accuracy;
     if (!study_scene(&sweep->study, &(PointChoice){.point = point}, scene, err)) return NULL;
-    scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
     return scene;
 }
@@ -251,7 +251,8 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
     JsonWriter *json = NULL;
     TRY(scene);
     point_path(sweep, point, "", folder);
-    if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
+    if (!table) mkdir(folder, 0777);   // a failure shows when the list is written
+    if (!table) TRY(own_list_make(folder, err));
     point_path(sweep, point, RUN_REPORT, path);
     TRY((json = json_create(table ? NULL : path, err)));
     json_begin_object(json, NULL);

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 
 #include <hdf5.h>
 
@@ -25,7 +26,7 @@ static char folder[64];
 FIXTURE(make_folder)
 {
     snprintf(folder, sizeof folder, "/tmp/amontons_array_XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)

@@ -4,6 +4,7 @@
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
+#include "io/files/own_list.h"
 #include "near.h"
 #include "result_place.h"
 
@@ -456,7 +457,9 @@ TEST(test_refused)
     Error err = {0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     place_make(place);
+    assert_true(own_list_make(place, &err));
     snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    assert_true(own_list_add(path, &err));
     assert_null(array_file_reopen(path, &err));
     assert_int_equal(err.code, ERROR_FILE);
     err = (Error){0};

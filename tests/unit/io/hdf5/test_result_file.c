@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@ FIXTURE(make_folder)
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
     snprintf(folder, sizeof folder, "/tmp/amontons_result_XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)
@@ -219,6 +220,7 @@ TEST(every_path_frees_when_memory_is_short)
     snprintf(place, sizeof place, "%s/short", folder);
     snprintf(path, sizeof path, "%s/history.h5", place);
     assert_int_equal(mkdir(place, 0777), 0);
+    assert_true(own_list_make(place, &(Error){0}));
     int64_t live = memory_counters().live;
     ErrorCode code = ERROR_MEMORY;
     int32_t k = 0;
@@ -247,6 +249,8 @@ TEST(every_path_frees_when_memory_is_short)
     }
     assert_int_equal(code, ERROR_NONE);
     assert_in_range(k, 40, 70);   // two arrays a series and a few more
+    unlink(path);
+    snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, place);
     unlink(path);
     assert_int_equal(rmdir(place), 0);
 }

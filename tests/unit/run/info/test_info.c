@@ -4,6 +4,7 @@
 #include "amontons.h"
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 #include "io/hdf5/result_file.h"
 
 #include <math.h>
@@ -255,13 +256,15 @@ TEST(test_broken_results)
 
 FIXTURE(group_begin)
 {
-    return mkdtemp(folder) ? 0 : -1;
+    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(group_end)
 {
     char path[200];
     snprintf(path, sizeof path, "%s/s.yaml", folder);
+    unlink(path);
+    snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, folder);
     unlink(path);
     return rmdir(folder);
 }
