@@ -40,7 +40,7 @@ StepView step_view(const Observation *seen, const Events *events, const ContactA
                       .max_slip_rate = seen->max_slip_rate,
                       .fraction = fmin(seen->t / t_end, 1),
                       .certified = seen->certified,
-                      .events = events->count - kinds[EVENT_QUASI_STATIC],
+                      .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
                       .slidings = kinds[EVENT_LEADING],
                       .contact = contact_view(seen->interface, contact)};
 }

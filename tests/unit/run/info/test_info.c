@@ -125,12 +125,12 @@ TEST(test_result)
     assert_faults_are_clean(folder);
 }
 
-// Kinds that no version wrote, more events than are shown, and none.
+// More events than are shown, of each kind, and none.
 TEST(test_events)
 {
-    double kinds[EVENTS_MAX] = {-1, 7};
+    double kinds[EVENTS_MAX] = {3, 2};
     static const char *const odd[] = {
-        "  unknown                 0.1", "  unknown                 0.2",
+        "  slight rapid            0.1", "  bulk sliding            0.2",
         "  quasi-static            0.3", "  ... and 400 more\n", NULL};
     write_history(kinds, EVENTS_MAX);
     assert_info_holds(folder, odd);
