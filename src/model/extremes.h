@@ -7,9 +7,9 @@
 #include "model/model.h"
 
 // After a reduction that failed with `err`. Under reduction.use: auto an error of computing is
-// taken back (true), and model->not_reduced says why the whole mesh is stepped: the largest quotient
-// of the block's numbers, where one is unusual. Under `always` the error names its key. Other errors,
-// such as lack of memory, stay: bits must not depend on them.
+// taken back (true), and model->not_reduced says why the whole mesh is stepped: the largest
+// quotient of the block's numbers, where one is unusual. Under `always` the error names its key.
+// Other errors, such as lack of memory, stay: bits must not depend on them.
 bool model_blame_extremes(Model *model, Error *err);
 
 #endif
