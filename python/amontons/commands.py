@@ -85,8 +85,8 @@ def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: P
 
 
 def forecast(scene: Any, settings: Settings | None = None) -> Answer:
-    """What a run would be and roughly what it would cost: `amontons run --dry-run`. Attributes: those of RunForecast
-    (elements, contact_nodes, unknowns, reduced, stages; mesh, reduction, steps: processor seconds, ...)."""
+    """How large a run would be: `amontons run --dry-run`. Attributes: those of RunForecast
+    (elements, contact_nodes, unknowns, reduced, held; mesh: processor seconds to read it; memory: bytes)."""
     read = Scene(scene, settings)
     expected = c.RunForecast()
     call(lib.amontons_forecast, read, ctypes.byref(expected))

@@ -4,7 +4,7 @@
 // what only saves time or memory does nothing.
 //
 // What else is not POSIX: argp in cli/options (elsewhere a library of its own, argp-standalone),
-// memfd_create in io/mesh/mesh_file_module, the kernels of OpenBLAS in base/kernels, how cli/main
+// memfd_create in io/mesh, the kernels of OpenBLAS in base/kernels, how cli/main
 // sets the allocator, and options of the linker in src/CMakeLists.txt (version scripts). x86 alone:
 // target_clones in algebra/lanes.h and the names of processors in base/kernels, both with a twin.
 #ifndef AMONTONS_BASE_SYSTEM_H

@@ -258,7 +258,7 @@ static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
-// Of node k: its extent along the end that it is at, the upper and lower ones unless it is at none.
+// Extent of node k along the end that it is at, the upper and lower ones unless it is at none.
 static double end_length(const Face *face, int32_t k, bool at_side)
 {
     double height = face->to[0][k] - face->from[0][k];

@@ -46,7 +46,7 @@ typedef struct Mesh {
     MeshMove move;
 } Mesh;
 
-// Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
+// In an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
 // from there to the node, and to d.
 static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
 {
@@ -159,7 +159,7 @@ const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE]);
 double mesh_gap(const Mesh *mesh, int32_t node);
 void mesh_contact_destroy(MeshContact *contact);
 
-// What `amontons info` says of a mesh.
+// The numbers that `amontons info` prints of a mesh.
 typedef struct MeshSummary {
     int32_t element_counts[ELEMENT_KIND_COUNT];   // by ElementKind
     double area;   // length^2; in space the volume, length^3

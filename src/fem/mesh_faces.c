@@ -125,7 +125,7 @@ static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, E
     return error_is_clean(err);
 }
 
-// What is done with each face of each element; false ends the walk.
+// Is called for each face of each element. Returning false ends the walk.
 typedef bool (*FaceVisit)(const Mesh *mesh, const MeshFace *face, MeshFaces *table, Error *err);
 
 static bool visit_faces(const Mesh *mesh, FaceVisit visit, MeshFaces *table, Error *err)

@@ -7,7 +7,8 @@
 #include "amontons_friction.h"
 #include "base/error.h"
 
-// Of a law of speed alone coefficient and slope, of one that remembers the rest; others are NULL.
+// A law of speed alone has coefficient and slope, one that remembers has the rest; the others are
+// NULL.
 typedef struct FrictionPlugin {
     double (*coefficient)(const AmontonsFriction *given, double speed);
     double (*slope)(const AmontonsFriction *given, double speed);

@@ -2,26 +2,15 @@
 #include "model/scene_mesh.h"
 
 #include "io/mesh/mesh_pick.h"
-#include <math.h>
-#include <sys/resource.h>
-#include <unistd.h>
+#include "model/memory.h"
 
 // Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
 static const double NODE_BYTES = 4e3;
 
-double model_memory_there(void)
-{
-    struct rlimit room;
-    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
-        have = fmin(have, (double)room.rlim_cur);
-    return have;
-}
-
 // Said before the memory is full: then the system would end this or another program.
 static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
 {
-    double have = model_memory_there();
+    double have = memory_there();
     if (node_count * NODE_BYTES > have)
         return REFUSE(
             err,

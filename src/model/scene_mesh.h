@@ -11,7 +11,4 @@
 // the key of the scene that is wrong.
 bool scene_mesh_read(const Scene *scene, Mesh *mesh, MeshOrigin *origin, Error *err);
 
-// Bytes of memory of this computer, or what a limit leaves of it.
-double model_memory_there(void);
-
 #endif

@@ -67,15 +67,6 @@ static void write_timing(JsonWriter *json, const Model *model, const RunTiming *
                    {"outside_loop_cpu", timing->outside});
 }
 
-// What `reduction.use: auto` chose by, processor seconds.
-static void write_expected(JsonWriter *json, const Model *model)
-{
-    const ExpectedCost *expected = &model->expected;
-    json_object_of(json, "expected_s", {"reduction", expected->reduction},
-                   {"reduced", expected->reduced}, {"full", expected->full},
-                   {"stages", trunc(model->choice.stages)}, {"runs", trunc(model->choice.runs)});
-}
-
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
@@ -89,7 +80,6 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_boolean(json, "from_cache", model->from_cache);
     json_number(json, "mesh_scale", model->mesh.move.scale);
     json_number_list(json, "mesh_shift", model->mesh.move.shift, model->mesh.dim);
-    write_expected(json, model);
     json_numbers_of(json, {"length", model->length}, {"height", model->height});
     json_object_of(json, "wave_speeds", {"longitudinal", speeds.longitudinal},
                    {"shear", speeds.shear}, {"rayleigh", speeds.rayleigh});

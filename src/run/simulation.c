@@ -190,7 +190,6 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
     if (options->resume && !options->folder)
         return REFUSE(err, "a run without a result folder leaves nothing to go on from");
     if (options->resume && !checkpoint_read(options->folder, state, err)) return false;
-    if (options->resume) simulation->scene.reduction.decided = saved_state_reduction(state);
     return true;
 }
 
@@ -215,6 +214,10 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
     StageNotice notice = {.tell = tell_stage, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
+    if (simulation->model.not_reduced[0])
+        warnings_add(&simulation->warnings,
+                     "the block is not reduced, steps are those of the whole mesh: %s",
+                     simulation->model.not_reduced);
     TRY(start_prepare_steps(simulation, err));
     warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
     if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
@@ -229,6 +232,8 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,
                       &simulation->warnings);
     warnings_of_units(&simulation->model, &simulation->warnings);
+    warnings_of_gaps(&simulation->model, &simulation->warnings);
+    warnings_of_states(&simulation->model, &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
     if (options->resume)

@@ -158,6 +158,7 @@ void amontons_estimate(double value, double bar, double known_to, char text[ESTI
 
 void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
 {
+    NUMBERS_HAVE_A_POINT;
     text_known_to(value, known_to, text);
 }
 

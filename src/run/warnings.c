@@ -13,6 +13,7 @@
 // with more (median 0.3 %, largest 3.2 %).
 #include "run/warnings.h"
 
+#include "friction/friction_start.h"
 #include "friction/friction_state.h"
 #include "record/drops.h"
 #include "scene/keys.h"
@@ -293,6 +294,68 @@ void warnings_of_units(const Model *model, RunWarnings *warnings)
             sound, scene_region_name(scene, k), material->young, material->density);
         return;
     }
+}
+
+// Of a gap: over the block's height; its slope, whose square is the error of pressing along z.
+static const double GAP_LARGE = 0.5, GAP_STEEP = 0.2;
+
+void warnings_of_gaps(const Model *model, RunWarnings *warnings)
+{
+    const Interface *interface = &model->interface;
+    const double *gap = interface->gap;
+    double largest = 0, least = INFINITY, steepest = GAP_STEEP, at = 0;
+    int32_t count = interface->contact_count;
+    if (!gap) return;
+    for (int32_t i = 0; i < count; i++) {
+        largest = fmax(largest, gap[i]);
+        least = fmin(least, gap[i]);
+    }
+    if (largest > GAP_LARGE * model->height)
+        warnings_add(warnings,
+                     "a gap as large as the block: up to %.3g under a block that is %.3g high; is "
+                     "it in the scene's unit of length, and of the right sign?",
+                     largest, model->height);
+    // What the block may come to touch: as far as the mean pressure presses it down, times 10.
+    double pressure = model->scales.load / (model->length * model->breadth);
+    double reach = least + 10 * pressure / model->materials.mean.young * model->height;
+    for (int32_t i = 1; i < count && interface->dim == 2; i++) {
+        double way = interface->x[i] - interface->x[i - 1];
+        double slope = fabs(gap[i] - gap[i - 1]) / way;
+        bool touches = fmin(gap[i], gap[i - 1]) <= reach &&
+                       interface->pad[i] == interface->pad[i - 1];
+        if (!touches || slope <= steepest) continue;
+        steepest = slope;
+        at = 0.5 * (interface->x[i] + interface->x[i - 1]);
+    }
+    if (steepest > GAP_STEEP)
+        warnings_add(
+            warnings,
+            "the floor is steep where the block may touch it: a slope of %.2g at x = %.4g; "
+            "nodes come down along z and are pressed along z, an error of the square of "
+            "the slope, %.0f %%",
+            steepest, at, 100 * fmin(steepest * steepest, 1));
+}
+
+void warnings_of_states(const Model *model, RunWarnings *warnings)
+{
+    const FrictionLaw *law = &model->law;
+    double speed = model->scene->rod.velocity, states[2] = {0};
+    bool own = law->remembers &&
+               (law->own.memory.kind == MEMORY_FORMULAS || law->own.memory.kind == MEMORY_PLUGIN);
+    if (!own || law->own.memory.states == 0 || !(speed > 0)) return;
+    int32_t count = friction_count_steady(&law->own.memory, speed, states);
+    if (count == 0)
+        warnings_add(
+            warnings,
+            "the states of friction.state do not come to steady slip at the rod's velocity "
+            "%.3g: what the run gives depends on where they begin, and how long it is",
+            speed);
+    if (count == 2)
+        warnings_add(warnings,
+                     "the states of friction.state have several values of steady slip at the rod's "
+                     "velocity %.3g, such as %.3g and %.3g: which of them contacts come to depends "
+                     "on where they begin",
+                     speed, states[0], states[1]);
 }
 
 // Less of the strip than this may miss the face, relative to its width: rounding of either.

@@ -36,6 +36,11 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings);
 void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings);
 // In an SI scene: a block, or a speed of sound, of a size that a unit left out would explain.
 void warnings_of_units(const Model *model, RunWarnings *warnings);
+// A gap under the contact as large as the block, or so steep where the block may touch that nodes
+// which come down along z do not describe it.
+void warnings_of_gaps(const Model *model, RunWarnings *warnings);
+// States of one's own law that have several values of steady slip at the rod's velocity, or none.
+void warnings_of_states(const Model *model, RunWarnings *warnings);
 // The rod's strip against the extent of its face; height: H, length.
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);

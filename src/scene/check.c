@@ -254,10 +254,6 @@ static bool check_programs(const Check *check)
                      "begins with %g, not with 1: the block relaxes under load.pressure and "
                      "load.tractions as they are",
                      load->factor.value[0]);
-    if (scene_has_program(load) && scene->reduction.use == REDUCE_ALWAYS)
-        return blame(
-            check, "reduction.use",
-            "`always`, but a load that changes needs the mesh (load.program): auto or never");
     return true;
 }
 

@@ -297,7 +297,8 @@ static const SceneKey keys[] = {
            "averaged."),
     CHOICE(reduction.use, "auto",
            "Reduce the bulk to its interface and a small interior basis before stepping; `auto`: "
-           "where that is expected to be faster.",
+           "wherever the scene allows it; `always`: likewise, or it is an error; `never`: step on "
+           "the whole mesh.",
            "auto", "always", "never"),
     NUMBER(reduction.tolerance, "1", RANGE_PART_OR_ZERO, "0",
            "Error allowed to the answers of the reduced interior, relative, in the energy norm; 0: "

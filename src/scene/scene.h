@@ -119,10 +119,9 @@ typedef struct Scene {
         SceneAnswer of;   // whose bar it is
     } accuracy;
     struct {
-        SceneReduce use, decided;   // decided: no key; by a run that goes on; REDUCE_AUTO: not yet
+        SceneReduce use;
         double tolerance;   // of the interior basis, relative
         bool cache;   // keep the basis on disk for the next run of the shape
-        int32_t runs;   // no key: of a sweep, those that step on this basis; 0: no sweep
     } reduction;
     struct {
         bool history, fields;   // fields: none, or {every_U, every_t, every_step, at_events, film}

@@ -52,12 +52,48 @@ class Help(unittest.TestCase):
                                       rf"meshes and example scenes: {re.escape(str(SOURCE))}\n$")
 
     def test_kernels(self):
-        """What this processor can run, whatever OpenBLAS is told by a name that does not exist; a choice stays."""
+        """What OpenBLAS takes, whatever it is told by a name that does not exist; a choice stays."""
         said = {name: amontons("--version", OPENBLAS_CORETYPE=name).stdout.splitlines()[2]
-                for name in ("", "none", "Prescott")}
-        self.assertEqual(said["none"], said[""])
-        self.assertNotIn("Prescott", said[""])
+                for name in ("none", "Prescott")}
+        self.assertNotIn("Prescott", said["none"])
         self.assertRegex(said["Prescott"], r"Prescott kernels, as OPENBLAS_CORETYPE asks; this processor could run \w+$")
+
+    def unknown(self, *words, **environment):
+        """The program with an OpenBLAS that does not know the processor; its standard output."""
+        plain = {name: value for name, value in os.environ.items() if name != "OPENBLAS_CORETYPE"}
+        preloaded = ":".join(filter(None, (os.environ.get("LD_PRELOAD"), str(PROGRAM.parents[1] / "tests/unknown_processor.so"))))
+        done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=60, env=plain | {"LD_PRELOAD": preloaded} | environment)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_a_processor_that_openblas_does_not_know(self):
+        """The program chooses kernels and executes itself, once; not against a choice, not for ever."""
+        best = re.search(r"could run (\w+)$", amontons("--version", OPENBLAS_CORETYPE="Prescott").stdout, re.M)[1]
+        self.assertIn(f"OpenBLAS's {best} kernels\n", self.unknown("--version"))
+        self.assertIn("OpenBLAS's Nehalem kernels, as", self.unknown("--version", OPENBLAS_CORETYPE="Nehalem"))
+        self.assertIn("OpenBLAS's Prescott kernels, as", self.unknown("--version", UNKNOWN_ALWAYS="yes"))
+        self.assertIn(f"OpenBLAS's {best} kernels\n", self.unknown("--version", AMONTONS_AGAIN="1"))   # of another process
+
+    def test_what_it_sets_is_not_inherited(self):
+        """A job that it submits runs on another processor."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            for name in ("sbatch", "scancel", "squeue", "scontrol"):
+                (folder / name).write_text(f"#!/bin/sh\nenv > {folder}/inherited\n[ $1 = --version ]\n")
+                (folder / name).chmod(0o755)
+            (folder / "study.yaml").write_text(f"scene: {FIG1}\nvary: {{load.pressure: [0.002, 0.006]}}\nrecord: [mu_max]\n")
+            with self.assertRaises(AssertionError):   # it refuses the array
+                self.unknown("sweep", folder / "study.yaml", "--slurm", "-o", folder / "points", PATH=f"{folder}:{os.environ['PATH']}",
+                             OMP_NUM_THREADS="3")
+            inherited = (folder / "inherited").read_text()
+        for name in ("OPENBLAS_CORETYPE", "AMONTONS_AGAIN"):
+            self.assertNotIn(name, inherited)
+        self.assertIn("OMP_NUM_THREADS=3\n", inherited)
+
+    def test_variables_of_openmp(self):
+        """libgomp, which the program does not use, has nothing to say."""
+        done = amontons("info", "keys", OMP_NUM_THREADS="0")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_main_help_names_every_command(self):
         for words in (["--help"], ["help"], ["-h"]):
@@ -328,18 +364,6 @@ class Run(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("amontons_hdf5.so", done.stderr)
 
-    def test_regions_of_openmp_make_no_teams(self):
-        """The loader says whose function CHOLMOD calls: the program's, not libgomp's."""
-        done = amontons("run", FIG1, *COARSE, "time.until.t=1", "reduction.cache=false", *PLAIN,
-                        "-o", self.folder / "out", LD_DEBUG="bindings", LD_DEBUG_OUTPUT=str(self.folder / "loader"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        said = [line for file in self.folder.glob("loader*") for line in file.read_text().splitlines()
-                if "GOMP_parallel'" in line and re.search(r"file \S*libcholmod", line)]
-        if not said:
-            self.skipTest("CHOLMOD without GNU's OpenMP")
-        for line in said:
-            self.assertRegex(line, r" to \S*/amontons \[0\]")
-
     def test_quiet(self):
         done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "--quiet", "-o",
                         self.folder / "a" / "b")
@@ -438,17 +462,6 @@ class Run(InFolder):
         self.assertEqual(ended[1], 1)   # the block is reduced in two threads
         if root:
             self.assertEqual(ended[6], 0)
-
-    def test_libraries_start_no_threads(self):
-        """On many processors too: the loader says whom OpenBLAS asks for their number."""
-        done = amontons("--version", LD_DEBUG="bindings", LD_DEBUG_OUTPUT=str(self.folder / "loader"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        said = [line for file in self.folder.glob("loader*") for line in file.read_text().splitlines()
-                if "openblas_num_threads_env'" in line]
-        if not said:
-            self.skipTest("OpenBLAS without threads of its own")
-        for line in said:
-            self.assertRegex(line, r" to \S*/amontons \[0\]")
 
     def test_ignored_children(self):
         """Whoever starts it may ignore SIGCHLD: an sbatch that fails has failed all the same."""

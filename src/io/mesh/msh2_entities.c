@@ -11,6 +11,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/system.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -195,7 +196,7 @@ static bool is_copy(const Msh2File *file, const Msh2Element *first, const Msh2El
 // Sets `groups` of every element from all of its copies.
 static void find_groups(Msh2File *file, int64_t *order)
 {
-    qsort_r(order, (size_t)file->count, sizeof *order, compare_copies, file);
+    system_sort(order, (size_t)file->count, sizeof *order, compare_copies, file);
     for (int64_t k = 0, end; k < file->count; k = end) {
         Hash hash = hash_start();
         const Msh2Element *first = &file->elements[order[k]], *last = NULL;
@@ -232,7 +233,7 @@ static bool number_entities(Msh2File *file, int64_t *order)
         int32_t dim = dim_of(element);
         if (element->entity > most[dim]) most[dim] = element->entity;
     }
-    qsort_r(order, (size_t)file->count, sizeof *order, compare_entities, file);
+    system_sort(order, (size_t)file->count, sizeof *order, compare_entities, file);
     for (int64_t k = 0; k < file->count; k++) {
         Msh2Element *element = &file->elements[order[k]];
         const Msh2Element *last = k > 0 ? &file->elements[order[k - 1]] : NULL;

@@ -151,7 +151,11 @@ static bool begin_node(Reader *reader, YamlNode beside, YamlNode *node, Error *e
     if (anchor)
         return yaml_error_at(document, token_position(anchor, position), err,
                              "anchors and aliases (& and *) are not allowed in a scene");
-    position = token_position(fy_event_get_token(reader->event), position);
+    // A value left out is where its key is. Since libfyaml 0.8 it has a token, behind the colon.
+    struct fy_token *token = fy_event_get_token(reader->event);
+    bool left_out = type == FYET_SCALAR && token && fy_token_scalar_style(token) == FYSS_PLAIN &&
+                    fy_token_get_text_length(token) == 0;
+    if (!left_out) position = token_position(token, position);
     return type == FYET_SCALAR
                ? add_scalar(reader, position, beside, node, err)
                : add_node(document, type == FYET_MAPPING_START ? YAML_MAP : YAML_LIST, position,

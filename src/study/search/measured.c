@@ -216,15 +216,14 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
             return csv_refuse(&table->csv, row, table->columns[k].error, err,
                               "`%.40s`: an error is above 0",
                               csv_cell(&table->csv, row, table->columns[k].error));
-        int32_t told = table->columns[k].error;
         if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
             return csv_refuse(&table->csv, row, k, err,
                               "%g with an error of %g; allowed: at most %g", datum.value,
                               datum.error, LARGEST);
         if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
-            return csv_refuse(&table->csv, row, told, err,
-                              "%g beside %g: nothing is measured to so many digits", datum.error,
-                              datum.value);
+            return csv_refuse(&table->csv, row, table->columns[k].error, err,
+                              "%g beside %s = %g: nothing is measured to so many digits",
+                              datum.error, name, datum.value);
         if (!add_datum(measured, &datum, err)) return false;
     }
     return true;

@@ -11,7 +11,6 @@
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
 #include "io/files/own_list.h"
-#include "study/sweep/computing/block_counts.h"
 #include "study/sweep/computing/pool.h"
 #include "study/sweep/computing/share.h"
 #include "study/sweep/computing/slurm.h"
@@ -132,7 +131,6 @@ static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 {
     const Scene *scene = point_scene(sweep, k, err);
     if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
-    if (!block_note(scene, &sweep->mesh, &sweep->points[k], err)) return false;
     if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
         return REFUSE(err,
@@ -149,7 +147,6 @@ static bool plan_points(Sweep *sweep, Error *err)
     int32_t count = sweep->study.point_count;
     TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
     for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, err));
-    TRY(blocks_count(sweep->points, count, err));
     TRY(points_find_same(sweep, err));
     TRY(find_baselines(sweep, err));
     sweep->point_count = sweep->planned = count;

@@ -111,6 +111,66 @@ TEST(test_tall_block)
     }
 }
 
+static bool is_warned(const char *setting, const char *more, const char *words)
+{
+    RunWarnings found = warnings_of(setting, more);
+    for (int32_t k = 0; k < found.count; k++)
+        if (strstr(found.text[k], words)) return true;
+    return false;
+}
+
+TEST(test_gaps)
+{
+    static const char large[] = "a gap as large as the block", steep[] = "the floor is steep";
+    assert_true(is_warned("contact={gap: 0.6 * x}", NULL, large));
+    assert_true(is_warned("contact={gap: 0.6 * x}", NULL, steep));
+    assert_true(is_warned("contact={gap: 0.3 * abs(x - 0.5)}", NULL, steep));
+    assert_false(is_warned("contact={gap: 0.3 * abs(x - 0.5)}", NULL, large));
+    assert_int_equal(warnings_of("contact={gap: 0.1 * x}", NULL).count, 0);
+    // Steeper where the block will not touch it: no harm.
+    assert_int_equal(warnings_of("contact={gap: 'max(0, 0.5 - x)^2 / 2'}", NULL).count, 0);
+}
+
+TEST(test_states)
+{
+    static const char law[] = "friction={law: formula, formula: 0.3 + 0.1 * s / (1 + s), "
+                              "state: {s: {rate: '%s', start: 0.1}}}";
+    char setting[300];
+    snprintf(setting, sizeof setting, law, "v * (s * (1 - s) * (s - 0.2)) * 1e5");
+    assert_true(is_warned(setting, NULL, "several values of steady slip"));
+    snprintf(setting, sizeof setting, law, "v * 1e5");
+    assert_true(is_warned(setting, NULL, "do not come to steady slip"));
+    snprintf(setting, sizeof setting, law, "(1 - v * s / 1e-2) / 10");
+    assert_false(is_warned(setting, NULL, "steady slip"));
+}
+
+// A block as a drawing in mm makes it, and moduli in GPa, in an SI scene.
+TEST(test_units)
+{
+    static const struct {
+        const char *setting;
+        double length, young;
+        const char *words;
+    } rows[] = {{"units=si", 0.2, 3.3e9, NULL},
+                {"units=si", 200, 3.3e9, "a block of 200 m"},
+                {"mesh.unit=mm", 200, 3.3e9, NULL},
+                {"units=si", 0.2, 3.3, "sound of 0.05"},
+                {"units=normalised", 200, 3.3, NULL}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char young[60];
+        snprintf(young, sizeof young, "material.young=%g", rows[k].young);
+        Scene *scene = small_scene((const char *const[]){
+            "units=si", "material.density=1190", "material.eta1=1", young, rows[k].setting, NULL});
+        Model model = model_of(scene);
+        RunWarnings found = {0};
+        model.length = rows[k].length;
+        warnings_of_units(&model, &found);
+        assert_int_equal(found.count, rows[k].words != NULL);
+        if (rows[k].words && !strstr(found.text[0], rows[k].words)) fail_msg("%s", found.text[0]);
+        amontons_scene_destroy(scene);
+    }
+}
+
 // What is said of an event before which so many cells slipped on pad 1 of two, or of one.
 static void slip_warning(double cells, int32_t pads, const char *setting, RunWarnings *found)
 {

@@ -112,7 +112,6 @@ const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
     Scene *scene = sweep->scene;
     double accuracy = sweep->points[point].accuracy;
     if (!study_scene(&sweep->study, &(PointChoice){.point = point}, scene, err)) return NULL;
-    scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
     return scene;
 }

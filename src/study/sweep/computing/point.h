@@ -29,8 +29,6 @@ typedef struct SweepPoint {
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
     ReportPlace place;   // of its report, with `keep: table`
-    Hash block;   // what its basis depends on
-    int32_t runs;   // points that step on the same basis, this one too (block_counts)
     double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
     bool settled;   // a smaller accuracy is of no use
     bool refined;   // its result has that accuracy,
