@@ -512,7 +512,7 @@ def command_lines(stock):
     yield Try("words", "bytes that are no UTF-8", ["run", b"\xff\xfe.yaml", "--set", b"title=\xff"])
 
 
-GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, named_files, own_tables, signals,
+GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, named_files, signals,
           command_lines, readers, histories]
 
 
