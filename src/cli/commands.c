@@ -142,29 +142,12 @@ const char *amontons_better_kernels(void)
     return possible;
 }
 
-static pid_t program;
-static bool ended;   // by its own return
-
-// Nothing of ours calls exit: a plug-in or a library does, and its status would be taken for ours.
-static void meet_strange_end(void)
-{
-    if (ended) return;
-    if (getpid() == program) {   // else the process that waits for this one says so
-        amontons_let_go();
-        tell("amontons: error: a plug-in or library ended the program in the middle of its work "
-             "(it called exit)\n");
-    }
-    _exit(1);
-}
-
 // A full disk or a closed pipe may show only when the last output is written: a command whose
 // answer is lost has failed.
 int amontons_command(int argc, char **argv)
 {
-    program = getpid();
-    atexit(meet_strange_end);
     int status = run_command(argc, argv);
-    ended = true;
+    guard_end(false);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;
     tell("amontons: error: cannot write to standard output\n");

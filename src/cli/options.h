@@ -43,6 +43,9 @@ struct Command {
 int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument);
 
+// From here on, until false, an exit that is not ours ends the program with an error.
+void guard_end(bool guarded);
+
 // The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give
 // "fig1-result".
 void default_folder(const char *file, const char *ending, char *folder, size_t size);
