@@ -65,7 +65,7 @@ static bool read_designs(Sweep *sweep, Error *err)
     char path[SHARE_PATH_SIZE], *text = NULL;
     int32_t size = 0;
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
-    TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
+    TRY(text_file_bytes(path, SHARE_BYTES_MAX, &text, &size, err));
     for (const char *design = text; design < text + size; design += strlen(design) + 1)
         TRY(study_add_designs(&sweep->study, design, err));
 cleanup:
