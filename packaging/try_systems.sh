@@ -81,7 +81,9 @@ make_root() {
     mkdir -p "$folder/debs/${root##*/}/partial"
     [[ ! -d $root ]] || return 0
     rm -rf --one-file-system "$part"
-    debootstrap --variant=minbase --arch="$arch" "$release" "$part" "$mirror" >"$root.debootstrap.log" 2>&1 || {
+    # debootstrap mounts /proc and /sys, too, and leaves them where it is ended.
+    unshare --mount --propagation private --pid --fork --kill-child \
+        debootstrap --variant=minbase --arch="$arch" "$release" "$part" "$mirror" >"$root.debootstrap.log" 2>&1 || {
         tail -n 5 "$root.debootstrap.log" >&2
         fail "debootstrap of $release failed"
     }

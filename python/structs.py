@@ -57,29 +57,45 @@ class Headers:
 
     def take_struct(self, name, note, statement):
         body = statement[statement.index("{") + 1:statement.rindex("}")]
-        fields, said, kind = [], {}, ""
-        for code, comment in re.findall(r"([^;/]*(?:;|(?=//)|$))[ \t]*((?:(?://[^\n]*)?\n?\s*(?=//|$|\s))*)", body):
-            words = " ".join(re.findall(r"//[ ]?([^\n]*)", comment))
-            kind += " " + code
-            if ";" not in code:
+        fields, said = [], []   # said: [names of one declaration, what the header says of them]
+        code = note_above = ""
+        for line in body.splitlines():
+            before, _, comment = line.partition("//")
+            comment = comment.strip()
+            if not before.strip():   # a comment on a line of its own: of what was declared, or of what comes
+                deeper = len(before) > 4 or comment[:1].islower()
+                if comment and deeper and said and not note_above:
+                    said[-1][1] += " " + comment
+                elif comment:
+                    note_above += " " + comment
                 continue
-            declared = " ".join(kind.replace(";", "").split())
-            kind = ""
-            base = re.match(r"((?:const |volatile |struct )*\w+(?: const)?)(.*)", declared)
-            for entry in base[2].split(","):
-                field = re.fullmatch(r"\s*((?:\*\s*(?:const\s+)?)*)(\w+)((?:\[\w+\])*)\s*", entry)
-                if not field:
-                    raise SystemExit(f"structs.py: {name}: what is this? {declared}")
-                kind_here = self.type_of(base[1], field[1].count("*"))
-                for size in reversed(re.findall(r"\[(\w+)\]", field[3])):
-                    kind_here += f" * {self.constants[size] if size in self.constants else int(size)}"
-                fields.append((field[2], kind_here))
-                said[field[2]] = words
+            code += " " + before
+            trailing = comment
+            while ";" in code:
+                declared, _, code = code.partition(";")
+                names = self.take_fields(name, " ".join(declared.split()), fields)
+                said.append([names, f"{note_above} {trailing}".strip()])
+                note_above = trailing = ""
         intro = " ".join(re.findall(r"//[ ]?([^\n]*)", note))
-        text = "\n".join([intro or name, "", *(f"    {f}: {w}" for f, w in said.items() if w)]).replace("\\", "\\\\")
+        text = "\n".join([intro or name, "", *(f"    {', '.join(names)}: {words}" for names, words in said if words)])
+        text = text.replace("\\", "\\\\")
         self.lines.append(f'class {name}(Structure):\n    """{text}\n    """\n    _fields_ = [\n' +
                           "".join(f'        ("{f}", {k}),\n' for f, k in fields) + "    ]\n")
         self.known.add(name)
+
+    def take_fields(self, name, declared, fields):
+        base = re.match(r"((?:const |volatile |struct )*\w+(?: const)?)(.*)", declared)
+        names = []
+        for entry in base[2].split(","):
+            field = re.fullmatch(r"\s*((?:\*\s*(?:const\s+)?)*)(\w+)((?:\[\w+\])*)\s*", entry)
+            if not field:
+                raise SystemExit(f"structs.py: {name}: what is this? {declared}")
+            kind = self.type_of(base[1], field[1].count("*"))
+            for size in reversed(re.findall(r"\[(\w+)\]", field[3])):
+                kind += f" * {self.constants[size] if size in self.constants else int(size)}"
+            fields.append((field[2], kind))
+            names.append(field[2])
+        return names
 
     def type_of(self, words, stars):
         base = re.sub(r"\b(const|volatile|struct)\b|\*", "", words).strip()

@@ -134,7 +134,7 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
                                {"F_T/F_N", NULL, "l", "m"},
                                {"x", "m", "v", "m/s"}};
     DataColumn columns[COLUMNS_MAX];
-    int32_t count = 0, kind = measured->kind;
+    int32_t count = 0, kind = (int32_t)measured->kind;
     const char *unit = kinds[kind].unit;
     columns[count++] = (DataColumn){kinds[kind].at, kinds[kind].at_unit, measured->at, 1};
     if (kind == MEASURED_AREA) columns[count++] = (DataColumn){"x", "m", measured->x, 1};

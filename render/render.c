@@ -3,6 +3,7 @@
 #include "render/render.h"
 
 #include "io/files/folder.h"
+#include "io/text/picture_options.h"
 #include "render/canvas/foot.h"
 #include "render/figure_data.h"
 #include "render/figures/figures.h"
@@ -30,13 +31,13 @@ static const struct FigureShape {
     FigureFunction draw;
     bool own_axes;   // no U along x: it cannot be a panel, and is drawn for who asks
     WholeFigureFunction draw_whole;   // in its place: begins the page itself, and needs fields
-} SHAPES[FIGURE_COUNT] = {[FIGURE_FORCE] = {0.85, figure_force},
-                          [FIGURE_SLIP_MAP] = {0.62, figure_slip_map},
-                          [FIGURE_CONTACT_DENSITY] = {0.62, figure_contact_density},
-                          [FIGURE_STATE_MAP] = {0.62, figure_state_map},
+} SHAPES[FIGURE_COUNT] = {[FIGURE_FORCE] = {0.85, .draw = figure_force},
+                          [FIGURE_SLIP_MAP] = {0.62, .draw = figure_slip_map},
+                          [FIGURE_CONTACT_DENSITY] = {0.62, .draw = figure_contact_density},
+                          [FIGURE_STATE_MAP] = {0.62, .draw = figure_state_map},
                           [FIGURE_CONTACT_PLANE] = {.draw_whole = figure_contact_plane},
-                          [FIGURE_PRECURSORS] = {0.62, figure_precursors, true},
-                          [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, true},
+                          [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
+                          [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, .own_axes = true},
                           [FIGURE_FIELD] = {.draw_whole = figure_field},
                           [FIGURE_STRIP] = {.draw_whole = figure_strip}};
 
@@ -81,7 +82,8 @@ typedef struct Picture {
 
 static void add_part(Picture *picture, const Figure *figure)
 {
-    picture->parts[picture->count++] = (PanelFigure){.name = figure->name, .figure = figure->id};
+    picture->parts[picture->count++] =
+        (PanelFigure){.name = figure->name, .figure = (int32_t)figure->id};
 }
 
 // The figures that `names` has, separated by commas.
@@ -219,8 +221,14 @@ static bool request_check(const char *folder, const PictureRequest *request, Err
 {
     struct stat about;
     Picture picture;
+    const char *names[PANELS_MAX];
     for (int32_t k = 0; k < picture_count(request); ++k)
         if (!find_picture(request, k, &picture, err)) return false;
+    for (int32_t k = 0; request->panels && k < picture.count; ++k) names[k] = picture.parts[k].name;
+    const char *const *asked = request->panels ? names : request->figures;
+    int32_t count = request->panels ? picture.count : request->figure_count;
+    if (count > 0 && !picture_options_fit(&request->style, &request->field, asked, count, err))
+        return false;
     if (stat(folder, &about) != 0)
         return REFUSE(err, "cannot find the result folder %s: %s", folder, strerror(errno));
     return S_ISDIR(about.st_mode) || REFUSE(err, "%s is not a folder", folder);

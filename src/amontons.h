@@ -89,7 +89,7 @@ typedef struct RunPhase {   // of a run, for --profile
     char note[96];   // "Newton steps"; or why it was skipped
 } RunPhase;
 
-enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 6, RUN_WARNING_SIZE = 400 };
+enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 8, RUN_WARNING_SIZE = 400, MESH_MOVED_SIZE = 160 };
 typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
@@ -106,6 +106,7 @@ typedef struct RunSummary {
     // Of an error bar (accuracy.mu): runs, meshes, contact nodes of the last, why no more (static).
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
+    bool bar_goes_on;   // its runs go on where time.until would have ended the scene's own
     const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted, period;   // seen; in mu_M; they repeat after so many, or 0
@@ -113,12 +114,15 @@ typedef struct RunSummary {
     bool drops_enough;   // and repeat, or the mean of 30 and more is known to 2 %
     const char *run_in;   // why run-in is not over (static storage); NULL: it is
     double run_in_drift, run_in_drops_left;   // of mu a drop, relative; for so many more; NaN
-    int32_t quasi_static, bounded, leading;   // events by kind
+    int32_t quasi_static, bounded, leading, slight;   // events by kind; slight: no precursors
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
     // Of the load drops that count, the one with the fewest cells: how much slipped where slow slip
     // turned fast, length and cells; NaN: none. The pad's name; empty: a contact in one piece.
     double slip_length, slip_cells;
     char slip_pad[64];
+    // Names in the order in which pads let go before the last sliding of the whole block, "left,
+    // middle with right"; empty: there was none, or the contact is one piece.
+    char pads_order[200];
     // Of a program whose velocity jumps (results.program): value and error; NaN: not known.
     int32_t velocity_steps, holds;
     double direct_effect[2], level_change[2];   // per ln(V2/V1)
@@ -126,6 +130,7 @@ typedef struct RunSummary {
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;
+    char mesh_moved[MESH_MOVED_SIZE];   // how the mesh was scaled and moved; empty: not at all
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
@@ -165,11 +170,13 @@ typedef struct RunOptions {
 } RunOptions;
 
 // --- the library --------------------------------------------------------------------------------
-const char *amontons_version(void);   // "0.2.0"; static storage, like the next two
+const char *amontons_version(void);   // "0.3.0"; static storage, like the next two
 // Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
 const char *amontons_revision(void);
 const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."
 // OpenBLAS's kernels in use, "Haswell"; *possible: those that the processor could run, NULL: these.
+// Where it is not NULL, start your process with OPENBLAS_CORETYPE set to it: products are up to 5
+// times as fast then, and rounded as those of the program are.
 const char *amontons_kernels(const char **possible);
 // For a signal handler that ends the process: no lock file stays in a result folder or the cache.
 void amontons_let_go(void);
@@ -181,6 +188,10 @@ bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE]);
 // file:line:column or the override, the key, what was found and what is allowed.
 bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
                          Scene **scene, Error *err);
+// The same of a scene that you know: its .geo may run commands, write files and open others, its
+// friction law may be a plug-in (--trust). Elsewhere these are refused.
+bool amontons_scene_read_trusted(const char *path, const char *const *overrides,
+                                 int32_t override_count, Scene **scene, Error *err);
 void amontons_scene_destroy(Scene *scene);   // NULL is fine
 const char *amontons_scene_title(const Scene *scene);   // owned by the scene
 bool amontons_scene_is_si(const Scene *scene);   // else its numbers are normalised
@@ -235,6 +246,7 @@ typedef struct SweepOptions {
     const char *slurm;   // by jobs of Slurm: more words for sbatch, or ""; NULL: here
     bool retry;   // compute failed points again
     bool fresh;   // compute all points again
+    bool trust;   // of its scenes, as amontons_scene_read_trusted
     SweepCallback on_point;   // NULL: none
     void *context;
     FILE *out;   // for the ranked table that the study asks for; NULL: not shown
@@ -260,7 +272,8 @@ typedef struct InfoOptions {
     const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo
     int32_t override_count;
     const char *picture;   // .png, .pdf or .svg of the mesh, or a scene's mesh and rod; NULL: none
-    bool overwrite;   // a picture that is there and is not ours goes; else it is refused
+    bool overwrite;   // what is there goes; else it is refused, if no list has it
+    bool trust;   // of a mesh or scene, as amontons_scene_read_trusted
 } InfoOptions;
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds; NULL: plain.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);

@@ -15,37 +15,43 @@ extern "C" {
 
 // How a picture is drawn, in ONE table: the options of `amontons render`, the keys of `page` in a
 // plot file, what Python's functions take, and the members of PictureStyle.
-// X(name, kind, least, most, words that are allowed, argument, meaning)
+// X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), words that are
+// allowed, argument, meaning)
 #define PICTURE_OPTIONS(X)                                                                         \
-    X(style, WORD, 0, 0, "column columns slide poster", "NAME",                                    \
+    X(style, WORD, 0, 0, "", "column columns slide poster", "NAME",                                \
       "What it is for: column (86 mm, the default) or columns (178 mm) of a journal, with "        \
       "letters "                                                                                   \
       "of 8 pt; slide (254 mm) or poster (400 mm), with letters and lines two and three times as " \
       "large")                                                                                     \
-    X(width, NUMBER, 20, 1000, "", "MM", "Of the page in print, in the place of the style's")      \
-    X(height, NUMBER, 20, 1000, "", "MM", "Of the page in print; by default as the figure asks")   \
-    X(dpi, NUMBER, 50, 2400, "", "N",                                                              \
+    X(width, NUMBER, 20, 1000, "", "", "MM", "Of the page in print, in the place of the style's")  \
+    X(height, NUMBER, 20, 1000, "", "", "MM",                                                      \
+      "Of the page in print; by default as the figure asks")                                       \
+    X(dpi, NUMBER, 50, 2400, "", "", "N",                                                          \
       "Dots per inch, of a PNG and of maps; 600 by default, of a slide 200, of a poster 300")      \
-    X(title, TEXT, 0, 0, "", "WORDS",                                                              \
+    X(title, TEXT, 0, 0, "", "", "WORDS",                                                          \
       "Words above the figure; `scene`: the title of what is shown; `none`")                       \
-    X(inset, WORD, 0, 0, "above none", "WHERE",                                                    \
+    X(inset, WORD, 0, 0, "force", "above none", "WHERE",                                           \
       "What force enlarges: above (the default) or none")                                          \
-    X(legend, WORD, 0, 0, "auto none upper-right upper-left lower-left lower-right outside below", \
-      "WHERE",                                                                                     \
+    X(legend, WORD, 0, 0, "",                                                                      \
+      "auto none upper-right upper-left lower-left lower-right outside below", "WHERE",            \
       "Where the legend stands: auto, none, upper-right, upper-left, lower-left, lower-right, "    \
       "outside or below")                                                                          \
-    X(limits, RANGE, 0, 0, "", "LOW,HIGH",                                                         \
+    X(limits, RANGE, 0, 0, "slip-map state-map contact-plane field field-strip plot", "",          \
+      "LOW,HIGH",                                                                                  \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
-    X(from, TEXT, 0, 0, "", "U=U", "Of force, slip-map, state-map: where they begin; or t=TIME")   \
-    X(to, TEXT, 0, 0, "", "U=U", "Where they end; or t=TIME")                                      \
-    X(pixels, WORD, 0, 0, "largest mean", "WHAT",                                                  \
+    X(from, TEXT, 0, 0, "force slip-map state-map", "", "U=U",                                     \
+      "Of force, slip-map, state-map: where they begin; or t=TIME")                                \
+    X(to, TEXT, 0, 0, "force slip-map state-map", "", "U=U", "Where they end; or t=TIME")          \
+    X(pixels, WORD, 0, 0, "slip-map state-map", "largest mean", "WHAT",                            \
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean; "  \
       "of states state-map shows the smallest, or the largest where that is asked for")            \
-    X(line, TEXT, 0, 0, "", "y=Y",                                                                 \
+    X(line, TEXT, 0, 0, "force slip-map contact-density state-map precursors front-speed", "",     \
+      "y=Y",                                                                                       \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \
-    X(compare, TEXT, 0, 0, "", "FILE.csv", "Measurements to draw beside what was computed")        \
-    X(warnings, WORD, 0, 0, "below none", "WHERE",                                                 \
+    X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed plot", "",       \
+      "FILE.csv", "Measurements to draw beside what was computed")                                 \
+    X(warnings, WORD, 0, 0, "", "below none", "WHERE",                                             \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
 
 // Of the printed page; zeroed is fine. Letters and lines keep their size, whatever the width.
@@ -54,7 +60,7 @@ typedef struct PictureStyle {
     double width;   // mm; 0: the style's, 86, the column of a journal
     double dpi;   // dots per inch, of a PNG and of maps in the others; 0: 600, or the style's
     bool dark;   // light lines on dark paper
-    bool overwrite;   // a file that is there and is not ours goes; else it is refused
+    bool overwrite;   // what is there goes; else it is refused, if no list has it
     double height;   // mm; 0: as the figure asks
     // As PICTURE_OPTIONS has them; NULL: the default.
     const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *line, *compare,
@@ -64,6 +70,13 @@ typedef struct PictureStyle {
 // Sets an option of PICTURE_OPTIONS; `value` stays the caller's, who keeps it as long as the style.
 // ERROR_INPUT says what is allowed.
 bool amontons_picture_option(PictureStyle *style, const char *name, const char *value, Error *err);
+
+// Which figures take each member of FieldChoice.
+#define FIELD_OPTIONS(X)                                                                           \
+    X(of, "contact-plane field field-strip")                                                       \
+    X(at, "contact-plane field field-strip")                                                       \
+    X(edges, "field field-strip")                                                                  \
+    X(cut, "field field-strip")
 
 // What the figures of the block show; zeroed is fine.
 typedef struct FieldChoice {
@@ -99,8 +112,8 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
                            Error *err);
 
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
-// run, of a sweep, or of several runs side by side. overwrite: a file that is there and is not ours
-// goes; else it is refused.
+// run, of a sweep, or of several runs side by side. overwrite: what is there goes; else
+// it is refused, if the list of its folder (amontons.files) does not have it.
 bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
                      Error *err);
 
@@ -120,9 +133,10 @@ typedef struct FilmRequest {
     double magnification;   // of the deformation; 0: chosen
     bool
         fields;   // the run is computed once more for as many fields of the block as the film shows
+    bool trust;   // of the run that is computed, as amontons_scene_read_trusted
     const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
-    bool overwrite;   // a file that is there and is not ours goes; else it is refused
+    bool overwrite;   // what is there goes; else it is refused, if no list has it
     FrameCallback on_frame;   // NULL: none
     void *context;   // handed to it
     const volatile sig_atomic_t *stop;   // non-zero: ERROR_INTERRUPT, and no file; NULL: never

@@ -31,17 +31,14 @@ bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocit
 // Where load.pressure is the only load, and on the full mesh (reduction.use: never).
 bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, Error *err);
 
-// What a run of the scene would be, and roughly what it would cost, in processor seconds. Nothing
-// but the mesh is made. Of a scene with accuracy.mu: one run on its first mesh.
+// How large a run of the scene would be. Nothing but the mesh is made. Of a scene with accuracy.mu:
+// one run on its first mesh.
 typedef struct RunForecast {
     int32_t elements, contact_nodes, unknowns;   // of the mesh
     bool reduced;   // else stepped on the full mesh
     bool held;   // the reduction is in the cache
-    double stages;   // two to a step of SDIRK2; to the end, whatever ends it sooner
-    double mesh;   // what reading the mesh took now
-    double reduction, steps;   // expected
-    double otherwise;   // both, if it were stepped in the other way
-    double memory;   // bytes, about; 0: not known, as in the plane
+    double mesh;   // processor time to read the mesh now, s
+    double memory;   // bytes at most, about; 0: not known, as on the full mesh in the plane
 } RunForecast;
 bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err);
 

@@ -10,10 +10,12 @@ extern "C" {
 #endif
 
 enum { ESTIMATE_SIZE = 64 };
-// A value in the digits that are known of it: "0.3296 +- 0.0029" with an error bar (NaN: none),
-// else those that `known_to` leaves, the last off by 1 at most, "0.33"; one where that is NaN, too,
-// six where it is 0.
+// A value in the digits that are known of it, and one more: "0.3296 +- 0.0029" with an error bar
+// (NaN: none), else down to the first digit of `known_to`, "0.27" where that is 0.013; two digits
+// where that is NaN, too, six where it is 0.
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
+// What a value without an error bar is known to: "one mesh: known to about 5 %".
+void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE]);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
 

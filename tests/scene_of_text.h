@@ -27,7 +27,7 @@ static inline bool scene_of_text(const char *path, const char *text, Scene *scen
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
-    bool done = scene_read(path, NULL, 0, scene, err);
+    bool done = scene_read(path, NULL, 0, false, scene, err);
     assert_int_equal(unlink(path), 0);
     if (relative && slash) assert_int_equal(rmdir(parent), 0);
     if (relative) assert_true(chdir(place) == 0 && rmdir(folder) == 0);

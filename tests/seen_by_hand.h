@@ -20,6 +20,7 @@ typedef struct HandSeen {
     int32_t pad[SEEN_NODES], dofs[2 * SEEN_NODES];
     double displacement[2 * SEEN_NODES], slip_rate[2 * SEEN_NODES], reaction[2 * SEEN_NODES];
     uint8_t status[SEEN_NODES];
+    bool open[SEEN_NODES];   // by choice of the test: open in every step
 } HandSeen;
 
 // At rest, all sticking. Must not be moved.
@@ -73,14 +74,17 @@ static inline const Observation *hand_seen(HandSeen *hand, double t, const doubl
     hand->seen.U = t / 10;
     hand->seen.rod_way = 0.6 * hand->seen.U;
     hand->seen.front = 0;
+    hand->seen.front_slips = false;
     hand->seen.max_slip_rate = 0;
     for (int32_t i = 0; i < SEEN_NODES; i++) {
         hand->slip_rate[plane_tangent(i)] = rate[i];
         if (rate[i] != 0) hand->displacement[plane_tangent(i)] = hand->seen.U;
         hand->status[i] = rate[i] > 0 ? CONTACT_SLIP_FORWARD
                                       : (rate[i] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_STICK);
-        together = together && rate[i] != 0;
+        if (hand->open[i]) hand->status[i] = CONTACT_OPEN;
+        together = together && (rate[i] != 0 || hand->open[i]);
         if (together) hand->seen.front = hand->x[i];
+        hand->seen.front_slips = hand->seen.front_slips || (together && !hand->open[i]);
         hand->seen.max_slip_rate = fmax(hand->seen.max_slip_rate, fabs(rate[i]));
     }
     return &hand->seen;
@@ -89,7 +93,7 @@ static inline const Observation *hand_seen(HandSeen *hand, double t, const doubl
 // A made-up run: observations at t = 0, 1, ... handed to events and what follows them.
 typedef struct HandRun {
     HandSeen hand;
-    char names[2][GROUP_NAME_SIZE];   // of the pads
+    char names[3][GROUP_NAME_SIZE];   // of the pads
     Events events;   // the caller's to destroy
     Recorders recorders;   // events; the caller adds the others
     double time;   // of the next observation
@@ -98,7 +102,7 @@ typedef struct HandRun {
 static inline void hand_run_begin(HandRun *run, int32_t pads)
 {
     Error err = {0};
-    *run = (HandRun){.names = {"left", "right"}};
+    *run = (HandRun){.names = {"left", "right", "third"}};
     hand_seen_init(&run->hand);
     hand_split(&run->hand, pads);
     run->hand.interface.pad_name = run->names;

@@ -201,7 +201,8 @@ class Static:
                 study.check(name, "penetration", max(0, -gap.min()), 1e-15)
                 study.check(name, "gap times pressure", np.abs(gap * pressing).max(), 1e-9 * slack if drawn.any() else 1e-12)
             study.check(name, "pull", max(0, -pressing.min()), 1e-9 * slack)
-            study.check(name, "Coulomb cone", max(0, (shear / force - mu * pressing).max()), 1e-9)
+            # Each of its two terms is as exact as a reaction is: where mu is 100, as for "no slip", the second counts a hundredfold.
+            study.check(name, "Coulomb cone", max(0, (shear / force - mu * pressing).max()), 1e-9 * (1 + mu) * slack)
             work = (r[:, :-1] * u[:, :-1]).sum(axis=1)
             study.check(name, "slip against friction", max(0, work.max() / force / length), 1e-10)
             study.check(name, "equilibrium: complementarity", self.errors["complementarity"], 1e-9 * slack)

@@ -21,4 +21,4 @@ plot = {"x": {"label": "~{x} (m)", "column": "x"}, "y": {"label": "~{u}_{x} (m)"
         "series": [{"x": x[order].tolist(), "y": u_x[order].tolist(), "line": "thin"}], "page": {"compare": TABLE.name}}
 shutil.copy(TABLE, RESULT)
 (RESULT / "contact.json").write_text(json.dumps(plot))
-subprocess.run(["./amontons", "render", RESULT / "contact.json"], check=True)
+subprocess.run(["./amontons", "render", RESULT / "contact.json", "--overwrite"], check=True)

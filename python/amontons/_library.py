@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import os
 import re
 import threading
 from pathlib import Path
@@ -143,19 +144,51 @@ def yaml_text(value: Any) -> str:
 
 
 def c_text(value: Any) -> bytes:
-    """A path or a word as C has it."""
-    encoded = str(value).encode(errors="surrogateescape")
+    """A path or a word as C has it, from a str, bytes or a path; nothing else is meant for one, though all has a str()."""
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if not isinstance(value, (str, bytes)):
+        raise TypeError(f"{value!r}: a str or a path is wanted, not {type(value).__name__}")
+    encoded = value if isinstance(value, bytes) else str(value).encode(errors="surrogateescape")
     if b"\0" in encoded:
-        raise InputError(f"{str(value)!r}: a zero byte can stand in no path and no word")
+        raise InputError(f"{value!r}: a zero byte can stand in no path and no word")
     return encoded
+
+
+def path_of(value: Any) -> Path:
+    """The same where Python goes on with the path."""
+    return Path(os.fsdecode(c_text(value)))
 
 
 def c_text_or_none(value: Any) -> bytes | None:
     return None if value is None else c_text(value)
 
 
+def c_word(value: Any) -> bytes:
+    """A word that may be given as a number, as that of `width=86`."""
+    return c_text(value) if isinstance(value, (str, bytes)) else c_text(yaml_text(value))
+
+
+def fields(struct: Any, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a user as fields of a C struct: words where it has words, numbers where it has numbers. ctypes itself takes a
+    number for an address."""
+    kinds = {name: kind for name, kind, *_ in struct._fields_}
+    options_of = [name for name, kind in kinds.items() if kind in (ctypes.c_char_p, ctypes.c_bool, ctypes.c_int32, ctypes.c_double)]
+    given: dict[str, Any] = {}
+    for name, value in options.items():
+        if name not in options_of:
+            raise TypeError(f"{name!r} is no option; there are {', '.join(options_of)}")
+        if kinds[name] is not ctypes.c_char_p:
+            given[name] = value
+        else:
+            given[name] = c_text_or_none(value)
+    return given
+
+
 def words(texts: Any) -> Any:
     """char *const[] of strings."""
+    if isinstance(texts, (str, bytes)):
+        raise TypeError(f"{texts!r}: a list of words is wanted, not one")
     texts = list(texts)
     return (ctypes.c_char_p * max(len(texts), 1))(*map(c_text, texts))
 
@@ -166,12 +199,26 @@ def setting_words(settings: Mapping[str, Any] | None) -> tuple[Any, int]:
     return words(f"{key}={yaml_text(value)}" for key, value in settings.items()), len(settings)
 
 
-class Scene:
+class Owner:
+    """What owns memory of the library: copied, two would free it."""
+
+    def __copy__(self) -> Any:
+        raise TypeError(f"a {type(self).__name__} cannot be copied: it owns memory of the library")
+
+    def __deepcopy__(self, _: Any) -> Any:
+        return self.__copy__()
+
+    def __reduce_ex__(self, _: Any) -> Any:
+        return self.__copy__()
+
+
+class Scene(Owner):
     """A scene that was read and checked, to be given to functions as it is. Destroyed with this object."""
 
-    def __init__(self, path: Any, settings: Mapping[str, Any] | None) -> None:
+    def __init__(self, path: Any, settings: Mapping[str, Any] | None, trust: bool = False) -> None:
         self._as_parameter_ = ctypes.c_void_p()
-        call(lib.amontons_scene_read, c_text(path), *setting_words(settings), ctypes.byref(self._as_parameter_))
+        read = lib.amontons_scene_read_trusted if trust else lib.amontons_scene_read
+        call(read, c_text(path), *setting_words(settings), ctypes.byref(self._as_parameter_))
 
     def __del__(self) -> None:
         if lib is not None and getattr(self, "_as_parameter_", None):

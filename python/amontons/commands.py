@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _structs as c
-from ._library import (Scene, c_text, c_text_or_none, call, call_stoppable, lib, printed, setting_words, words)
+from ._library import (Scene, c_text, c_text_or_none, c_word, call, call_stoppable, fields, lib, path_of, printed, setting_words, words)
 from .results import Answer, Result, plain
 
 Settings = Mapping[str, Any]
@@ -49,10 +49,11 @@ def _table(struct: Any, kept: list[tuple[Any, ...]]) -> np.ndarray:
 
 
 def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
-        resume: bool = False, progress: Progress | None = None) -> Result:
+        resume: bool = False, trust: bool = False, progress: Progress | None = None) -> Result:
     """One simulation: `amontons run`. settings: {"load.pressure": 0.006}, as --set.
 
     folder: of the results. None: one that is removed with the Result, and no pictures are drawn.
+    trust: the scene's .geo may run commands and write files, its friction law may be a plug-in: of scenes you know.
     resume: go on with the run in `folder` that was cut off, or, with a later time.until, beyond its end.
     progress: called after every step with a StepView (t, U, mu, fraction, ...), which it must not keep.
     Ctrl-C ends the run after the present step (KeyboardInterrupt); what was computed is in `folder`.
@@ -63,7 +64,7 @@ def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, ove
         folder, overwrite = tempfile.mkdtemp(prefix="amontons-"), True
         given = {"output.figures": [], **given}
     try:
-        result = _run_in(Scene(scene, given), folder, overwrite, resume, progress)
+        result = _run_in(Scene(scene, given, trust), folder, overwrite, resume, progress)
     except BaseException:
         if temporary:
             shutil.rmtree(folder, ignore_errors=True)
@@ -84,10 +85,10 @@ def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: P
     return result
 
 
-def forecast(scene: Any, settings: Settings | None = None) -> Answer:
-    """What a run would be and roughly what it would cost: `amontons run --dry-run`. Attributes: those of RunForecast
-    (elements, contact_nodes, unknowns, reduced, stages; mesh, reduction, steps: processor seconds, ...)."""
-    read = Scene(scene, settings)
+def forecast(scene: Any, settings: Settings | None = None, *, trust: bool = False) -> Answer:
+    """How large a run would be: `amontons run --dry-run`. Attributes: those of RunForecast
+    (elements, contact_nodes, unknowns, reduced, held; mesh: processor seconds to read it; memory: bytes)."""
+    read = Scene(scene, settings, trust)
     expected = c.RunForecast()
     call(lib.amontons_forecast, read, ctypes.byref(expected))
     return Answer(expected)
@@ -98,24 +99,25 @@ def open_result(folder: Any) -> Result:
     return Result(folder)
 
 
-def static(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False) -> Answer:
+def static(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
+           trust: bool = False) -> Answer:
     """Equilibrium under a given load: `amontons static`. Attributes: those of StaticSummary (normal_force, shear_force,
     open, sticking, slipping, ...), forces per width. folder: for static.json, .h5 and .vtu; None: nothing is written."""
-    read = Scene(scene, settings)
+    read = Scene(scene, settings, trust)
     summary = c.StaticSummary()
     call(lib.amontons_static, read, c_text_or_none(folder), overwrite, ctypes.byref(summary))
     return Answer(summary)
 
 
 def stability(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
-              slidings: int = 1, whole: bool = False, at_end: bool = False,
+              slidings: int = 1, whole: bool = False, at_end: bool = False, trust: bool = False,
               progress: Progress | None = None) -> Answer:
     """Where slow slip turns fast: `amontons stability`. Attributes: those of StabilitySummary (l_sc, l_c, mu_c, ...),
     lengths over L, NaN: nowhere; `points`: a numpy array of the states of the path, fields as in StabilityPoint.
 
     slidings: the path begins when so many slidings have ended, 0: at the relaxed start. whole: also beyond l_c.
     at_end: no path, only the state in which the scene's run ends."""
-    read = Scene(scene, settings)
+    read = Scene(scene, settings, trust)
     stop = ctypes.c_int(0)
     summary = c.StabilitySummary()
     on_point, kept = _gather(c.StabilityCallback, c.StabilityPoint, stop)
@@ -127,11 +129,11 @@ def stability(scene: Any, settings: Settings | None = None, folder: Any = None, 
 
 
 def model1d(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
-            alpha: float = 0.2, nodes: int = 81, theory_only: bool = False,
+            alpha: float = 0.2, nodes: int = 81, theory_only: bool = False, trust: bool = False,
             progress: Progress | None = None) -> Answer:
     """The paper's effective 1D model of a scene: `amontons model1d`. Attributes: those of Model1dSummary (l_sc, l_c,
     mu_c, mu_M, ...), lengths over L; `points`: a numpy array, fields as in Model1dPoint."""
-    read = Scene(scene, settings)
+    read = Scene(scene, settings, trust)
     stop = ctypes.c_int(0)
     summary = c.Model1dSummary()
     on_point, kept = _gather(c.Model1dCallback, c.Model1dPoint, stop)
@@ -174,7 +176,7 @@ def _compute_study(function: Any, summary: Any, study: Any, settings: Settings |
 
 
 def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
-          fresh: bool = False, slurm: str | None = None,
+          fresh: bool = False, slurm: str | None = None, trust: bool = False,
           progress: Callable[[c.SweepView], object] | None = None) -> Any:
     """Many runs over varied keys: `amontons sweep`. The table, a row a point (read_table); points that failed have
     their reason in it. What is finished in `folder` is not computed again; None: a folder that is removed.
@@ -184,24 +186,25 @@ def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, j
     Processes are forked: no other thread should compute meanwhile."""
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
-            return sweep(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
+            return sweep(study, settings, temporary, jobs=jobs, slurm=slurm, trust=trust, progress=progress)
     _compute_study(lib.amontons_sweep, c.SweepSummary(), study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
-                   slurm=c_text_or_none(slurm), retry=retry, fresh=fresh)
-    return read_table(Path(folder) / "sweep.csv")
+                   slurm=c_text_or_none(slurm), retry=retry, trust=trust, fresh=fresh)
+    return read_table(path_of(folder) / "sweep.csv")
 
 
 def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
-             slurm: str | None = None, progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
+             slurm: str | None = None, trust: bool = False,
+             progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
     """The best design of a study that searches: `amontons optimise`. A dict: "best" ({key: value}), "value" and "bar" of what
     the study ranks by, "decided" (no other design may be better, with the bars of both), "start_value" and "start_bar" (of the
     scene as it is; nan: it is no design of the search), "designs", "computed" (points), "seconds". The table of all points is
     in `folder` (read_table); None: a folder that is removed. The rest as for `sweep`."""
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
-            return optimise(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
+            return optimise(study, settings, temporary, jobs=jobs, slurm=slurm, trust=trust, progress=progress)
     summary = c.OptimiseSummary()
     _compute_study(lib.amontons_optimise, summary, study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
-                   slurm=c_text_or_none(slurm), retry=retry)
+                   slurm=c_text_or_none(slurm), retry=retry, trust=trust)
     pairs = (word.rpartition("=") for word in summary.best.decode().split())
     return {"best": {key: float(value) for key, _, value in pairs}, "value": summary.value, "bar": summary.bar,
             "decided": bool(summary.decided), "start_value": summary.start_value, "start_bar": summary.start_bar,
@@ -209,17 +212,18 @@ def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *
 
 
 def fit(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
-        slurm: str | None = None, progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
+        slurm: str | None = None, trust: bool = False,
+             progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
     """The numbers of a scene that measurements speak for: `amontons fit`. A dict: "keys" ({key: {"value", "low", "high",
     "low_open", "high_open"}}: the best, its region, and whether that goes on beyond the range), "misfit", "measurements",
     "widened" (regions, as the misfit is above what errors explain), "own_share" (of the errors' squares, the program's own),
     "designs", "computed" (points), "seconds". A row a measurement is in `folder`/fit.csv (read_table). The rest as for `optimise`."""
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
-            return fit(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
+            return fit(study, settings, temporary, jobs=jobs, slurm=slurm, trust=trust, progress=progress)
     summary = c.FitSummary()
     _compute_study(lib.amontons_fit, summary, study, settings, progress, folder=c_text_or_none(folder), jobs=jobs,
-                   slurm=c_text_or_none(slurm), retry=retry)
+                   slurm=c_text_or_none(slurm), retry=retry, trust=trust)
     found = summary.parameters[:summary.parameter_count]
     return {"keys": {one.key.decode(): {"value": one.value, "low": one.low, "high": one.high, "low_open": bool(one.low_open),
                                         "high_open": bool(one.high_open)} for one in found},
@@ -230,7 +234,7 @@ def fit(study: Any, settings: Settings | None = None, folder: Any = None, *, job
 def _picture_style(style: dict[str, Any]) -> Any:
     """Numbers and words go through the library's own table, as the command's do."""
     given, plain = c.PictureStyle(format=c_text(style.get("format", "png"))), {"dark", "overwrite", "format"}
-    given.words = [(c_text(name.rstrip("_")), c_text(value)) for name, value in style.items() if name not in plain and value is not None]
+    given.words = [(c_text(name.rstrip("_")), c_word(value)) for name, value in style.items() if name not in plain and value is not None]
     for name in plain & set(style) - {"format"}:
         setattr(given, name, style[name])
     for name, value in given.words:
@@ -246,7 +250,7 @@ def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: 
     block in space is cut open ("y=0.25"). style: format ("png", "pdf", "svg"), dark,
     overwrite (also files that amontons did not write), and each option of `amontons render --help` by its name: style="columns",
     width (mm), height, dpi, title, legend, limits="1%,99%", from_="U=0.01", ... The files, in the folder figures/ of the result."""
-    folder = result.folder if isinstance(result, Result) else Path(result)
+    folder = result.folder if isinstance(result, Result) else path_of(result)
     given = _picture_style(style)
     request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=given,
                                field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges,
@@ -275,19 +279,19 @@ def film(result: Any, path: Any, **options: Any) -> Path:
     PNG frames. options: seconds, rate (frames a second), width and height (pixels), begin and end ("U=0.0117"),
     last_cycle, of (field), magnification, fields (the run is computed once more for them), title, dark, overwrite. Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
-    folder = result.folder if isinstance(result, Result) else Path(result)
-    words_of = {name: c_text(value) if isinstance(value, str) else value for name, value in options.items()}
-    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), **words_of)
+    folder = result.folder if isinstance(result, Result) else path_of(result)
+    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), **fields(c.FilmRequest, options))
     call_stoppable(lib.amontons_film, stop, c_text(folder), ctypes.byref(request))
-    return Path(path)
+    return path_of(path)
 
 
-def info(path: Any, settings: Settings | None = None, picture: Any = None, *, overwrite: bool = False) -> str:
+def info(path: Any, settings: Settings | None = None, picture: Any = None, *, overwrite: bool = False,
+         trust: bool = False) -> str:
     """What a mesh (.msh, .geo), a scene or a result folder holds, in words: `amontons info`. picture: a PNG of the mesh
     and the rod to be drawn; overwrite: also over a file that amontons did not write."""
     overrides, count = setting_words(settings)
     options = c.InfoOptions(overrides=overrides, override_count=count, picture=c_text_or_none(picture),
-                            overwrite=overwrite)
+                            overwrite=overwrite, trust=trust)
     return printed(lib.amontons_info, c_text(path), ctypes.byref(options))
 
 
@@ -328,5 +332,5 @@ def kernels() -> str:
 
 
 def version() -> str:
-    """"0.2.0"."""
+    """"0.3.0"."""
     return plain(lib.amontons_version())

@@ -12,9 +12,38 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _structs as c
+from ._library import path_of
 
 _SHORT = {"t": "series/time", "U": "series/rod_displacement", "x": "nodes/x"}
 _FOLDERS = ("series", "interface", "nodes", "pads")
+
+
+def _open_arrays(path: Path) -> Any:
+    """An HDF5 file; ValueError where it leads to another file, as none of ours does."""
+    import h5py
+    if not path.is_file():
+        raise FileNotFoundError(f"{path} is not a file")
+    file = h5py.File(path, "r")
+
+    def check(group: Any, prefix: str) -> None:
+        for name in group:
+            where = f"{path}: {prefix}{name}"
+            if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+                raise ValueError(f"{where} is a link by name, which is not followed")
+            item = group[name]
+            if isinstance(item, h5py.Group):
+                check(item, f"{prefix}{name}/")
+            elif not isinstance(item, h5py.Dataset):
+                raise ValueError(f"{where} is neither array nor group")
+            elif item.external or item.is_virtual:
+                raise ValueError(f"the data of {where} lie in another file, which is not read")
+
+    try:
+        check(file, "")
+    except BaseException:
+        file.close()
+        raise
+    return file
 
 
 class History(Mapping):
@@ -28,8 +57,11 @@ class History(Mapping):
     """
 
     def __init__(self, path: Path) -> None:
-        import h5py
-        self._file = h5py.File(path, "r")
+        self._file = _open_arrays(path)
+        count = self._file.attrs.get("parts", 0)   # of a long run that has not ended: docs/formats.md
+        if not 0 <= count <= 1000000:
+            raise ValueError(f"{path}: it says not how many parts it has")
+        self._parts = [_open_arrays(path.with_name(f"{path.name}.{k + 1}")) for k in range(int(count))]
         self._names: list[str] = []
         self._file.visititems(lambda name, item: self._names.append(name) if hasattr(item, "shape") else None)
         self._read: dict[str, np.ndarray] = {}
@@ -38,8 +70,24 @@ class History(Mapping):
         if name not in self._read:
             if name not in self._names:
                 raise KeyError(f"{name}; there are: {', '.join(self._names)}")
-            self._read[name] = self._file[name][()]
+            self._read[name] = self._whole(name)
         return self._read[name]
+
+    def _whole(self, name: str) -> np.ndarray:
+        """The rows of all parts; those that an earlier one has beyond the next one's first do not count."""
+        found, end = [self._file[name][()]], int(self._file[name].attrs.get("first_row", 0))
+        for part in reversed(self._parts):
+            if end <= 0:
+                break
+            first = int(part[name].attrs.get("first_row", 0))
+            if first < end:
+                if part[name].shape[0] < end - first:
+                    raise ValueError(f"{part.filename}: rows of {name} are missing")
+                found.insert(0, part[name][:end - first])
+                end = first
+        if end > 0:
+            raise ValueError(f"{self._file.filename}: the first rows of {name} are missing")
+        return found[0] if len(found) == 1 else np.concatenate(found)
 
     def __getattr__(self, name: str) -> np.ndarray:
         if not name.startswith("_"):
@@ -71,7 +119,7 @@ class Result:
     mu_max, peaks, ...); of a folder that was opened they come from run.json (`results`)."""
 
     def __init__(self, folder: Any) -> None:
-        self.folder = Path(folder)
+        self.folder = path_of(folder)
         self.summary: c.RunSummary | None = None
         self._history: History | None = None
         if not (self.folder / "run.json").is_file() and not self.folder.is_dir():

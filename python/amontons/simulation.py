@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _structs as c
-from ._library import Scene, c_text, c_text_or_none, call, lib, raise_error
+from ._library import Owner, Scene, c_text, c_text_or_none, call, lib, raise_error
 from .results import Answer
 
 
@@ -23,7 +23,7 @@ def _view(owner: Any, pointer: Any, kind: Any, *shape: int) -> np.ndarray:
     return array
 
 
-class Simulation:
+class Simulation(Owner):
     """One simulation, step by step::
 
         simulation = amontons.Simulation("scene.yaml", {"load.pressure": 0.006})
@@ -36,12 +36,13 @@ class Simulation:
     is that of friction that remembers ([nodes, states] where there are several), None where nothing does.
 
     folder: for results, written by `finish`; None: nothing is written. whole_block: `displacement` will be asked for.
+    trust: as for `run`.
     """
 
     def __init__(self, scene: Any, settings: Mapping[str, Any] | None = None, folder: Any = None, *,
-                 overwrite: bool = False, whole_block: bool = False) -> None:
+                 overwrite: bool = False, whole_block: bool = False, trust: bool = False) -> None:
         self._handle = ctypes.c_void_p()
-        self._scene = Scene(scene, settings)
+        self._scene = Scene(scene, settings, trust)
         self._options = c.RunOptions(folder=c_text_or_none(folder), overwrite=overwrite, whole_block=whole_block)
         self._finished = ctypes.c_bool(False)
         self._block: c.BlockView | None = None
@@ -80,34 +81,41 @@ class Simulation:
         """The scene's end is reached."""
         return self._finished.value
 
+    @property
+    def _open(self) -> Any:
+        """The handle, for every function that takes one: NULL would crash the library."""
+        if not self._handle:
+            raise ValueError("this simulation is closed")
+        return self._handle
+
     def advance(self) -> c.StepView:
         """One accepted step, also beyond the scene's end where there is room for one."""
-        call(lib.amontons_simulation_step, self._handle, ctypes.byref(self.step), ctypes.byref(self._finished))
+        call(lib.amontons_simulation_step, self._open, ctypes.byref(self.step), ctypes.byref(self._finished))
         return self.step
 
     def __iter__(self) -> Iterator[c.StepView]:
         """Steps up to the scene's end."""
         error = c.Error()
         one_step, step, finished = lib.amontons_simulation_step, self.step, self._finished
-        arguments = (self._handle, ctypes.byref(step), ctypes.byref(finished), ctypes.byref(error))
+        arguments = (ctypes.byref(step), ctypes.byref(finished), ctypes.byref(error))
         while not finished.value:
-            if not one_step(*arguments):
+            if not one_step(self._open, *arguments):
                 raise_error(error)
             yield step
 
     def set_rod_velocity(self, velocity: float) -> None:
         """The rod moves on with this velocity from where it is; 0: it stands, below 0: back."""
-        call(lib.amontons_simulation_set_rod_velocity, self._handle, velocity)
+        call(lib.amontons_simulation_set_rod_velocity, self._open, velocity)
 
     def set_pressure(self, pressure: float) -> None:
         """The pressure on the top from now on, put on at once, stress; step.mu is over the load that acts. Where
         load.pressure is the only load, and on the full mesh ({"reduction.use": "never"})."""
-        call(lib.amontons_simulation_set_pressure, self._handle, pressure)
+        call(lib.amontons_simulation_set_pressure, self._open, pressure)
 
     def save(self, path: Any = None) -> bytes:
         """The state: everything on which the next steps depend, to the last bit; also into the file `path`."""
         state = c.SavedState()
-        call(lib.amontons_simulation_save, self._handle, ctypes.byref(state))
+        call(lib.amontons_simulation_save, self._open, ctypes.byref(state))
         try:
             if path is not None:
                 call(lib.amontons_state_write, ctypes.byref(state), c_text(path))
@@ -121,20 +129,20 @@ class Simulation:
         if isinstance(state, (bytes, bytearray, memoryview)):
             kept = (ctypes.c_char * len(state)).from_buffer_copy(state)
             saved = c.SavedState(ctypes.addressof(kept), len(state))
-            call(lib.amontons_simulation_restore, self._handle, ctypes.byref(saved))
+            call(lib.amontons_simulation_restore, self._open, ctypes.byref(saved))
         else:
             saved = c.SavedState()
             call(lib.amontons_state_read, c_text(state), ctypes.byref(saved))
             try:
-                call(lib.amontons_simulation_restore, self._handle, ctypes.byref(saved))
+                call(lib.amontons_simulation_restore, self._open, ctypes.byref(saved))
             finally:
                 lib.amontons_state_free(ctypes.byref(saved))
         self._finished.value = False
-        lib.amontons_simulation_view(self._handle, ctypes.byref(self.step))
+        lib.amontons_simulation_view(self._open, ctypes.byref(self.step))
 
     def _look(self) -> c.BlockView:
         block = c.BlockView()
-        call(lib.amontons_simulation_block, self._handle, ctypes.byref(block))
+        call(lib.amontons_simulation_block, self._open, ctypes.byref(block))
         return block
 
     @property
@@ -166,5 +174,5 @@ class Simulation:
     def finish(self) -> Answer:
         """Writes results and pictures where there is a folder; no step can follow. Attributes: those of RunSummary (mu_M, ...)."""
         summary = c.RunSummary()
-        call(lib.amontons_simulation_finish, self._handle, ctypes.byref(summary))
+        call(lib.amontons_simulation_finish, self._open, ctypes.byref(summary))
         return Answer(summary)

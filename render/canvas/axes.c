@@ -87,7 +87,8 @@ Ticks axis_ticks(const Axis *axis, int32_t wanted)
     if (axis->is_log)
         log_ticks = ticks_choose_thirds(axis->low * axis->factor, axis->high * axis->factor);
     if (log_ticks.count >= THIRDS_MIN) return log_ticks;
-    return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
+    Ticks ticks = ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
+    return axis->whole ? ticks_whole(&ticks, axis->low, axis->high) : ticks;
 }
 
 // As many ticks as leave room between their numbers.

@@ -13,6 +13,7 @@ typedef struct Axis {
     double factor;   // numbers shown are the data's times this
     char label[AXIS_LABEL_SIZE];   // name and unit, with text.h's marks; may be empty
     bool is_log;   // low > 0 then
+    bool whole;   // what it shows is counted: no ticks between whole numbers
     const char (*names)[AXIS_LABEL_SIZE];   // of the y axis: what stands at 1, 2, ... in the place
         // of numbers, [name_count]; NULL: numbers; not owned
     int32_t name_count;

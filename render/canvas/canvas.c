@@ -369,16 +369,13 @@ bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *
     return canvas_check(canvas, err);
 }
 
-bool canvas_write(Canvas *canvas, const char *path, const char *title, bool any, Error *err)
+bool canvas_write(Canvas *canvas, const char *path, const char *title, bool overwrite, Error *err)
 {
     PartFile file = {0};
     PictureBytes picture = {0};
-    static const char writer[] = "<!-- amontons " AMONTONS_VERSION " -->\n";
     TRY(canvas_finish(canvas, title, false, &picture, err));
-    TRY(part_file_replace(&file, path, any, err));
+    TRY(part_file_replace(&file, path, overwrite, err));
     TRY(part_file_write(&file, picture.bytes, picture.size, err));
-    if (canvas->def.format == CANVAS_SVG)   // the others have a place for it
-        TRY(part_file_write(&file, writer, sizeof writer - 1, err));
     TRY(part_file_commit(&file, err));
 cleanup:
     part_file_discard(&file);

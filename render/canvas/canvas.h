@@ -97,7 +97,7 @@ typedef struct PictureBytes {
 // a third of the bytes. Reports what went wrong since canvas_create. Nothing can be drawn any more.
 bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *bytes, Error *err);
 
-// The same as the file `path`; any: also over one that is not ours.
-bool canvas_write(Canvas *canvas, const char *path, const char *title, bool any, Error *err);
+// The same as the file `path`; overwrite: as part_file_replace has it.
+bool canvas_write(Canvas *canvas, const char *path, const char *title, bool overwrite, Error *err);
 
 #endif

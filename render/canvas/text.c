@@ -48,53 +48,61 @@ static const char *const FONT_FILES[] = {
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
 
-static bool is_font(FT_Library library, const char *path)
+// NULL where it is no font, or one of fixed sizes.
+static FT_Face face_open(FT_Library library, const char *path)
 {
     FT_Face face = NULL;
-    if (FT_New_Face(library, path, 0, &face)) return false;
-    bool scales = FT_IS_SCALABLE(face);
+    if (FT_New_Face(library, path, 0, &face)) return NULL;
+    if (FT_IS_SCALABLE(face)) return face;
     FT_Done_Face(face);
-    return scales;
+    return NULL;
 }
 
 // AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried.
-static bool font_find(const char **path, Error *err)
+static FT_Face font_find(FT_Library library, Error *err)
 {
-    FT_Library library = NULL;
-    *path = getenv("AMONTONS_FONT");
-    if (FT_Init_FreeType(&library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
-    if (*path && (*path)[0]) {
-        if (!is_font(library, *path))
+    FT_Face face = NULL;
+    const char *path = getenv("AMONTONS_FONT");
+    if (path && path[0]) {
+        if (!(face = face_open(library, path)))
             FAIL(err, ERROR_LIBRARY,
-                 "AMONTONS_FONT=%s is not a font that FreeType can read and scale", *path);
-        goto cleanup;
+                 "AMONTONS_FONT=%s is not a font that FreeType can read and scale", path);
+        return face;
     }
-    for (size_t k = 0; k < sizeof FONT_FILES / sizeof *FONT_FILES; ++k) {
-        *path = FONT_FILES[k];
-        if (is_font(library, *path)) goto cleanup;
-    }
+    for (size_t k = 0; k < sizeof FONT_FILES / sizeof *FONT_FILES; ++k)
+        if ((face = face_open(library, FONT_FILES[k]))) return face;
     FAIL(err, ERROR_LIBRARY,
          "no DejaVuSans.ttf in the system's font folders (%s, ...): install the Debian package "
          "fonts-dejavu-core, or set AMONTONS_FONT to a .ttf file",
          FONT_FILES[0]);
 cleanup:
-    FT_Done_FreeType(library);
-    return error_is_clean(err);
+    return NULL;
 }
 
-// Cairo opens the file itself, as it keeps fonts for longer than we do. Nothing is looked up: the
-// pattern names a file.
+// Closes its faces, too.
+static void library_close(void *library)
+{
+    FT_Done_FreeType(library);
+}
+
+// Cairo keeps fonts for longer than we do: the file is closed with the last of them. Fontconfig has
+// no part in it, as nothing is looked up.
 static bool font_open(Text *text, Error *err)
 {
-    const char *path = NULL;
-    FcPattern *pattern = NULL;
-    TRY(font_find(&path, err));
-    pattern = FcPatternCreate();
-    if (!pattern) FAIL(err, ERROR_MEMORY, "no memory for a font");
-    FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)path);
-    text->font = cairo_ft_font_face_create_for_pattern(pattern);
+    static const cairo_user_data_key_t file;
+    FT_Library library = NULL;
+    FT_Face face = NULL;
+    if (FT_Init_FreeType(&library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
+    TRY(face = font_find(library, err));
+    text->font = cairo_ft_font_face_create_for_ft_face(face, 0);
+    if (cairo_font_face_set_user_data(text->font, &file, library, library_close)) {
+        cairo_font_face_destroy(text->font);
+        text->font = NULL;
+        FAIL(err, ERROR_MEMORY, "no memory for a font");
+    }
+    library = NULL;   // the font's
 cleanup:
-    if (pattern) FcPatternDestroy(pattern);
+    if (library) FT_Done_FreeType(library);
     return error_is_clean(err);
 }
 

@@ -41,6 +41,17 @@ Ticks ticks_choose(double low, double high, int32_t wanted)
     return ticks;
 }
 
+Ticks ticks_whole(const Ticks *ticks, double low, double high)
+{
+    Ticks whole = *ticks;
+    if (whole.step > 0 && whole.step < 1)
+        whole = ticks_choose(low, high, (int32_t)ceil(high - low));
+    if (!(whole.step >= 1)) return *ticks;
+    if (whole.step == 1) whole.minor = 1;
+    if (whole.step == 2) whole.minor = 2;
+    return whole;
+}
+
 // Every power of ten where there are few, else every second, third, ...; multiples of that
 // distance, so that 10^0 is a tick whenever it is in range.
 Ticks ticks_choose_log(double low, double high, int32_t wanted)
@@ -125,5 +136,6 @@ void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 
 void ticks_power(const Ticks *ticks, char words[TICK_LABEL_SIZE])
 {
-    snprintf(words, TICK_LABEL_SIZE, ticks->exponent ? "\u00d710^{%d}" : "", ticks->exponent);
+    words[0] = 0;
+    if (ticks->exponent) snprintf(words, TICK_LABEL_SIZE, "\u00d710^{%d}", ticks->exponent);
 }

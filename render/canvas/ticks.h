@@ -25,6 +25,8 @@ typedef struct Ticks {
 // About `wanted` ticks (never more than wanted + 1) from low to high. None where the range is
 // empty or not finite.
 Ticks ticks_choose(double low, double high, int32_t wanted);
+// The same ticks, of what is counted: none between whole numbers.
+Ticks ticks_whole(const Ticks *ticks, double low, double high);
 // Ticks at powers of ten from low to high, both > 0; every second or third where they are many.
 // Minor ticks: 2 to 9 times each, where every power has a tick.
 Ticks ticks_choose_log(double low, double high, int32_t wanted);

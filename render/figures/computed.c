@@ -64,6 +64,23 @@ static bool find_lengths(ResultView *view, Error *err)
     return true;
 }
 
+bool computed_precursor(ResultView *view, const ViewEvent *event, double *mu, double *length,
+                        Error *err)
+{
+    int64_t first = 0, end = 0;
+    Zoom zoom = zoom_choose(view);
+    *mu = -INFINITY;
+    *length = 0;
+    if (event->kind != VIEW_BOUNDED || !result_view_read_front(view, err)) return false;
+    cycle_rows(view, &zoom, &first, &end);
+    for (int64_t row = first; row < end && view->U[row] <= event->U_stop; ++row) {
+        if (view->U[row] <= event->U_start) *mu = fmax(*mu, view->mu[row]);
+        if (view->U[row] >= event->U_start)
+            *length = fmax(*length, view->front[row] - result_view_trailing_end(view));
+    }
+    return isfinite(*mu) && *length > 0;
+}
+
 // --- speed over place ----------------------------------------------------------------------------
 
 // When node i first slipped so fast, from row `first` to the one before `end`; NaN: it did not.

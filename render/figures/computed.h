@@ -18,6 +18,12 @@ typedef enum MeasuredKind {
 // The curve of a kind, whose arrays stay the view's; of MEASURED_AREA none (count 0).
 bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err);
 
+// Where a precursor stands in the curve of MEASURED_LENGTH: the largest F_T/F_N of the cycle up to
+// its start, and how long slip from the trailing end was in it at most. false: it is in another
+// cycle, or slip did not come from the trailing end.
+bool computed_precursor(ResultView *view, const ViewEvent *event, double *mu, double *length,
+                        Error *err);
+
 // Contact density when the rod was at U, of the node nearest to x, linear between steps; NaN:
 // beyond the block. Slip rates and statuses have been read.
 double computed_area(const ResultView *view, double U, double x);

@@ -142,6 +142,29 @@ static void peaks_draw(const Page *page, const ResultView *view, const Axes *axe
     }
 }
 
+// On pads the largest load before a sliding of the whole block may be that at which one pad slid:
+// where the block itself slid stands at the foot of the frame.
+static const double SLIDING_HEIGHT = 4;   // points
+
+static int32_t slidings_draw(const Page *page, const ResultView *view, const Axes *axes)
+{
+    int32_t count = 0;
+    double pads = 0;
+    for (int32_t i = 0; i < view->nodes; ++i) pads = fmax(pads, view->pad[i]);
+    for (int32_t k = 0; k < view->event_count && pads > 0; ++k) {
+        const ViewEvent *event = &view->events[k];
+        bool shown = event->U_start >= axes->x.low && event->U_start <= axes->x.high;
+        if (event->kind != VIEW_LEADING || !shown) continue;
+        ++count;
+        if (!page) continue;
+        Stroke stroke = {.color = ZOOM_FORCE, .width = CURVE_WIDTH * page->point};
+        Point foot = axes_place(axes, event->U_start, axes->y.low);
+        draw_segment(page->canvas, &stroke, foot,
+                     (Point){foot.x, foot.y - SLIDING_HEIGHT * page->point});
+    }
+    return count;
+}
+
 // What the inset shows, and lines from it to below the inset's numbers: all in one colour.
 static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 {
@@ -220,14 +243,19 @@ static int32_t axes_layout(const Page *page, const ResultView *view, const Windo
 static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
                          const Measured *measured)
 {
-    KeyEntry entries[4];
+    KeyEntry entries[5];
     int32_t count = 0;
     const Axes axes = {.x = {.low = window->low, .high = window->high}};
     bool seen[2] = {false, false};
     for (int32_t k = 0; k < view->peak_count; ++k)
         if (is_shown(&view->peaks[k], &axes)) seen[view->peaks[k].counts] = true;
-    if (seen[1]) entries[count++] = (KeyEntry){KEY_DISC, INK, "peak, counts for ~{\u03bc}_{M}"};
-    if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "peak that does not count"};
+    if (seen[1])
+        entries[count++] =
+            (KeyEntry){KEY_DISC, INK, "largest before the block slid, counts for ~{\u03bc}_{M}"};
+    if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "does not count"};
+    if (slidings_draw(NULL, view, &axes) > 0)
+        entries[count++] =
+            (KeyEntry){KEY_LINE, ZOOM_FORCE, "ticks at the foot: the whole block slides"};
     if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
@@ -262,6 +290,7 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     levels_draw(&page, &axes, level, count);
     curve_draw(&page, view, &axes);
     peaks_draw(&page, view, &axes);
+    slidings_draw(&page, view, &axes);
     measured_draw(&page, &measured, &axes);
     if (enlarged) {
         outline_draw(&page, &axes, &inset);

@@ -5,16 +5,36 @@
 #include "render/view/zoom.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const double RIGHT_MARGIN = 22;   // points: names of the waves' speeds
 static const double HEADROOM = 1.08;   // frame's top over the largest speed
 
-static void key_of(Page *page, bool known, const Measured *measured)
+// A front of speeding up may be faster than any wave, and where viscosity damps every wave their
+// speeds bound nothing: both are said.
+static void key_of(Page *page, const ViewCurve *curve, const double *number,
+                   const Measured *measured)
 {
-    KeyEntry entries[3] = {{.words = "no front of a sliding that the steps resolve"}};
-    if (known) entries[0] = (KeyEntry){KEY_LINE, FIGURE_CURVE, "front of the sliding"};
-    if (known) entries[1] = (KeyEntry){KEY_DASHED, INK, "slow slip ended here"};
-    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, known ? 2 : 1));
+    char damped[80];
+    KeyEntry entries[6] = {{.words = "no front of a sliding that the steps resolve"}};
+    int32_t count = 1;
+    bool faster = false;
+    for (int64_t k = 0; k < curve->count; ++k)
+        faster = faster || curve->value[k] > number[NUMBER_C_LONGITUDINAL];
+    if (curve->count > 0) {
+        entries[0] = (KeyEntry){KEY_LINE, FIGURE_CURVE, "front of the sliding"};
+        entries[count++] = (KeyEntry){KEY_DASHED, INK, "slow slip ended here"};
+    }
+    if (faster)
+        entries[count++] =
+            (KeyEntry){KEY_RING, FIGURE_CURVE, "faster than ~{c}_{L}: no wave carries it"};
+    if (number[NUMBER_WAVE_DAMPING] > 1) {
+        snprintf(damped, sizeof damped, "(waves run with eta1 and eta2 below %.2g of theirs)",
+                 1 / number[NUMBER_WAVE_DAMPING]);
+        entries[count++] = (KeyEntry){.words = "viscosity damps every wave of this block"};
+        entries[count++] = (KeyEntry){.words = damped};
+    }
+    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
 static Axes axes_layout(const Page *page, const ResultView *view, const ViewCurve *curve,
@@ -40,14 +60,18 @@ static void slow_slip_draw(const Page *page, const Axes *axes, double x)
                  axes_place(axes, x, axes->y.high));
 }
 
-static void curve_draw(const Page *page, const Axes *axes, const ViewCurve *curve)
+static void curve_draw(const Page *page, const Axes *axes, const ViewCurve *curve,
+                       double wave_speed)
 {
     Stroke stroke = {.color = FIGURE_CURVE, .width = CURVE_WIDTH * page->point};
     axes_curve(page, axes, &stroke, curve->at, curve->value, curve->count);
     canvas_clip(page->canvas, &axes->box);
-    for (int64_t k = 0; k < curve->count; ++k)
-        draw_disc(page->canvas, FIGURE_CURVE, axes_place(axes, curve->at[k], curve->value[k]),
-                  0.8 * KEY_RADIUS * page->point);
+    for (int64_t k = 0; k < curve->count; ++k) {
+        Point at = axes_place(axes, curve->at[k], curve->value[k]);
+        bool faster = curve->value[k] > wave_speed;
+        draw_disc(page->canvas, FIGURE_CURVE, at, (faster ? 1.2 : 0.8) * KEY_RADIUS * page->point);
+        if (faster) draw_disc(page->canvas, PAPER, at, 0.7 * KEY_RADIUS * page->point);
+    }
     canvas_clip(page->canvas, NULL);
 }
 
@@ -64,13 +88,13 @@ bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
     if (!computed_curve(view, MEASURED_SPEED, &curve, err)) return false;
     if (!computed_curve(view, MEASURED_FRONT, &front, err)) return false;
     if (!measured_read(page.style.compare, MEASURED_SPEED, view, &measured, err)) return false;
-    key_of(&page, curve.count > 0, &measured);
+    key_of(&page, &curve, number, &measured);
     Axes axes = axes_layout(&page, view, &curve, &measured);
     axes_level(&page, &axes, &stroke, number[NUMBER_C_RAYLEIGH], 2, "~{c}_{R}");
     axes_level(&page, &axes, &stroke, number[NUMBER_C_LONGITUDINAL], 2, "~{c}_{L}");
     if (curve.count > 0)
         slow_slip_draw(&page, &axes, curve_value(&front, zoom_choose(view).U_slide));
-    curve_draw(&page, &axes, &curve);
+    curve_draw(&page, &axes, &curve, number[NUMBER_C_LONGITUDINAL]);
     measured_draw(&page, &measured, &axes);
     axes_draw(&page, &axes);
     measured_destroy(&measured);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How long slip is over the load ratio, as experiments show it; and each rapid precursor at the
-// load at which it began.
+// load at which it began, with the length that slip from the trailing end had in it: on the curve,
+// or below it where slip had come farther before.
 #include "render/figures/figures.h"
 
 #include "render/view/zoom.h"
@@ -11,25 +12,24 @@ static const double RIGHT_MARGIN = 10;   // points: half a number, and the name 
 static const double HEADROOM = 1.02;   // of the load ratio
 
 // Each bounded precursor of the cycle; returns how many. page: NULL: they are counted.
-static int32_t precursors_draw(const Page *page, const ResultView *view, const Axes *axes)
+static int32_t precursors_draw(const Page *page, ResultView *view, const Axes *axes)
 {
     int32_t count = 0;
     Zoom zoom = zoom_choose(view);
-    const ViewCurve mu = {view->rows, view->U, view->mu};
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *event = &view->events[k];
+        double mu = NAN, length = NAN;
+        Error ignored = {0};   // the curve has read the front
         bool inside = event->U_start >= zoom.U_start && event->U_start < zoom.U_slide;
-        if (event->kind != VIEW_BOUNDED || !inside) continue;
+        if (!inside || !computed_precursor(view, event, &mu, &length, &ignored)) continue;
         ++count;
-        if (!page) continue;
-        Point at = axes_place(axes, curve_value(&mu, event->U_start),
-                              event->reach - result_view_trailing_end(view));
-        draw_disc(page->canvas, INK, at, KEY_RADIUS * page->point);
+        if (page)
+            draw_disc(page->canvas, INK, axes_place(axes, mu, length), KEY_RADIUS * page->point);
     }
     return count;
 }
 
-static void key_of(Page *page, const ResultView *view, const Measured *measured)
+static void key_of(Page *page, ResultView *view, const Measured *measured)
 {
     KeyEntry entries[3] = {{KEY_LINE, FIGURE_CURVE, "farthest slip so far"},
                            {KEY_DISC, INK, "rapid precursor"}};

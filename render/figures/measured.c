@@ -2,38 +2,28 @@
 #include "render/figures/measured.h"
 
 #include "base/memory.h"
+#include "base/units.h"
 #include "io/text/csv_reader.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_SIZE = 32 };
+enum { NAME_SIZE = 32, MARKS_FEW = 40 };
+
+static const double MARK_SMALL = 0.45;   // of the radius of one among few
 
 static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 
-typedef enum Dimension { NO_DIMENSION, OF_LENGTH, OF_TIME, OF_VELOCITY } Dimension;
-
-static const struct {
-    const char *name;
-    Dimension dimension;
-    double factor;   // of its SI unit
-} UNITS[] = {{"m", OF_LENGTH, 1},         {"cm", OF_LENGTH, 1e-2},      {"mm", OF_LENGTH, 1e-3},
-             {"um", OF_LENGTH, 1e-6},     {"\u00b5m", OF_LENGTH, 1e-6}, {"nm", OF_LENGTH, 1e-9},
-             {"s", OF_TIME, 1},           {"ms", OF_TIME, 1e-3},        {"us", OF_TIME, 1e-6},
-             {"\u00b5s", OF_TIME, 1e-6},  {"min", OF_TIME, 60},         {"m/s", OF_VELOCITY, 1},
-             {"mm/s", OF_VELOCITY, 1e-3}, {"um/s", OF_VELOCITY, 1e-6},  {"km/s", OF_VELOCITY, 1e3}};
-
 // What a quantity may be over, in the place of a unit.
 static const struct {
-    const char *name;
-    Dimension dimension;
+    const char *name, *dimension;
     ResultNumber number;
-} OVER[] = {{"L", OF_LENGTH, NUMBER_LENGTH},
-            {"c_R", OF_VELOCITY, NUMBER_C_RAYLEIGH},
-            {"c_S", OF_VELOCITY, NUMBER_C_SHEAR},
-            {"c_L", OF_VELOCITY, NUMBER_C_LONGITUDINAL},
-            {"V", OF_VELOCITY, NUMBER_ROD_VELOCITY}};
+} OVER[] = {{"L", "length", NUMBER_LENGTH},
+            {"c_R", "velocity", NUMBER_C_RAYLEIGH},
+            {"c_S", "velocity", NUMBER_C_SHEAR},
+            {"c_L", "velocity", NUMBER_C_LONGITUDINAL},
+            {"V", "velocity", NUMBER_ROD_VELOCITY}};
 
 typedef struct Column {
     int32_t index;   // -1: there is none
@@ -41,97 +31,85 @@ typedef struct Column {
     double factor;   // to the result's unit
 } Column;
 
-// "U (mm)", "U/L" or " U": the name's length, and behind it the unit.
-static size_t name_length(const char *heading, const char **unit, size_t *unit_length)
-{
-    size_t length = strcspn(heading, " (");
-    const char *open = strchr(heading, '(');
-    *unit = open ? open + 1 : "";
-    *unit_length = open ? strcspn(open + 1, ")") : 0;
-    return length;
-}
+static const Column NONE = {-1, -1, 1};
 
-// -1: no column is called so.
-static int32_t find_column(const CsvTable *table, const char *name, const char **unit,
-                           size_t *unit_length)
+// How many of the result's units one is. Normalised results have none: L_0, t_0, L_0/t_0 are 1.
+static bool unit_factor(const CsvTable *table, const ResultView *view, CsvUnit unit,
+                        const char *dimension, Column *column, Error *err)
 {
-    for (int32_t k = 0; k < table->columns; ++k) {
-        const char *heading = csv_name(table, k) + strspn(csv_name(table, k), " ");
-        size_t length = name_length(heading, unit, unit_length);
-        if (length == strlen(name) && strncmp(heading, name, length) == 0) return k;
-    }
-    return -1;
-}
-
-static int32_t find_bare(const CsvTable *table, const char *name)
-{
-    const char *unit = NULL;
-    size_t length = 0;
-    return find_column(table, name, &unit, &length);
-}
-
-// A quantity with a unit behind it, as a heading has it.
-typedef struct Heading {
-    const char *name, *unit;
-    size_t length;   // of the unit
-    Dimension dimension;
-} Heading;
-
-// How many of the result's units one is. Normalised results have none.
-static bool unit_factor(const Heading *heading, const ResultView *view, double *factor, Error *err)
-{
-    const char *name = heading->name, *unit = heading->unit;
-    size_t length = heading->length;
-    *factor = 1;
-    bool bare = length == 0 || memchr(unit, '_', length);   // L_0, t_0, L_0/t_0
+    bool bare = unit.length == 0 || memchr(unit.text, '_', (size_t)unit.length);
     if (bare && !view->si) return true;
-    if (bare) return REFUSE(err, "%s needs a unit beside a result in SI, as in U (mm)", name);
-    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k) {
-        if (UNITS[k].dimension != heading->dimension || strlen(UNITS[k].name) != length ||
-            strncmp(UNITS[k].name, unit, length) != 0)
-            continue;
-        *factor = UNITS[k].factor;
-        if (view->si) return true;
-        return REFUSE(
-            err,
-            "the result is normalised: give %s over a length or speed of it, as in U/L, x/L, "
-            "v/c_R",
-            name);
-    }
-    return REFUSE(err,
-                  "%s: there is no unit \"%.*s\" for it; m, cm, mm, um, nm, s, ms, us, "
-                  "min, m/s, mm/s, um/s, km/s are known",
-                  name, (int)length, unit);
+    if (bare)
+        return csv_refuse(table, -1, column->index, err,
+                          "needs a unit beside a result in SI, as in U (mm)");
+    if (!csv_to_si(table, column->index, unit, dimension, &column->factor, err)) return false;
+    return view->si ||
+           csv_refuse(table, -1, column->index, err,
+                      "has a unit, and the result is normalised: give it over a length or speed of "
+                      "the result, as in U/L, x/L, v/c_R");
 }
 
-// `name` with a unit, or over what the result knows.
-static bool find_quantity(const CsvTable *table, const char *name, Dimension dimension,
+// `name` with a unit, or over what the result knows; once in the table.
+static bool find_quantity(const CsvTable *table, const char *name, const char *dimension,
                           const ResultView *view, Column *column, Error *err)
 {
     char over[NAME_SIZE];
-    const char *unit = NULL;
-    size_t length = 0;
-    *column = (Column){-1, -1, 1};
+    CsvUnit unit;
+    Column found = NONE;
+    *column = NONE;
     for (size_t k = 0; k < sizeof OVER / sizeof *OVER; ++k) {
         snprintf(over, sizeof over, "%s/%s", name, OVER[k].name);
-        int32_t index = OVER[k].dimension == dimension ? find_bare(table, over) : -1;
+        int32_t index = strcmp(OVER[k].dimension, dimension) == 0 ? csv_column(table, over) : -1;
         if (index < 0) continue;
+        if (column->index >= 0)
+            return csv_refuse(table, -1, index, err, "is %s a second time, beside %s", name,
+                              csv_name(table, column->index));
         *column = (Column){index, -1, fabs(view->number[OVER[k].number])};
-        return true;
     }
-    column->index = find_column(table, name, &unit, &length);
-    const Heading heading = {name, unit, length, dimension};
-    return column->index < 0 || dimension == NO_DIMENSION ||
-           unit_factor(&heading, view, &column->factor, err);
+    if (!csv_find(table, name, &found.index, &unit, err)) return false;
+    if (found.index < 0) return true;
+    if (column->index >= 0)
+        return csv_refuse(table, -1, found.index, err, "is %s a second time, beside %s", name,
+                          csv_name(table, column->index));
+    *column = found;
+    return unit_factor(table, view, unit, dimension, column, err);
 }
 
-static Column find_ratio(const CsvTable *table)
+// A number without a unit, under one of two names.
+static bool find_number(const CsvTable *table, const char *name, const char *other, Column *column,
+                        Error *err)
 {
-    Column ratio = {find_bare(table, "mu"), -1, 1};
-    if (ratio.index < 0) ratio.index = find_bare(table, "F_T/F_N");
-    if (ratio.index >= 0) return ratio;
-    ratio = (Column){find_bare(table, "F_T"), find_bare(table, "F_N"), 1};
-    return ratio.under < 0 ? (Column){-1, -1, 1} : ratio;
+    *column = NONE;
+    column->index = csv_column(table, name);
+    int32_t second = other ? csv_column(table, other) : -1;
+    if (column->index >= 0 && second >= 0)
+        return csv_refuse(table, -1, second, err, "is %s a second time", name);
+    if (column->index < 0) column->index = second;
+    return true;
+}
+
+// mu or F_T/F_N; else F_T over F_N, both with a unit of the same kind or both without.
+static bool find_ratio(const CsvTable *table, Column *ratio, Error *err)
+{
+    char over[CSV_UNIT_SIZE], under[CSV_UNIT_SIZE];
+    CsvUnit unit[2];
+    if (!find_number(table, "mu", "F_T/F_N", ratio, err) || ratio->index >= 0)
+        return error_is_clean(err);
+    if (!csv_find(table, "F_T", &ratio->index, &unit[0], err) ||
+        !csv_find(table, "F_N", &ratio->under, &unit[1], err))
+        return false;
+    if (ratio->index < 0 || ratio->under < 0) {
+        *ratio = NONE;
+        return true;
+    }
+    if (unit[0].length == 0 && unit[1].length == 0) return true;
+    snprintf(over, sizeof over, "%.*s", unit[0].length, unit[0].text);
+    snprintf(under, sizeof under, "%.*s", unit[1].length, unit[1].text);
+    return unit_ratio(over, under, &ratio->factor) ||
+           csv_refuse(table, -1, ratio->under, err,
+                      "cannot stand under %s: both need units of the same kind, as in F_T (N) and "
+                      "F_N (kN), or none",
+                      csv_name(table, ratio->index));
 }
 
 // All that a file may hold.
@@ -141,13 +119,14 @@ typedef struct Columns {
 
 static bool find_columns(const CsvTable *table, const ResultView *view, Columns *found, Error *err)
 {
-    *found = (Columns){.ratio = find_ratio(table), .error = {find_bare(table, "error"), -1, 1}};
-    return find_quantity(table, "U", OF_LENGTH, view, &found->U, err) &&
-           find_quantity(table, "t", OF_TIME, view, &found->t, err) &&
-           find_quantity(table, "x", OF_LENGTH, view, &found->x, err) &&
-           find_quantity(table, "A/A_0", NO_DIMENSION, view, &found->area, err) &&
-           find_quantity(table, "l", OF_LENGTH, view, &found->length, err) &&
-           find_quantity(table, "v", OF_VELOCITY, view, &found->speed, err);
+    return find_ratio(table, &found->ratio, err) &&
+           find_quantity(table, "U", "length", view, &found->U, err) &&
+           find_quantity(table, "t", "time", view, &found->t, err) &&
+           find_quantity(table, "x", "length", view, &found->x, err) &&
+           find_number(table, "A/A_0", NULL, &found->area, err) &&
+           find_quantity(table, "l", "length", view, &found->length, err) &&
+           find_quantity(table, "v", "velocity", view, &found->speed, err) &&
+           find_number(table, "error", NULL, &found->error, err);
 }
 
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
@@ -171,17 +150,39 @@ static double read_cell(const CsvTable *table, int32_t row, const Column *column
     return column->under < 0 ? value : value / csv_value(table, row, column->under);
 }
 
+// The column `error`, else `NAME_error` of the value's own name; with its own unit, else in that of
+// the value.
+static bool find_error(const CsvTable *table, const Columns *found, const Column *value,
+                       const ResultView *view, Column *error, Error *err)
+{
+    char name[NAME_SIZE + sizeof "_error"];
+    CsvUnit unit;
+    int32_t length = 0;
+    *error = found->error;
+    error->factor = value->under < 0 ? value->factor : 1;
+    if (error->index >= 0) return true;
+    csv_split(table, value->index, &length, &unit);
+    if (length >= NAME_SIZE || value->under >= 0) return true;
+    snprintf(name, sizeof name, "%.*s_error", length, csv_name(table, value->index));
+    if (!csv_find(table, name, &error->index, &unit, err)) return false;
+    if (error->index < 0) return true;
+    if (unit.length > 0 && view->si &&
+        !csv_to_si(table, error->index, unit, NULL, &error->factor, err))
+        return false;
+    return csv_check(table, error->index, true, err);
+}
+
 static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
                       Measured *measured, Error *err)
 {
-    Column at, value, error = found->error;
+    Column at, value, error;
     const ViewCurve way = {view->rows, view->t, view->U};
     if (!choose(found, measured->kind, &at, &value)) return true;
     double **lists[] = {&measured->at, &measured->x, &measured->value, &measured->error,
                         &measured->computed};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
         if (!(*lists[k] = NEW_ARRAY(double, table->rows, err))) return false;
-    error.factor = value.factor;
+    if (!find_error(table, found, &value, view, &error, err)) return false;
     bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0;
     for (int32_t row = 0; row < table->rows; ++row) {
         int32_t k = measured->count;
@@ -212,9 +213,11 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
     TRY(find_columns(table, view, found, err));
     if (!has_any(found))
         FAIL(err, ERROR_INPUT,
-             "it needs the columns U and F_T/F_N, U and x, U, x and A/A_0, F_T/F_N and l, or x "
-             "and v");
-    if (table->rows == 0) FAIL(err, ERROR_INPUT, "below the names of its columns there is no row");
+             "%s: it needs the columns U and F_T/F_N, U and x, U, x and A/A_0, F_T/F_N and l, or x "
+             "and v",
+             path);
+    if (table->rows == 0)
+        FAIL(err, ERROR_INPUT, "%s: below the names of its columns there is no row", path);
     const Column *const columns[] = {&found->U,    &found->t,      &found->ratio, &found->x,
                                      &found->area, &found->length, &found->speed};
     for (size_t k = 0; k < sizeof columns / sizeof *columns; ++k)
@@ -222,7 +225,7 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
     TRY(csv_check(table, found->ratio.under, true, err));
     TRY(csv_check(table, found->error.index, true, err));
 cleanup:
-    error_context(err, "measurements %s", path);
+    error_context(err, "measurements");
     return error_is_clean(err);
 }
 
@@ -312,13 +315,15 @@ void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
 {
     Stroke stroke = {.color = MEASURED_COLOR, .width = 0.5 * page->point};
     double radius = KEY_RADIUS * page->point;
+    bool many = measured->count > MARKS_FEW;   // a halo each would hide the curve below
+    if (many) radius *= MARK_SMALL;
     canvas_clip(page->canvas, &axes->box);
     for (int32_t k = 0; k < measured->count; ++k) {
         double at = measured->at[k], value = measured->value[k], error = measured->error[k];
         if (isfinite(error))
             draw_segment(page->canvas, &stroke, axes_place(axes, at, value - error),
                          axes_place(axes, at, value + error));
-        draw_disc(page->canvas, PAPER, axes_place(axes, at, value), 1.25 * radius);
+        if (!many) draw_disc(page->canvas, PAPER, axes_place(axes, at, value), 1.25 * radius);
         draw_disc(page->canvas, MEASURED_COLOR, axes_place(axes, at, value), radius);
     }
     canvas_clip(page->canvas, NULL);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Measurements from a table of comma-separated values, to be drawn beside a result. Called by the
+// Measurements from a table (io/text/csv_reader), to be drawn beside a result. Called by the
 // figures.
 //
 // The first line names the columns, with units behind them; columns of other names are left alone
@@ -11,8 +11,9 @@
 //     F_T/F_N, l (mm)                  precursors: how long slip is at that load ratio
 //     x/L, v/c_R                       front-speed: how fast the front of slip runs over x
 //
-// `mu` is F_T/F_N; so are the columns F_T and F_N, of one unit. `error` is what one reads or
-// measures the last of these to, in its unit.
+// `mu` is F_T/F_N; so are the columns F_T and F_N, each with its unit or both without. A quantity
+// stands once: U (mm) beside U/L is refused. `error` is what one reads or measures the last of
+// these to, in its unit.
 #ifndef AMONTONS_RENDER_FIGURES_MEASURED_H
 #define AMONTONS_RENDER_FIGURES_MEASURED_H
 

@@ -19,7 +19,7 @@ static const double EDGE_WIDTH = 0.22;   // points: edges of elements
 static const double CURVE_WIDTH_NAMED = 1.6;   // points: named curves
 static const double NAME_GAP = 3.0;   // points: curve to its name
 static const double HEAD_HEIGHT = 11;   // points: the lines above the frame, each
-static const double LEFT = 32, RIGHT = 4;   // points: beside the frame
+static const double LEFT = 32, RIGHT = 10;   // points: beside the frame, half a number
 static const double SIDE_MAX = 1.4;   // the picture's height over its width, at most
 
 static const Color EDGE = {0.55f, 0.58f, 0.63f, 1};

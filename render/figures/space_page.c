@@ -294,8 +294,13 @@ static void draw_axis(const Page *page, const SpacePage *space, const Block *blo
     }
     at[axis] = (block->low[axis] + block->high[axis]) / 2;
     Point name = see_on_page(space, block, at[0], at[1], at[2]);
-    double away = NAME_GAP * point + (flat ? widest : 0);
+    double away = flat ? (TICK + 2 * NUMBER_GAP) * point + widest : NAME_GAP * point;
     style.size = LABEL_SIZE * point;
+    if (flat) {   // beside numbers of any width the page has room for a line that rises
+        style.rising = true;
+        style.across = 0.5;
+        style.up = 0;
+    }
     text_draw(page->text, &style, (Point){name.x + away * aside.x, name.y + away * aside.y},
               own.label);
 }

@@ -199,7 +199,7 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     TRY(page);
     page->def = *def;
     page->block = (FilmBlock){.clock = def->clock,
-                              .source = {def->folder, def->view},
+                              .source = {.folder = def->folder, .view = def->view},
                               .magnification = def->film->magnification};
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);

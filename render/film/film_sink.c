@@ -5,7 +5,7 @@
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "io/files/folder.h"
-#include "io/files/own_mark.h"
+#include "io/files/own_list.h"
 #include "io/files/part_file.h"
 #include "render/canvas/color.h"
 #include "render/canvas/png_encode.h"
@@ -123,6 +123,8 @@ static bool frames_begin(FilmSink *sink, Error *err)
         *last = '\0';
         if (!folder_make(folder, err)) return false;
     }
+    if (!find_mark(path) && !(own_list_check(folder, err) && own_list_make(folder, err)))
+        return false;
     frame_path(pattern, 1, first);
     if (access(first, F_OK) == 0 && !sink->def.overwrite)
         return REFUSE(
@@ -269,13 +271,15 @@ static void thread_end(FilmSink *sink)
     sink->running = false;
 }
 
-// Frames of a longer film of ours would seem to be of this one.
+// Frames of a longer film of ours, in a folder of ours, would seem to be of this one.
 static void remove_rest(const FilmSink *sink)
 {
     char path[2 * PATH_MAX];
     for (int32_t frame = sink->filled + 1;; ++frame) {
         frame_path(&sink->pattern, frame, path);
-        if (!own_mark_is_in(path) || unlink(path) != 0) return;
+        bool ours = false;
+        Error unseen = {0};
+        if (!own_list_has(path, &ours, &unseen) || !ours || unlink(path) != 0) return;
     }
 }
 

@@ -4,6 +4,7 @@
 #include "render/view/block.h"
 
 #include <math.h>
+#include <stddef.h>
 
 static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
 

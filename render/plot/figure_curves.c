@@ -160,7 +160,12 @@ amontons_render_plot(const char *path, const char *picture, const PictureStyle *
     Plot *plot = NEW_ARRAY(Plot, 1, err);
     TRY(plot);
     TRY(page_style_of_name(picture, &used, err));
+    static const char *const name[] = {"plot"};
+    TRY(picture_options_fit(&used, NULL, name, 1, err));
     TRY(plot_file_read(path, plot, err));
+    if (!picture_options_fit(&plot->style, NULL, name, 1, err))
+        error_context(err, "%s: page", path);
+    TRY(error_is_clean(err));
     TRY(figure_plot(&page, plot, &used, plot->title, err));
     TRY(page_finish(&page, picture, plot->title, err));
     TRY(plot_compare_write(plot, picture, err));

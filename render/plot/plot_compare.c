@@ -14,24 +14,36 @@ enum { NAME_SIZE = PLOT_LABEL_SIZE + 8 };
 
 static const double MARGIN = 0.05;   // of the axis, beyond a measurement outside of it
 
-static int32_t find_column(const CsvTable *table, const char *given, const char *plain)
+// The column called `given`, with a unit or without, else the plain one. *factor: to SI where it
+// has a unit, else the numbers are the plot's.
+static bool find_column(const CsvTable *table, const char *given, const char *plain,
+                        int32_t *column, double *factor, Error *err)
 {
-    int32_t column = given[0] ? csv_column(table, given) : -1;
-    return column < 0 ? csv_column(table, plain) : column;
+    CsvUnit unit = {"", 0};
+    *factor = 1;
+    *column = -1;
+    if (given[0] && !csv_find(table, given, column, &unit, err)) return false;
+    if (*column < 0 && !csv_find(table, plain, column, &unit, err)) return false;
+    return unit.length == 0 || csv_to_si(table, *column, unit, NULL, factor, err);
 }
 
 static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *series, Error *err)
 {
     char name[NAME_SIZE];
-    int32_t x = find_column(table, plot->column[0], "x"),
-            y = find_column(table, plot->column[1], "y");
+    int32_t x = -1, y = -1, error = -1;
+    double factor[3];   // of x, y, error
     snprintf(name, sizeof name, "%s_error", plot->column[1]);
-    int32_t error = find_column(table, name, "error");
+    if (!find_column(table, plot->column[0], "x", &x, &factor[0], err) ||
+        !find_column(table, plot->column[1], "y", &y, &factor[1], err) ||
+        !find_column(table, name, "error", &error, &factor[2], err))
+        return false;
+    if (factor[2] == 1) factor[2] = factor[1];   // in the unit of y where it has none
     if (x < 0 || y < 0)
-        return REFUSE(err, "it needs the columns %s and %s",
+        return REFUSE(err, "%s: it needs the columns %s and %s", table->path,
                       plot->column[0][0] ? plot->column[0] : "x",
                       plot->column[1][0] ? plot->column[1] : "y");
-    if (table->rows == 0) return REFUSE(err, "below the names of its columns there is no row");
+    if (table->rows == 0)
+        return REFUSE(err, "%s: below the names of its columns there is no row", table->path);
     if (!(csv_check(table, x, false, err) && csv_check(table, y, false, err) &&
           csv_check(table, error, true, err)))
         return false;
@@ -40,9 +52,9 @@ static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *ser
     if (!(series->low = NEW_ARRAY(double, table->rows, err))) return false;
     if (!(series->high = NEW_ARRAY(double, table->rows, err))) return false;
     for (int32_t row = 0; row < table->rows; ++row) {
-        double value = csv_value(table, row, y);
-        double bar = error < 0 ? (double)NAN : csv_value(table, row, error);
-        series->x[row] = csv_value(table, row, x);
+        double value = factor[1] * csv_value(table, row, y);
+        double bar = error < 0 ? (double)NAN : factor[2] * csv_value(table, row, error);
+        series->x[row] = factor[0] * csv_value(table, row, x);
         series->y[row] = value;
         series->low[row] = value - bar;
         series->high[row] = value + bar;
@@ -151,7 +163,7 @@ bool plot_compare(Plot *plot, const char *path, Error *err)
     widen(&plot->main.y, series->high, series->count);
 cleanup:
     csv_destroy(&table);
-    error_context(err, "measurements %s", path);
+    error_context(err, "measurements");
     return error_is_clean(err);
 }
 

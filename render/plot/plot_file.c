@@ -290,6 +290,28 @@ static bool read_units(const PlotReader *reader, Plot *plot)
                                       read_unit(reader, inset, "y", &plot->inset.y)));
 }
 
+// Ranks, numbers of pads: all that stands along an axis are whole numbers.
+static bool is_counted(const Plot *plot, bool along_x)
+{
+    const Axis *axis = along_x ? &plot->main.x : &plot->main.y;
+    if (axis->is_log || axis->factor != 1 || !(axis->high - axis->low >= 1)) return false;
+    for (int32_t p = -1; p < plot->panel_count; ++p) {
+        const PlotPanel *panel = p < 0 ? &plot->main : &plot->panels[p];
+        const PlotMap *map = &panel->map;
+        for (int32_t s = 0; s < panel->series_count; ++s) {
+            const PlotSeries *series = &panel->series[s];
+            const double *values = along_x ? series->x : series->y;
+            for (int32_t k = 0; k < series->count; ++k)
+                if (isfinite(values[k]) && values[k] != floor(values[k])) return false;
+        }
+        for (int32_t k = 0; panel->has_map && k < map->count; ++k) {
+            double value = (along_x ? map->x : map->y)[k];
+            if (isfinite(value) && value != floor(value)) return false;
+        }
+    }
+    return true;
+}
+
 // plot is half filled after a failure: plot_destroy frees it.
 bool plot_file_read(const char *path, Plot *plot, Error *err)
 {
@@ -298,6 +320,8 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
     TRY(yaml_read(path, &reader.file, err));
     TRY(read_plot(&reader, plot));
     TRY(plot_fit_axes(plot, err));
+    plot->main.x.whole = is_counted(plot, true);
+    plot->main.y.whole = is_counted(plot, false);
     TRY(read_units(&reader, plot));
 cleanup:
     yaml_destroy(reader.file);

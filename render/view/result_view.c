@@ -227,7 +227,7 @@ static bool events_read(ResultView *view, Error *err)
     TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
     for (int32_t k = 0; k < count; ++k) {
         double kind = column[0][k];
-        bool known = kind >= 0 && kind <= VIEW_LEADING;
+        bool known = kind >= 0 && kind < VIEW_EVENT_KINDS;
         view->events[k] =
             (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k], column[3][k]};
     }

@@ -6,7 +6,14 @@
 
 #include "render/view/contact_plane.h"
 
-typedef enum ViewEventKind { VIEW_QUASI_STATIC, VIEW_BOUNDED, VIEW_LEADING } ViewEventKind;
+// As io/hdf5 has them: record/events.
+typedef enum ViewEventKind {
+    VIEW_QUASI_STATIC,
+    VIEW_BOUNDED,
+    VIEW_LEADING,
+    VIEW_SLIGHT,
+    VIEW_EVENT_KINDS
+} ViewEventKind;
 
 typedef struct ViewEvent {
     int32_t kind;   // ViewEventKind

@@ -8,12 +8,14 @@
 #include "algebra/dense.h"
 
 #include "algebra/lanes.h"
+#include "algebra/room.h"
 
 #include <cblas.h>
 #include <math.h>
 #include <string.h>
 
-// Of dense_apply_each: half a megabyte; whole vectors, so that all rows are rounded alike.
+// Rows that dense_apply_each takes at a time: half a megabyte, and whole vectors of the processor,
+// so that all rows are rounded alike.
 enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
@@ -45,7 +47,7 @@ void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
 
-// What OpenBLAS itself calls before a fork. Its builds without threads do not have it.
+// OpenBLAS itself calls this before a fork. Its builds without threads do not have it.
 int blas_thread_shutdown_(void) __attribute__((weak));
 
 // OpenBLAS starts its threads when it is loaded, and an idle one looks for work at full speed for
@@ -62,6 +64,7 @@ void dense_use_one_thread(void)
 bool dense_cholesky(double *a, int32_t n)
 {
     int info = 0;
+    CHECK_ROOM(a, (int64_t)n * n);
     if (n > 0) dpotrf_("L", &n, a, &n, &info, 1);
     if (info != 0) return false;
     for (int64_t k = 0; k < n; k++) {   // LAPACK lets NaN pass
@@ -75,6 +78,8 @@ bool dense_cholesky(double *a, int32_t n)
 bool dense_lu(double *a, int32_t n, int32_t *pivots)
 {
     int info = 0;
+    CHECK_ROOM(a, (int64_t)n * n);
+    CHECK_ROOM(pivots, n);
     if (n > 0) dgetrf_(&n, &n, a, &n, pivots, &info);
     return info == 0;
 }
@@ -97,12 +102,17 @@ int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots)
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b)
 {
     int info = 0, one = 1;
+    CHECK_ROOM(lu, (int64_t)n * n);
+    CHECK_ROOM(pivots, n);
+    CHECK_ROOM(b, n);
     if (n > 0) dgetrs_("N", &n, &one, lu, &n, pivots, b, &n, &info, 1);
 }
 
 bool dense_lu_single(float *a, int32_t n, int32_t *pivots)
 {
     int info = 0;
+    CHECK_ROOM(a, (int64_t)n * n);
+    CHECK_ROOM(pivots, n);
     if (n > 0) sgetrf_(&n, &n, a, &n, pivots, &info);
     return info == 0;
 }
@@ -112,6 +122,8 @@ void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, do
                            float *work)
 {
     int info = 0, one = 1;
+    CHECK_ROOM(lu, (int64_t)n * n);
+    CHECK_ROOM(pivots, n);
     double largest = dense_max_abs(b, n);
     if (largest == 0) return;
     for (int32_t k = 0; k < n; k++) work[k] = (float)(b[k] / largest);
@@ -150,6 +162,7 @@ static int invert_lower(double *a, int n)
 // dlauum leaves L^-T L^-1 in the lower triangle: the upper one is mirrored from it.
 bool dense_invert_factored(double *a, int32_t n)
 {
+    CHECK_ROOM(a, (int64_t)n * n);
     int info = invert_lower(a, n);
     if (n > 0 && info == 0) dlauum_("L", &n, a, &n, &info, 1);
     dense_mirror(a, n);
@@ -172,13 +185,6 @@ void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
     if (n > 0) cblas_daxpy(n, factor, x, 1, y, 1);
 }
 
-// Doubles, and integers in the place of some: dstedc asks for 1 + 4 n + n^2 and 3 + 5 n beside its
-// vectors and three numbers a row, dsygvd for less; dgeev for 4 n at least.
-int64_t dense_eigen_work(int32_t n)
-{
-    return 4 + 12 * (int64_t)n + 2 * (int64_t)n * n;
-}
-
 // Tridiagonal form, its values by QL, its vectors by divide and conquer (LAPACK Users' Guide, 3rd
 // ed., 2.4.4), of which those that are wanted are turned back.
 bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work)
@@ -188,6 +194,9 @@ bool dense_eigen_above(double *a, int32_t n, double least, double *values, doubl
     double *vectors = beside + size, *rest = vectors + size * size;
     int info = 0, wanted = 0, room = 1 + 4 * n + n * n, whole = 3 + 5 * n;
     if (n == 0) return true;
+    CHECK_ROOM(a, (int64_t)n * n);
+    CHECK_ROOM(values, n);
+    CHECK_ROOM(work, DENSE_EIGEN_WORK(n));
     dsytrd_("L", &n, a, &n, diagonal, beside, reflectors, rest, &room, &info, 1);
     memcpy(values, diagonal, (size_t)n * sizeof *values);
     memcpy(rest, beside, (size_t)n * sizeof *rest);
@@ -211,6 +220,10 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work)
 bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *work)
 {
     int info = 0, size = 1 + 6 * n + 2 * n * n, whole = 3 + 5 * n, kind = 1;
+    CHECK_ROOM(a, (int64_t)n * n);
+    CHECK_ROOM(b, (int64_t)n * n);
+    CHECK_ROOM(values, n);
+    if (n > 0) CHECK_ROOM(work, DENSE_EIGEN_WORK(n));
     if (n > 0)
         dsygvd_(&kind, "V", "L", &n, a, &n, b, &n, values, work, &size,
                 (int *)(void *)(work + size), &whole, &info, 1, 1);
@@ -221,7 +234,12 @@ bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *w
 bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
                          double *work)
 {
-    int info = 0, size = (int)dense_eigen_work(n), one = 1;
+    int info = 0, size = (int)DENSE_EIGEN_WORK(n), one = 1;
+    CHECK_ROOM(a, (int64_t)n * n);
+    CHECK_ROOM(vectors, (int64_t)n * n);
+    CHECK_ROOM(re, n);
+    CHECK_ROOM(im, n);
+    if (n > 0) CHECK_ROOM(work, DENSE_EIGEN_WORK(n));
     if (n > 0)
         dgeev_("N", "V", &n, a, &n, re, im, NULL, &one, vectors, &n, work, &size, &info, 1, 1);
     return info == 0;

@@ -57,9 +57,13 @@ void dense_lower_divide_transposed(const double *lower, int32_t n, int32_t colum
 // is read and written.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a);
 
+// Doubles in the work array of each function below that finds eigenvalues; a constant where n is
+// one. dstedc asks for 1 + 4 n + n^2 numbers and 3 + 5 n integers beside its vectors and three
+// numbers a row, dsygvd for less, dgeev for 4 n at least.
+#define DENSE_EIGEN_WORK(n) (4 + 12 * (int64_t)(n) + 2 * (int64_t)(n) * (n))
+
 // Eigenvalues, ascending, and orthonormal eigenvectors (columns, in place) of a symmetric `a` [n *
-// n]. values: [n]; work: [dense_eigen_work(n)], here and below.
-int64_t dense_eigen_work(int32_t n);
+// n]. values: [n]; work: [DENSE_EIGEN_WORK(n)], here and below.
 bool dense_eigen(double *a, int32_t n, double *values, double *work);
 
 // Likewise, where vectors are wanted of eigenvalues above `least` alone: as the last columns of
@@ -72,7 +76,7 @@ bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *w
 
 // Eigenvalues (re, im: [n]) and right eigenvectors of a general `a` [n * n], which is destroyed. A
 // complex pair takes two columns of `vectors` [n * n], real and imaginary part of the one with im >
-// 0. work: [dense_eigen_work(n)].
+// 0. work: [DENSE_EIGEN_WORK(n)].
 bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
                          double *work);
 

@@ -19,7 +19,7 @@ typedef double Lane __attribute__((vector_size(LANE * sizeof(double)), aligned(s
 // Before a loop of at most four rounds: what it works on stays in registers.
 #define UNROLLED _Pragma("GCC unroll 4")
 
-// What it calls with constants, to be compiled with them.
+// Marks a function that is called with constants and compiled once for each of them.
 #define WITH_CONSTANTS static inline __attribute__((always_inline))
 
 #endif

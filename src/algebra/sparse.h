@@ -38,7 +38,7 @@ int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
 
 // y = A x; values: [start[size]].
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y);
-// Of `columns` columns of x and y, [size] each.
+// The same for `columns` columns of x and y, [size] each.
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
                        int64_t columns, double *y);
 

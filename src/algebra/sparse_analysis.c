@@ -51,6 +51,11 @@ static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border
     return memcmp(permutation + first, border, (size_t)count * sizeof *border) == 0;
 }
 
+static ErrorCode error_code_of(const cholmod_common *common)
+{
+    return common->status == CHOLMOD_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY;
+}
+
 // Symbolic factorisation in the given `order` [n]; an earlier one is dropped.
 static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool postorder, Error *err)
 {
@@ -59,7 +64,7 @@ static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool post
     common->postorder = postorder;
     analysis->symbolic = cholmod_analyze_p(&analysis->pattern, order, NULL, 0, common);
     if (!analysis->symbolic)
-        return FAULT(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)",
+        return FAULT(err, error_code_of(common), "CHOLMOD: the analysis failed (status %d)",
                      common->status);
     return true;
 }
@@ -76,7 +81,7 @@ static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border,
     if (!member || !order) goto cleanup;
     for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
     if (!cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
-        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the fill-reducing order failed (status %d)",
+        FAIL(err, error_code_of(common), "CHOLMOD: the fill-reducing order failed (status %d)",
              common->status);
     // S is full, in whatever order.
     memcpy(order + size - count, border, (size_t)count * sizeof *border);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What algebra/sparse_analysis makes and algebra/sparse_factor and algebra/sparse_expand work with;
-// nobody else includes this.
+// The analysis that algebra/sparse_analysis makes; algebra/sparse_factor and algebra/sparse_expand
+// use it; nobody else includes this.
 #ifndef AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
 #define AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
 

@@ -11,7 +11,8 @@ enum {
     TOGETHER = 3   // columns of L: 12 sums stay in registers
 };
 
-// Of L: `height` rows below and with its first column, those of its own columns first.
+// A supernode of L has `height` rows, from its first column down; the rows of its own columns come
+// first.
 typedef struct Supernode {
     int32_t first, height;
     const int32_t *rows;   // [height]

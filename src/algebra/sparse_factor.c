@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-// Of GNU's OpenMP, which Debian's CHOLMOD comes with.
+// Functions of GNU's OpenMP, which Debian's CHOLMOD comes with.
 int omp_get_max_active_levels(void) __attribute__((weak));
 void omp_set_max_active_levels(int levels) __attribute__((weak));
 

@@ -20,7 +20,7 @@ bool decimal_point_is_set(void);
 
 // From here to the end of the enclosing block.
 #define NUMBERS_HAVE_A_POINT                                                                       \
-    __attribute__((cleanup(decimal_point_end)))                                                    \
+    __attribute__((cleanup(decimal_point_end), unused))                                            \
     DecimalPoint decimal_point_here = decimal_point_begin()
 
 #endif

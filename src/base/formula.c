@@ -65,7 +65,7 @@ static void add(Reading *reading, Operation operation, double number)
     if (formula->count == FORMULA_STEPS_MAX)
         refuse(reading, "the end of a shorter formula");
     else
-        formula->step[formula->count++] = (FormulaStep){operation, number};
+        formula->step[formula->count++] = (FormulaStep){(int32_t)operation, number};
 }
 
 static void close_bracket(Reading *reading)

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A build of OpenBLAS for all processors (DYNAMIC_ARCH) chooses in gotoblas_dynamic_init, where a
-// variable goes before the processor; both functions are exported. Other builds have one kind of
-// kernels, and lack the functions.
+// A build of OpenBLAS for all processors (DYNAMIC_ARCH) chooses while it is loaded, where its
+// variable goes before the processor. Other builds have one kind of kernels.
 #include "base/kernels.h"
 
 #include <cblas.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <strings.h>
-
-void gotoblas_dynamic_init(void) __attribute__((weak));
-void gotoblas_dynamic_quit(void) __attribute__((weak));
-
-extern char **environ;
-
-static const char VARIABLE[] = "OPENBLAS_CORETYPE";
 
 // By the widest instructions that they use.
 typedef enum KernelLevel { LEVEL_SSE, LEVEL_AVX, LEVEL_AVX2, LEVEL_AVX512 } KernelLevel;
@@ -69,25 +59,4 @@ const char *kernels_possible(void)
 {
     KernelLevel level = level_of_processor();
     return level_of(kernels_name()) < level ? best_of[level] : kernels_name();
-}
-
-// OpenBLAS looks into an environment of one variable meanwhile: the process's own is left alone.
-void kernels_follow_processor(void)
-{
-    const char *asked = getenv(VARIABLE), *possible = kernels_possible();
-    if (possible == kernels_name() || !gotoblas_dynamic_init || !gotoblas_dynamic_quit) return;
-    if (asked && strcasecmp(asked, kernels_name()) == 0)
-        return;   // else there are none of that name
-    char choice[64], **kept = environ, *alone[] = {choice, NULL};
-    snprintf(choice, sizeof choice, "%s=%s", VARIABLE, possible);
-    gotoblas_dynamic_quit();
-    environ = alone;
-    gotoblas_dynamic_init();
-    environ = kept;
-}
-
-// OpenBLAS, of which the library has need, is ready by then.
-__attribute__((constructor)) static void begin(void)
-{
-    kernels_follow_processor();
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each thread has counters of its own, so that simulations in several threads count what is theirs;
-// a module counts in those of the library that opened it (memory_use_tally).
+// a module counts in those of the library that opened it (amontons_module_tally).
 // Every array begins at a multiple of 64 bytes, a cache line and the widest vector, and its size is
 // rounded up to whole lines, so that loops over it may be vectorised to its end. An array does
 // not know its length: its owner keeps it.
 #include "base/memory.h"
 
+#include "base/system.h"
+
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 enum { ALIGNMENT = 64, FIRST_ROOM = 16, LARGE_PAGE = 1 << 21 };
 
@@ -44,7 +45,7 @@ static void *aligned(size_t bytes)
     if (bytes < 2 * LARGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
     void *array = NULL;   // posix_memalign: aligned_alloc takes multiples of the alignment only
     if (posix_memalign(&array, LARGE_PAGE, bytes) != 0) return NULL;
-    madvise(array, bytes, MADV_HUGEPAGE);
+    system_use_large_pages(array, bytes);
     return array;
 }
 

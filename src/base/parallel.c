@@ -5,9 +5,9 @@
 
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "base/system.h"
 #include "base/thread.h"
 
-#include <sched.h>
 #include <stdatomic.h>
 
 static _Thread_local int32_t left_to_piece;   // threads; 0: not within a piece
@@ -30,8 +30,7 @@ typedef struct Helper {
 int32_t parallel_workers(void)
 {
     if (left_to_piece > 0) return left_to_piece;
-    cpu_set_t allowed;
-    int32_t count = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
+    int32_t count = system_processors();
     return count < PARALLEL_WORKERS_MAX ? count : PARALLEL_WORKERS_MAX;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The loader knows the path of every shared object but the program's own, which has an empty name.
 #include "base/place.h"
 
-#include <dlfcn.h>
+#include "base/system.h"
+
 #include <libgen.h>
 #include <limits.h>
-#include <link.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -13,13 +12,7 @@ bool place_folder(char *folder, size_t size, Error *err)
 {
     static const char here = 0;   // an address in this object
     char path[PATH_MAX] = {0};
-    Dl_info info;
-    void *map = NULL;
-    bool is_library = dladdr1(&here, &info, &map, RTLD_DL_LINKMAP) != 0 && map &&
-                      ((const struct link_map *)map)->l_name[0];
-    if (is_library)
-        snprintf(path, sizeof path, "%s", ((const struct link_map *)map)->l_name);
-    else if (readlink("/proc/self/exe", path, sizeof path - 1) < 0)
+    if (!system_object_path(&here, path, sizeof path) && !system_program_path(path, sizeof path))
         return FAULT(err, ERROR_LIBRARY, "cannot tell where the program stands (/proc/self/exe)");
     snprintf(folder, size, "%s", dirname(path));
     return true;

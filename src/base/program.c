@@ -5,6 +5,7 @@
 #include "base/program.h"
 
 #include "base/process.h"
+#include "base/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -59,7 +60,7 @@ bool program_run(const char *const *words, char *output, size_t size, int *statu
     int ends[2] = {-1, -1};
     pid_t process = 0;
     *output = 0;
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    if (system_pipe(ends) != 0)
         return FAULT(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
     int cause = spawn(words, ends, &process);
     close(ends[1]);

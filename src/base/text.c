@@ -106,14 +106,14 @@ int32_t text_number(const char *text, double *value)
 static int decimals_to(double place, double value)
 {
     double first = value != 0 ? floor(log10(fabs(value))) : 0;
-    double last = isfinite(place) ? fmin(place, first) : first;
+    double last = isfinite(place) ? fmin(place, first) : first - (value != 0);
     return (int)fmin(fmax(-last, 0), DECIMALS_MAX);
 }
 
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
     bool has_bar = isfinite(bar);
-    double place = has_bar ? floor(log10(bar / ROUNDS_UP)) - 1 : ceil(log10(known_to));
+    double place = has_bar ? floor(log10(bar / ROUNDS_UP)) - 1 : floor(log10(known_to));
     int decimals = decimals_to(place, value);
     if (isnan(value))
         snprintf(text, ESTIMATE_SIZE, "none");
@@ -123,6 +123,16 @@ void text_estimate(double value, double bar, double known_to, char text[ESTIMATE
         snprintf(text, ESTIMATE_SIZE, "%.*f +- %.*f", decimals, value, decimals, bar);
     else
         snprintf(text, ESTIMATE_SIZE, "%.*f", decimals, value);
+}
+
+void text_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
+{
+    double percent = 100 * known_to / fabs(value);
+    if (isfinite(percent))
+        snprintf(text, ESTIMATE_SIZE, "one mesh: known to about %.*g %%", percent < 10 ? 1 : 2,
+                 percent);
+    else
+        snprintf(text, ESTIMATE_SIZE, "one mesh, and how far it is known is not");
 }
 
 // 17 are always enough (IEEE 754 double).

@@ -23,10 +23,13 @@ enum { TEXT_HINT_SIZE = 160 };
 const char *text_hint(const char *given, const char *const *names, int32_t count,
                       const char *otherwise, char hint[TEXT_HINT_SIZE]);
 
-// A value in the digits that are known of it. With an error bar (NaN: none) two digits of that,
-// "0.3296 +- 0.0029"; else those that `known_to` leaves, the last off by 1 at most, "0.33"; six
-// where that is 0, one where it is NaN. "none": the value is NaN.
+// A value in the digits that are known of it, and one more. With an error bar (NaN: none) two
+// digits of that, "0.3296 +- 0.0029"; else down to the first digit of `known_to`, "0.27" where
+// that is 0.013; six digits where it is 0, two where it is NaN. "none": the value is NaN.
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
+
+// What a value without an error bar is known to: "one mesh: known to about 5 %".
+void text_known_to(double value, double known_to, char text[ESTIMATE_SIZE]);
 
 // The fewest digits, `least` at least, that read back as the same finite number.
 enum { NUMBER_TEXT_SIZE = 32 };

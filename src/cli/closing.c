@@ -13,22 +13,24 @@
 
 static const char INDENT[] = "                  ";
 
-// With the error bar that was asked for, or NaN: the digits that a finer mesh leaves as a rule.
-static void print_estimate(const char *name, double value, double bar, double known_to)
+// With the error bar that was asked for, or NaN. Of a run on one mesh alone also what finer meshes
+// change as a rule.
+static void print_estimate(const char *name, double value, double bar, double known_to, bool alone)
 {
-    char text[ESTIMATE_SIZE];
+    char text[ESTIMATE_SIZE], words[ESTIMATE_SIZE];
     amontons_estimate(value, bar, known_to, text);
     say("  %-15s %s", name, text);
+    if (!alone || isnan(value)) return;
+    amontons_known_to(value, known_to, words);
+    say(", %s", words);
 }
 
 static void print_known_to(double known_to)
 {
     if (isnan(known_to))
-        say("%scells are too long for slip: not even this digit is sure on others\n", INDENT);
+        say("%scells are too long for slip: finer ones may change any digit\n", INDENT);
     else
-        say("%sto the digits that finer meshes keep as a rule, the last within 1; --to 1%% gives "
-            "an error bar\n",
-            INDENT);
+        say("%s(what finer meshes change as a rule; --to 1%% gives an error bar)\n", INDENT);
 }
 
 // Of a run without an error bar: what it gave to a digit more than is known, and what its finite
@@ -81,7 +83,7 @@ static void print_mu_M(const RunSummary *summary)
     }
     bool bar = summary->bar_runs > 0, steady = strcmp(summary->mu_M_is, STEADY) == 0;
     print_estimate("mu_M", summary->mu_M, bar ? summary->mu_M_error : (double)NAN,
-                   summary->mu_M_known_to);
+                   summary->mu_M_known_to, !bar);
     if (bar) print_parts(summary->mu_M_error, summary->mu_M_parts);
     if (steady)
         say(": F_T/F_N of %s; the block slides slowly as a whole, no sliding was fast\n", STEADY);
@@ -137,13 +139,13 @@ static void print_mu_hold(const RunSummary *summary)
     }
     bool bar = summary->bar_runs > 0;
     print_estimate("mu_hold", summary->mu_hold, bar ? summary->mu_hold_error : (double)NAN,
-                   summary->mu_hold_known_to);
+                   summary->mu_hold_known_to, !bar);
     if (bar) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
     if (bar && !summary->drops_enough) {   // of the last of its runs, which need not go on so long
         say(": what the contact holds, by the runs behind the error bar\n");
         return;
     }
-    say("%s: what the contact holds, ", summary->drops_enough ? "" : " so far");
+    say("%s: what the contact holds, ", summary->drops_enough ? "" : ", so far");
     if (summary->drops == 1)
         say("the one load ratio at which the load dropped\n");
     else
@@ -202,16 +204,24 @@ static void print_bar(const RunSummary *summary)
     else
         say("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
             slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
+    if (summary->bar_runs == 0) return;   // the first of them was cut short
     say("                  from %d run%s on %d mesh%s of up to %d contact nodes, at pressures "
         "within %g %%\n",
         summary->bar_runs, summary->bar_runs == 1 ? "" : "s", summary->bar_meshes,
         summary->bar_meshes == 1 ? "" : "es", summary->bar_nodes, 100 * summary->bar_window);
+    if (summary->bar_goes_on)
+        say("                  each goes on until its own answer is known: periodic, slidings and "
+            "mu_below of time.until do not end it\n");
 }
 
 static void print_critical_length(const RunSummary *summary)
 {
     if (!isnan(summary->critical_length))
         say("  critical length %.2f of the block's length\n", summary->critical_length);
+    else if (summary->peaks_counted > 0)
+        say("  critical length not known: no slow slip had come from the trailing end when the "
+            "block "
+            "slid\n");
     else if (summary->peaks > 0)
         say("  critical length not known: no sliding of the whole block counts\n");
     else
@@ -225,14 +235,22 @@ static void print_answers(const RunSummary *summary)
     print_mu_steady(summary);
     print_mu_hold(summary);
     if (summary->bar_runs > 0) print_bar(summary);
-    print_estimate("mu_max", summary->mu_max, NAN, summary->mu_max_known_to);
+    print_estimate("mu_max", summary->mu_max, NAN, summary->mu_max_known_to, true);
     say(", the largest load ratio of the run\n");
-    say("  precursors      %d quasi-static, %d bounded rapid\n", summary->quasi_static,
-        summary->bounded);
+    say("  precursors      %d quasi-static, %d bounded rapid (faster than 2.5 V, over 5 %% of the "
+        "contact)\n",
+        summary->quasi_static, summary->bounded);
+    if (summary->slight > 0)
+        say("%sbesides %d rapid event%s too slight to count: slow slip that rings, or single "
+            "nodes\n",
+            INDENT, summary->slight, summary->slight == 1 ? "" : "s");
     say("  slidings        %d of the whole block\n", summary->leading);
+    if (*summary->pads_order)
+        say("  pads let go     %s: before the last of these slidings\n", summary->pads_order);
     print_critical_length(summary);
     print_resolution(summary);
     print_program(summary);
+    if (*summary->mesh_moved) say("  mesh            %s\n", summary->mesh_moved);
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
         summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;

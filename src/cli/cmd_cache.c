@@ -6,6 +6,7 @@
 #include "cli/say.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 enum { SHOWN_MAX = 20 };
@@ -56,7 +57,10 @@ int command_cache(const Command *command, int argc, char **argv)
                       : amontons_cache_list(keep_entry, &shown, &summary, &err);
     if (!done) return report_error(&err);
     if (!*summary.folder) {
-        say("there is no cache: AMONTONS_CACHE is empty\n");
+        say(getenv("AMONTONS_CACHE")
+                ? "there is no cache: AMONTONS_CACHE is empty, or too long a path\n"
+                : "there is no cache: neither AMONTONS_CACHE nor XDG_CACHE_HOME nor HOME names a "
+                  "folder for it\n");
         return 0;
     }
     say("%s: %s%lld files, %.1f MB", summary.folder, clean ? "removed " : "",

@@ -104,6 +104,7 @@ int command_film(const Command *command, int argc, char **argv)
          .word = &film.title},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.dark},
         option_overwrite(&film.overwrite),
+        option_trust(&film.trust),
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},
         {0}};
     int status = options_read(command, options, argc, argv, &result);

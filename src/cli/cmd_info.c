@@ -13,7 +13,7 @@ int command_info(const Command *command, int argc, char **argv)
 {
     const char *file = NULL, *picture = NULL;
     OptionWords settings = {0};
-    bool overwrite = false;
+    bool overwrite = false, trust = false;
     Error err = {0};
     const Option options[] = {
         {"set", 0, "KEY=VALUE",
@@ -23,7 +23,7 @@ int command_info(const Command *command, int argc, char **argv)
         {"picture", 0, "FILE.png",
          "Draw the mesh, and for a scene where the rod is. Also .pdf, .svg", .word = &picture},
         option_overwrite(&overwrite),
-        option_trust(),
+        option_trust(&trust),
         {0}};
     int status = options_read(command, options, argc, argv, &file);
     if (status == 0) status = option_may_write(picture, overwrite);
@@ -31,7 +31,8 @@ int command_info(const Command *command, int argc, char **argv)
     InfoOptions wanted = {.overrides = settings.list,
                           .override_count = settings.count,
                           .picture = picture,
-                          .overwrite = overwrite};
+                          .overwrite = overwrite,
+                          .trust = trust};
     char *said = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&said, &size);

@@ -91,7 +91,7 @@ int command_render(const Command *command, int argc, char **argv)
          "panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
-#define X(name, kind, low, high, allowed, argument, meaning)                                       \
+#define X(name, kind, low, high, figures, allowed, argument, meaning)                              \
     {#name, 0, argument, meaning, .word = &words[PICTURE_##name]},
         PICTURE_OPTIONS(X)
 #undef X
@@ -122,6 +122,12 @@ int command_render(const Command *command, int argc, char **argv)
     if ((figures.count || request.panels) && (is_plot(from) || is_sweep(from)))
         return report_misuse("%s has no meaning for a plot or a sweep",
                              figures.count ? "--figure" : "--panels");
+    const FieldChoice *field = &request.field;
+    if ((field->of || field->at || field->cut || field->edges) && (is_plot(from) || is_sweep(from)))
+        return report_misuse("--%s has no meaning for a plot or a sweep", field->of    ? "of"
+                                                                          : field->at  ? "at"
+                                                                          : field->cut ? "cut"
+                                                                                       : "edges");
     if (figures.count && request.panels) return report_misuse("--figure and --panels: one of them");
     if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
     if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");

@@ -135,22 +135,15 @@ static int run_scene(const Scene *scene, const SceneWords *words, const RunWords
 static int show_forecast(const Scene *scene)
 {
     Error err = {0};
-    RunForecast cost;
-    if (!amontons_forecast(scene, &cost, &err)) return report_error(&err);
-    double total = cost.mesh + cost.reduction + cost.steps;
-    say("%d elements, %d contact nodes, %d unknowns\n", cost.elements, cost.contact_nodes,
-        cost.unknowns);
-    say("about %.2g s of processor time, without pictures and fields:\n", total);
-    say("  %-10s %9.2f s\n", "mesh", cost.mesh);
-    say("  %-10s %9.2f s%s\n", "reduction", cost.reduction,
-        cost.held      ? "   in the cache"
-        : cost.reduced ? ""
-                       : "   none: stepped on the full mesh");
-    say("  %-10s %9.2f s   some %.0f stages, if nothing ends it before time.until\n", "steps",
-        cost.steps, cost.stages);
-    if (cost.memory > 0) say("about %.2g GB of memory\n", cost.memory / 1e9);
-    say("%s it would be about %.2g s\n", cost.reduced ? "On the full mesh" : "Reduced",
-        cost.mesh + cost.otherwise);
+    RunForecast size;
+    if (!amontons_forecast(scene, &size, &err)) return report_error(&err);
+    say("%d elements, %d contact nodes, %d unknowns\n", size.elements, size.contact_nodes,
+        size.unknowns);
+    say("%s\n", !size.reduced ? "not reduced: steps are those of the whole mesh"
+                : size.held   ? "reduced before stepping; the reduction is in the cache"
+                              : "reduced before stepping; the reduction is not in the cache");
+    say("%.2g s of processor time for the mesh\n", size.mesh);
+    if (size.memory > 0) say("about %.2g GB of memory\n", size.memory / 1e9);
     return 0;
 }
 
@@ -170,7 +163,7 @@ int command_run(const Command *command, int argc, char **argv)
         {"resume", 0, NULL, "Go on with the run in DIR that was cut off", .flag = &run.resume},
         {"extend", 0, "END", "Go on with the run in DIR beyond its end, to U=0.02 or t=500",
          .word = &run.extend},
-        {"dry-run", 0, NULL, "Make the mesh, say what the run would cost, and end",
+        {"dry-run", 0, NULL, "Make the mesh, say how large the run would be, and end",
          .flag = &run.dry},
         {"checkpoint", 0, "TIME", "Between two checkpoints (10s)", .word = &run.checkpoint},
         {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",

@@ -22,7 +22,8 @@ static int run_element(const StudyWords *words)
         return report_misuse("--element is for jobs that `amontons sweep --slurm` submits");
     SweepOptions options = {.folder = words->folder,
                             .overrides = words->settings.list,
-                            .override_count = words->settings.count};
+                            .override_count = words->settings.count,
+                            .trust = words->trust};
     bool done = amontons_sweep_element(words->study, &options, (int32_t)element, &err);
     return done ? 0 : report_error(&err);
 }

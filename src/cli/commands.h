@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The commands of the program; main.c calls the one that is given. Each takes the words from
+// The commands of the program; commands.c calls the one that is given. Each takes the words from
 // its own name on and returns the program's exit status: 0 done, 1 failed, 2 wrong input.
 #ifndef AMONTONS_CLI_COMMANDS_H
 #define AMONTONS_CLI_COMMANDS_H
@@ -18,9 +18,9 @@ int command_film(const Command *command, int argc, char **argv);
 int command_info(const Command *command, int argc, char **argv);
 int command_cache(const Command *command, int argc, char **argv);
 
-// Called by libraries (main.c): by OpenBLAS when it is loaded, by those with OpenMP in them.
-int openblas_num_threads_env(void);
-typedef void OpenRegion(void *data);
-void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned flags);
+// What main.c looks for in this module. The exit status.
+int amontons_command(int argc, char **argv);
+// The kernels of OpenBLAS that the processor could run, where those in use are less; else NULL.
+const char *amontons_better_kernels(void);
 
 #endif

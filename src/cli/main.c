@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Finds the command that the first word asks for.
-#include "cli/commands.h"
-#include "cli/options.h"
-#include "cli/say.h"
-#include "cli_help.h"
-
+// The program. Libraries read their variables while they are loaded: so the process is prepared
+// first, and the module with all commands (cli/commands.c), which needs OpenBLAS and OpenMP, is
+// opened then. What a host of the library has is left alone; this is a process of our own.
+#include <dlfcn.h>
 #include <fcntl.h>
-#include <malloc.h>
+#include <libgen.h>
+#include <limits.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,147 +17,20 @@
 // What a start takes, bytes: what the program and HDF5 are mapped into; paths and printf.
 static const rlim_t ROOM_LEAST = (rlim_t)190 << 20, STACK_LEAST = (rlim_t)256 << 10;
 
-// The program's own functions come first where a library looks for one; a library of ours leaves
-// those of a host alone. In place of OpenBLAS's, which asks when it is loaded how many threads to
-// start: none beside this one (algebra/dense).
-int openblas_num_threads_env(void)
-{
-    return 1;
-}
+// Names the process that has set KERNELS and executed itself.
+static const char AGAIN[] = "AMONTONS_AGAIN", KERNELS[] = "OPENBLAS_CORETYPE";
 
-// In place of libgomp's: regions of OpenMP run in the thread that meets them, where loops that are
-// shared out are done whole. CHOLMOD opens three or so in each step of a factor, of one thread each
-// (algebra/sparse_factor), and for each libgomp calls the kernel twice: at 160 x 160 cells a third
-// of a factor's time.
-void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned flags)
-{
-    (void)threads, (void)flags;
-    region(data);
-}
+// Read while libraries are loaded, then as they were before: a job that a sweep submits shall not
+// inherit them. OpenBLAS would start a thread for each processor, which the small matrices here do
+// not need; libgomp complains of what it does not understand.
+static const char *const ONE_THREAD[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"};
+enum { VARIABLES = sizeof ONE_THREAD / sizeof ONE_THREAD[0] };
 
-// In the order in which `--help` lists them.
-static const Command commands[] = {
-    {"run", command_run, "SCENE", "simulates a scene and writes a result folder", "scene",
-     "amontons run validation/paper/fig1.yaml", run_txt, NULL},
-    {"static", command_static, "SCENE", "finds the equilibrium under a given load", "scene",
-     "amontons static validation/freefem/friction.yaml", static_txt, NULL},
-    {"stability", command_stability, "SCENE", "finds where slow slip loses stability: l_c, mu_M",
-     "scene", "amontons stability validation/paper/fig1.yaml", stability_txt, NULL},
-    {"model1d", command_model1d, "SCENE",
-     "computes the 1D model of the paper: theory and simulation", "scene",
-     "amontons model1d validation/paper/fig1.yaml", model1d_txt, NULL},
-    {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table",
-     "study", "amontons sweep validation/paper/fig2a.yaml", sweep_txt, NULL},
-    {"optimise", command_search, "STUDY", "searches the best design of a study", "study",
-     "amontons optimise docs/examples/best_pads.yaml", optimise_txt, NULL},
-    {"fit", command_search, "STUDY", "finds the numbers of a scene that measurements speak for",
-     "study", "amontons fit docs/examples/viscosity.yaml", fit_txt, NULL},
-    {"render", command_render, "RESULT\nSWEEP\nPLOT.yaml",
-     "draws the pictures of a stored result again", "result folder", "amontons render fig1-result",
-     render_txt, NULL},
-    {"report", command_report, "RESULT...", "writes a page about a run, a sweep or several runs",
-     "result folder", "amontons report fig1-result", report_txt, NULL},
-    {"film", command_film, "RESULT", "films a stored result: block, slip, force", "result folder",
-     "amontons film fig1-result -o fig1.mp4", film_txt, NULL},
-    {"info", command_info, "FILE\nkeys", "prints what a mesh, a scene or a result holds", "file",
-     "amontons info validation/paper/fig1.yaml", info_txt, NULL},
-    {"cache", command_cache, NULL, "says how large the cache is, or cleans it", NULL, NULL,
-     cache_txt, NULL},
-};
-
-enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
-
-// Bytes of the first of several forms; also of "RESULT...".
-static int first_form(const char *argument)
-{
-    return argument ? (int)strcspn(argument, "\n.") : 0;
-}
-
-// The exit status: 0, as help was asked for.
-static int print_help(void)
-{
-    say("usage: amontons COMMAND [OPTION ...] [ARGUMENT ...]\n"
-        "\n"
-        "When and how an elastic block pushed by a rod starts to slide.\n"
-        "\n");
-    for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        say("  %-10s %-8.*s %s\n", commands[k].name, first_form(commands[k].argument),
-            commands[k].argument ? commands[k].argument : "", commands[k].sentence);
-    say("\n"
-        "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
-        "  amontons info keys        every key that a scene may have\n"
-        "  amontons --version        the version, and where meshes and example scenes lie\n"
-        "\n"
-        "A first simulation, in the folder that --version names, with a coarse mesh so that it "
-        "ends soon:\n"
-        "\n"
-        "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=20 --set mesh.set.nz=20 "
-        "-o ~/first\n"
-        "\n"
-        "Exit status: 0 done, 1 the computation failed, 2 the input is wrong.\n");
-    return 0;
-}
-
-// The exit status.
-static int print_version(void)
-{
-    const char *revision = amontons_revision();
-    char folder[AMONTONS_PATH_SIZE];
-    say("amontons %s%s%s%s\n", amontons_version(), *revision ? " (" : "", revision,
-        *revision ? ")" : "");
-    say("built with %s\n", amontons_libraries());
-    const char *possible, *kernels = amontons_kernels(&possible);
-    say("computes with OpenBLAS's %s kernels", kernels);
-    if (possible) say(", as OPENBLAS_CORETYPE asks; this processor could run %s", possible);
-    say("\n");
-    if (amontons_data_folder(folder)) say("meshes and example scenes: %s\n", folder);
-    return 0;
-}
-
-// NULL: no command has that name.
-static const Command *find_command(const char *name)
-{
-    for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        if (strcmp(commands[k].name, name) == 0) return &commands[k];
-    return NULL;
-}
-
-// With the name that was probably meant. The exit status.
-static int report_unknown(const char *name)
-{
-    const char *names[COMMAND_COUNT];
-    for (int32_t k = 0; k < COMMAND_COUNT; k++) names[k] = commands[k].name;
-    int32_t nearest = amontons_nearest_name(name, names, COMMAND_COUNT);
-    if (nearest >= 0)
-        return report_misuse("unknown command `%s`; did you mean `%s`? (`amontons --help` lists "
-                             "the commands)",
-                             name, names[nearest]);
-    return report_misuse("unknown command `%s` (`amontons --help` lists the commands)", name);
-}
-
-// `amontons help COMMAND` is `amontons COMMAND --help`.
-static int help_on(const char *name)
-{
-    const Command *command = find_command(name);
-    if (!command) return report_unknown(name);
-    char word[] = "--help";
-    char *words[] = {(char *)name, word, NULL};
-    return command->run(command, 2, words);
-}
-
-// The first word decides; everything behind it is the command's own to read. The exit status.
-static int run_command(int argc, char **argv)
-{
-    const char *word = argc > 1 ? argv[1] : NULL;
-    if (!word) return report_misuse("no command is given; `amontons --help` lists the commands");
-    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) return print_version();
-    bool wants_help = strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 ||
-                      strcmp(word, "-h") == 0 || strcmp(word, "-?") == 0;
-    if (wants_help) return argc > 2 ? help_on(argv[2]) : print_help();
-    const Command *command = find_command(word);
-    if (!command) return report_unknown(word);
-    return command->run(command, argc - 1, argv + 1);
-}
+typedef void AnyFunction(void);
+typedef struct Commands {
+    int (*run)(int argc, char **argv);
+    const char *(*better_kernels)(void);
+} Commands;
 
 // A process may be started with standard streams closed; the first files that it opens would then
 // be taken for them, and progress lines written into a result.
@@ -167,58 +40,132 @@ static void occupy_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
-// Ends the program.
-static void refuse_to_start(const char *words, int length)
-{
-    ssize_t written = write(STDERR_FILENO, words, (size_t)length);
-    (void)written;
-    _exit(1);
-}
-
-static void meet_limit(int resource, rlim_t least, const char *what)
+// With less room than the libraries take (ulimit -v) OpenBLAS would end the program with its own
+// words.
+static bool meets_limit(int resource, rlim_t least, const char *what)
 {
     struct rlimit limit;
-    char words[160];
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur >= least) return;
-    int length = snprintf(words, sizeof words,
-                          "amontons: error: only %lu kB of %s); to start takes %lu kB\n",
-                          (unsigned long)limit.rlim_cur >> 10, what, (unsigned long)least >> 10);
-    refuse_to_start(words, length);
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur >= least) return true;
+    fprintf(stderr, "amontons: error: only %lu kB of %s); to start takes %lu kB\n",
+            (unsigned long)limit.rlim_cur >> 10, what, (unsigned long)least >> 10);
+    return false;
 }
 
-// A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
-// With less room than the libraries take (ulimit -v) OpenBLAS ends the program with its own words
-// before main: this runs before it begins.
-static void meet_limits(void)
+// With fewer gmsh and others find nothing in a file that they cannot open, and blame that.
+static bool meets_open_files(void)
 {
-    signal(SIGXFSZ, SIG_IGN);
-    meet_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v");
-    meet_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s");
+    enum { OPEN_LEAST = 16 };
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= OPEN_LEAST) return true;
+    fprintf(stderr, "amontons: error: only %lu files may be open (ulimit -n); it takes %d\n",
+            (unsigned long)limit.rlim_cur, (int)OPEN_LEAST);
+    return false;
 }
 
-__attribute__((section(".preinit_array"), used)) static void (*const first)(void) = meet_limits;
-
-// What a reduction gives back it asks for again at its next point: the kernel would clear each page
-// anew, a tenth of the time at 800 contact nodes. model/obtain gives back what is left at the end.
-static void keep_memory(void)
+// The folder of the program's file.
+static bool find_folder(char folder[PATH_MAX])
 {
-    mallopt(M_ARENA_MAX, 1);
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, -1);
+    char path[PATH_MAX] = {0};
+    if (readlink("/proc/self/exe", path, sizeof path - 1) < 0) return false;
+    snprintf(folder, PATH_MAX, "%s", dirname(path));
+    return true;
 }
 
-// A full disk or a closed pipe may show only when the last output is written: a command whose
-// answer is lost has failed.
+// In the build tree the module stands beside the program, else in the folder of the modules.
+static void *open_module(void)
+{
+    static const char *const places[] = {"", AMONTONS_MODULES_FROM_PROGRAM "/"};
+    char folder[PATH_MAX], path[2 * PATH_MAX];
+    void *module = NULL;
+    if (!find_folder(folder)) {
+        fprintf(stderr, "amontons: error: cannot tell where the program is (/proc/self/exe)\n");
+        return NULL;
+    }
+    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+        snprintf(path, sizeof path, "%s/%samontons_commands.so", folder, places[k]);
+        if (access(path, F_OK) == 0) break;
+    }
+    module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!module) fprintf(stderr, "amontons: error: %s\n", dlerror());
+    return module;
+}
+
+// POSIX: what dlsym gives may be a function.
+static AnyFunction *find_function(void *module, const char *name)
+{
+    AnyFunction *function = NULL;
+    void *address = dlsym(module, name);
+    if (!address) fprintf(stderr, "amontons: error: %s\n", dlerror());
+    memcpy(&function, &address, sizeof function);
+    return function;
+}
+
+// Opens the module and its libraries in an environment that tells them to start no threads.
+static bool load_commands(Commands *commands)
+{
+    char *before[VARIABLES];
+    for (int k = 0; k < VARIABLES; k++) {
+        const char *value = getenv(ONE_THREAD[k]);
+        before[k] = value ? strdup(value) : NULL;
+        setenv(ONE_THREAD[k], "1", 1);
+    }
+    void *module = open_module();
+    for (int k = 0; k < VARIABLES; k++) {
+        if (before[k])
+            setenv(ONE_THREAD[k], before[k], 1);
+        else
+            unsetenv(ONE_THREAD[k]);
+        free(before[k]);
+    }
+    if (!module) return false;
+    commands->run = (int (*)(int, char **))find_function(module, "amontons_command");
+    commands->better_kernels =
+        (const char *(*)(void))find_function(module, "amontons_better_kernels");
+    return commands->run && commands->better_kernels;
+}
+
+// Whether this process has executed itself; what it has set for that goes.
+static bool was_executed_again(void)
+{
+    const char *by = getenv(AGAIN);
+    bool again = by && atol(by) == (long)getpid();
+    unsetenv(AGAIN);
+    return again;
+}
+
+// OpenBLAS chooses its kernels while it is loaded, by family and model of the processor: 0.3.21
+// takes those for SSE3, a fifth as fast, where it does not know these. Then the program sets the
+// variable that chooses and executes itself, once. Where that fails it goes on as it is.
+static void take_better_kernels(const Commands *commands, char **argv)
+{
+    const char *better = getenv(KERNELS) ? NULL : commands->better_kernels();
+    char path[PATH_MAX] = {0}, number[32];
+    if (!better || readlink("/proc/self/exe", path, sizeof path - 1) < 0) return;
+    snprintf(number, sizeof number, "%ld", (long)getpid());
+    setenv(AGAIN, number, 1);
+    setenv(KERNELS, better, 1);
+    execv(path, argv);
+    unsetenv(AGAIN);
+    unsetenv(KERNELS);
+}
+
 int main(int argc, char **argv)
 {
-    keep_memory();
+    Commands commands;
+    bool again = was_executed_again();
     occupy_standard_streams();
+    signal(SIGXFSZ, SIG_IGN);   // a file that reaches its limit (ulimit -f) is an error with words
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it
-    setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
+    if (!meets_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v") ||
+        !meets_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s") ||
+        !meets_open_files() || !load_commands(&commands))
+        return 1;
+    if (again)
+        unsetenv(KERNELS);   // read by now; whoever chose it before would have kept us from it
+    else
+        take_better_kernels(&commands, argv);
+    setenv("AMONTONS_APART", "yes",
+           0);   // base/child_process; empty: in this process, for a debugger
     setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none
-    int status = run_command(argc, argv);
-    bool written = fflush(stdout) == 0 && !ferror(stdout);
-    if (written || status != 0) return status;
-    tell("amontons: error: cannot write to standard output\n");
-    return 1;
+    return commands.run(argc, argv);
 }

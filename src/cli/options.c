@@ -68,7 +68,6 @@ static error_t take_word(int key, char *word, struct argp_state *state)
         const Option *option = &reading->options[k];
         if (option_key(reading->options, k) != key) continue;
         if (option->flag) *option->flag = true;
-        if (option->variable) setenv(option->variable, "yes", 1);
         if (option->word) *option->word = word ? word : "";
         if (option->words) add_word(option->words, word);
         return 0;
@@ -96,6 +95,26 @@ static int check_words(const Command *command, const Reading *reading)
     return 0;
 }
 
+static pid_t program;   // 0: the program may end
+
+// Nothing of ours calls exit: a plug-in or a library does, and its status would be taken for ours.
+static void meet_strange_end(void)
+{
+    if (!program) return;
+    if (getpid() == program) {   // else the process that waits for this one says so
+        amontons_let_go();
+        tell("amontons: error: a plug-in or library ended the program in the middle of its work "
+             "(it called exit)\n");
+    }
+    _exit(1);
+}
+
+void guard_end(bool guarded)
+{
+    if (guarded && !program) atexit(meet_strange_end);
+    program = guarded ? getpid() : 0;
+}
+
 // argp leaves the program by itself where an option is unknown, with the status set here.
 int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument)
@@ -118,6 +137,7 @@ int options_read(const Command *command, const Option *options, int argc, char *
     argv[0] = name;
     argp_parse(&argp, argc, argv, 0, NULL, &reading);
     *argument = reading.argument;
+    guard_end(true);   // argp itself may end the program until here
     return check_words(command, &reading);
 }
 
@@ -157,12 +177,12 @@ int option_may_write(const char *named, bool overwrite)
     return report_misuse("%s is there already: name another file, or say --overwrite", named);
 }
 
-Option option_trust(void)
+Option option_trust(bool *trust)
 {
     return (Option){
         "trust", 0, NULL,
         "Also use a .geo that runs commands or writes files, and a friction law that is a plug-in",
-        .variable = "AMONTONS_TRUST"};
+        .flag = trust};
 }
 
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the

@@ -24,7 +24,6 @@ typedef struct Option {
     bool *flag;
     const char **word;   // the last one given
     OptionWords *words;   // all of them, also `--set a=1 b=2`
-    const char *variable;   // of the environment, which is then "yes"
 } Option;
 
 typedef struct Command Command;
@@ -44,6 +43,9 @@ struct Command {
 int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument);
 
+// From here on, until false, an exit that is not ours ends the program with an error.
+void guard_end(bool guarded);
+
 // The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give
 // "fig1-result".
 void default_folder(const char *file, const char *ending, char *folder, size_t size);
@@ -56,9 +58,8 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 Option option_overwrite(bool *overwrite);
 int option_may_write(const char *named, bool overwrite);
 
-// `--trust`, of every command that reads meshes, for this process and those that it starts: a .geo
-// may run commands.
-Option option_trust(void);
+// `--trust`, of every command that reads meshes: a .geo may run commands.
+Option option_trust(bool *trust);
 
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);

@@ -12,7 +12,7 @@ int scene_words_read(const Command *command, const Option *own, int argc, char *
          .words = &words->settings},
         {"overwrite", 0, NULL, "Replace an earlier result in DIR", .flag = &words->overwrite},
         {"quiet", 'q', NULL, "Print nothing but warnings and errors", .flag = &words->quiet},
-        option_trust()};
+        option_trust(&words->trust)};
     for (int32_t k = 0; k < OWN_MAX && own[k].name; k++) options[COMMON_COUNT + k] = own[k];
     int status = options_read(command, options, argc, argv, &words->scene);
     if (status == 0 && words->folder && !*words->folder)
@@ -25,7 +25,8 @@ int scene_words_open(const SceneWords *words, Scene **scene)
 {
     Error err = {0};
     *scene = NULL;
-    if (amontons_scene_read(words->scene, words->settings.list, words->settings.count, scene, &err))
-        return 0;
+    bool (*read)(const char *, const char *const *, int32_t, Scene **, Error *) =
+        words->trust ? amontons_scene_read_trusted : amontons_scene_read;
+    if (read(words->scene, words->settings.list, words->settings.count, scene, &err)) return 0;
     return report_error(&err);
 }

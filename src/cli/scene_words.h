@@ -10,7 +10,7 @@ typedef struct SceneWords {
     const char *scene;
     const char *folder;   // of -o; NULL: not given
     OptionWords settings;   // "load.pressure=0.006"
-    bool overwrite, quiet;
+    bool overwrite, quiet, trust;
 } SceneWords;
 
 // Reads them, and the command's own options (a table that ends with {0}). The exit status, 0 or 2.

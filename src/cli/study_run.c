@@ -29,7 +29,7 @@ int study_words_read(const Command *command, const char *ending, bool has_elemen
         {"retry", 0, NULL, "Compute points again that failed before", .flag = &words->retry},
         {"fresh", 0, NULL, "Compute all points again", .flag = &words->fresh},
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &words->quiet},
-        option_trust(),
+        option_trust(&words->trust),
         {has_elements ? "element" : NULL, 0, NULL, NULL, .flag = &words->is_element},
         {0}};
     return options_read(command, options, argc, argv, &words->study);
@@ -70,6 +70,7 @@ int study_run_begin(const StudyWords *words, const char *ending, StudyRun *run)
                                   .slurm = words->slurm,
                                   .retry = words->retry,
                                   .fresh = words->fresh,
+                                  .trust = words->trust,
                                   .on_point = tell_point,
                                   .context = run}};
     if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
@@ -93,7 +94,8 @@ int study_run_status(StudyRun *run, bool done, const Error *err)
 {
     if (done && run->failures > 0) {
         fflush(stdout);
-        tell("amontons: points failed, the first of them:\n  %s\n", run->failed[0]);
+        tell("amontons: points failed (--retry computes them again), the first of them:\n  %s\n",
+             run->failed[0]);
     }
     free(run->answer);
     if (!done) return report_error(err);

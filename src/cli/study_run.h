@@ -12,7 +12,7 @@ enum { FAILURES_SHOWN = 10 };
 typedef struct StudyWords {
     const char *study, *folder, *jobs, *slurm;
     OptionWords settings;
-    bool has_slurm, is_element, retry, fresh, quiet;
+    bool has_slurm, is_element, retry, fresh, quiet, trust;
 } StudyWords;
 
 typedef struct StudyRun {

@@ -119,7 +119,7 @@ static bool judge_all(Settling *settling)
 
 // --- equations ----------------------------------------------------------------------------------
 
-// What the equations of node i are off: along d, and across it by (1 - theta).
+// Residual of the equations of node i: along d, and across it by (1 - theta).
 static void node_residual(const Settling *settling, int32_t i, double off[2])
 {
     const Interface *interface = settling->problem->interface;
@@ -209,7 +209,8 @@ static bool factor(Settling *settling)
     return regular;
 }
 
-// What forces at open nodes, taken away, do to these rows, off newton->step.
+// Subtracts from newton->step the velocity change of these rows when the forces at open nodes are
+// removed.
 static void add_pull(const Settling *settling)
 {
     ContactNewton *newton = settling->newton;
@@ -336,7 +337,7 @@ static void start_rows(Settling *settling)
     }
 }
 
-// What touches nothing has no force, not even by rounding.
+// An open node has no force, not even by rounding.
 static void release_open(const Settling *settling)
 {
     const Interface *interface = settling->problem->interface;

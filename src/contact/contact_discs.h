@@ -45,9 +45,10 @@ void contact_discs_destroy(ContactDiscs *discs);
 bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactProblem *problem,
                          ContactSolution *solution);
 
-// What small changes of g and of the bounds do to the solution just found: `problem` has the
-// changes, and it may have another matrix of as many unknowns; `solution` the statuses, which stay.
-// To first order, by `newton`, in which nothing is kept. false: the derivative is singular.
+// First-order change of the solution just found under small changes of g and of the bounds:
+// `problem` has the changes, and it may have another matrix of as many unknowns; `solution` the
+// statuses, which stay. To first order, by `newton`, in which nothing is kept. false: the
+// derivative is singular.
 bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
                           ContactSolution *solution);
 

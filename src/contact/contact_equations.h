@@ -18,8 +18,8 @@
 
 #include "contact/contact_problem.h"
 
-// What the equation of a free unknown has beside r_k: `mu` times r_n and a spring. Both 0 where it
-// neither slips nor is soft; then `normal` is the unknown itself.
+// The terms beside r_k in the equation of a free unknown: `mu` times r_n and a spring. Both are 0
+// where it neither slips nor is soft; then `normal` is the unknown itself.
 typedef struct ContactRow {
     int32_t normal;
     double mu;   // s mu(|v_t|), 1
@@ -35,7 +35,7 @@ typedef struct ContactEquations {
     ContactRow *row;   // [count] work: of what is free, as contact_find_rows left them
 } ContactEquations;
 
-// What makes forces and velocities comparable; neither is 0.
+// Scales that make forces and velocities comparable; neither is 0.
 typedef struct ContactScales {
     double force;   // the largest of g, and of `reaction` [count] unless that is NULL
     double velocity;   // that over the largest diagonal entry of S
@@ -56,7 +56,7 @@ static inline int32_t contact_slipping_node(const ContactEquations *equations, i
 void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
 bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
 
-// What is not held, ascending, but for open nodes.
+// Lists the free unknowns, ascending, without those of open nodes.
 void contact_list_free(ContactEquations *equations);
 
 // Puts what is held in its place; what is free keeps its velocity.

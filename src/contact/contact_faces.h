@@ -20,7 +20,7 @@ bool contact_faces_build(const Mesh *mesh, const MeshContact *contact, ContactFa
                          Error *err);
 void contact_faces_destroy(ContactFaces *faces);
 
-// Of face f: how many points, which are the first of its row.
+// Number of points of face f; they are the first of its row.
 int32_t contact_face_points(const ContactFaces *faces, int32_t f);
 
 #endif

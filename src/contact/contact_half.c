@@ -25,7 +25,7 @@ typedef struct Places {
     double sum, apart;   // second of a node and of its image together
 } Places;
 
-// Of those that follow or precede k closely; -1: there is none.
+// The image of k, looked for among its neighbours in the order; -1: there is none.
 static int32_t image_of(const Places *places, int32_t k)
 {
     for (int32_t way = -1; way <= 1; way += 2)

@@ -35,7 +35,7 @@ void contact_half_destroy(ContactHalf *half);
 // image.
 bool contact_half_matrix(const ContactHalf *half, const double *schur, bool odd, double *out);
 
-// What is even or odd of both sides, on one: motions, and forces.
+// The symmetric or antisymmetric part of both sides, on one: of motions, and of forces.
 void contact_half_fold(const ContactHalf *half, bool odd, const double *motion, double *out);
 void contact_half_fold_forces(const ContactHalf *half, bool odd, const double *force, double *out);
 // Added to what both sides have.

@@ -40,8 +40,8 @@ void contact_matrix_destroy(ContactMatrix *matrix);
 const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
                                    int32_t contact_count, int32_t dim);
 
-// What of it a state consists of. last: the solver's last factorisation, the one that it keeps. S
-// is the same already.
+// Writes or reads its part of a saved state. last: the solver's last factorisation, the one that it
+// keeps. S is the same already.
 void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archive);
 
 #endif

@@ -108,8 +108,8 @@ bool contact_newton_list(ContactNewton *newton)
     return true;
 }
 
-// What is kept is of this matrix. Of the last factorisation only: what was left at another step
-// size is too old to gain a digit a step (on Figure 1 it cost 2 % of Newton's steps more).
+// True if the stored factors are those of this matrix's latest factorisation. Factors of another
+// step size would converge too slowly.
 static bool factors_are_of(const ContactNewton *newton)
 {
     int64_t factored = newton->equations.problem->matrix->factored;

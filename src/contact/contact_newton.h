@@ -72,7 +72,7 @@ bool contact_newton_step(ContactNewton *newton);
 // open nodes, force/width; infinite where a number is not finite.
 double contact_newton_residual(ContactNewton *newton);
 
-// What outlives a solve. count: interface unknowns.
+// Writes or reads all that outlives a solve. count: interface unknowns.
 void contact_newton_archive(ContactNewton *newton, int32_t count, Archive *archive);
 
 #endif

@@ -41,7 +41,8 @@ typedef struct ContactSolution {
     uint8_t *rod_touches;   // [rod_count] 1: pressed, or bonded
 } ContactSolution;
 
-// Of rod node j, force/width per velocity: r_x = stiffness (bound_x - v_x); 0: it is rigid.
+// Stiffness of the rod at node j, force/width per velocity: r_x = stiffness (bound_x - v_x); 0: it
+// is rigid.
 static inline double rod_stiffness(const ContactProblem *problem, int32_t j)
 {
     bool soft = problem->rod_softness && problem->rod_softness[j] > 0;

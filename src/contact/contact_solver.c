@@ -25,7 +25,7 @@ enum {
     // what a solvable problem was seen to need
     ITERATIONS_ONE = 40,   // and then those that change only the worst
 };
-// Of residual forces, relative to the largest force: some 1e2 above what rounding leaves in
+// Tolerance of residual forces, relative to the largest force: some 1e2 above the rounding of
 // S v - g.
 static const double TOLERANCE = 1e-12;
 
@@ -110,9 +110,9 @@ static void fix_rod_kind(const ContactProblem *problem, const ContactSolution *s
     for (int32_t j = 0; j < problem->interface->rod_count; j++) solution->rod_touches[j] = bonded;
 }
 
-// What is left to the tolerance becomes exact. A node may slip against its status by the tolerance,
-// which beside a rod slow enough is more than rounding: it rests, and friction is what holds it.
-// What touches nothing has no force, not even rounding.
+// Makes exact what was solved to the tolerance. A node may slip against its status by the
+// tolerance, which beside a rod slow enough is more than rounding: it rests, and friction is what
+// holds it. What touches nothing has no force, not even rounding.
 static void clean_solution(const Solve *solve)
 {
     const Interface *interface = interface_of(solve);
@@ -196,7 +196,7 @@ static bool starts_fast(Solve *solve)
     return true;
 }
 
-// What a Newton step comes to.
+// Outcome of a Newton step.
 typedef enum Progress { GOES_ON, SOLVED, GIVEN_UP } Progress;
 
 // Statuses are changed after the first solve for them, not where steps are those of a chord: there
@@ -271,7 +271,7 @@ static bool solve_discs(ContactSolver *solver, const ContactProblem *problem,
     return solved;
 }
 
-// What sweeps come to, from rest in each round, is handed to Newton once more, which brings the
+// The result of sweeps, from rest in each round, is handed to Newton once more, which brings the
 // last digits and has the last word on whether it is solved.
 static bool solve_plane(ContactSolver *solver, const ContactProblem *problem,
                         ContactSolution *solution)

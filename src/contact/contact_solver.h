@@ -34,7 +34,7 @@ typedef struct ContactSolver {
 bool contact_solver_create(const Interface *interface, ContactSolver *solver, Error *err);
 void contact_solver_destroy(ContactSolver *solver);
 
-// What another one has counted counts here, no longer there.
+// Moves the counts of another solver into this one.
 void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from);
 
 // Solves from the statuses in `solution` (warm start). false: unsolved; `solution` then holds no

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a contact node does: it is open, sticks, or slips one way or the other along the drive. In
+// Status of a contact node: it is open, sticks, or slips one way or the other along the drive. In
 // space its velocity says where to exactly (contact/slip), and these two which way it gets on.
 #ifndef AMONTONS_CONTACT_CONTACT_STATUS_H
 #define AMONTONS_CONTACT_CONTACT_STATUS_H

@@ -258,7 +258,7 @@ static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
-// Of node k: its extent along the end that it is at, the upper and lower ones unless it is at none.
+// Extent of node k along the end that it is at, the upper and lower ones unless it is at none.
 static double end_length(const Face *face, int32_t k, bool at_side)
 {
     double height = face->to[0][k] - face->from[0][k];
@@ -314,6 +314,12 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
         if (fabs(z - def->rod_height) < fabs(nearest - def->rod_height)) nearest = z;
         add_rod_node(mesh, def, &face, k, interface);
     }
+    if (interface->rod_count == 0 && isinf(nearest))
+        FAIL(err, ERROR_INPUT,
+             "%s: the rod has nothing to push: all nodes of group \"%s\" are nodes of the contact "
+             "as "
+             "well, which the floor holds; give the rod a face of its own (groups.rod)",
+             mesh->path, def->rod_name);
     if (interface->rod_count == 0)
         FAIL(err, ERROR_INPUT,
              "%s: no node of group \"%s\" lies in the rod's strip %g <= z <= %g; the nearest is at "

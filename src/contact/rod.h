@@ -51,7 +51,8 @@ typedef struct Rod {
 bool rod_build(const Interface *interface, RodKind kind, double velocity, Rod *rod, Error *err);
 void rod_destroy(Rod *rod);
 
-// What an end of the strip lies on: E* of its elastic and of its viscous stiffness, stress, * time.
+// The material under an end of the strip: E* of its elastic and of its viscous stiffness, stress, *
+// time.
 typedef struct RodGround {
     double modulus, viscosity;
 } RodGround;

@@ -80,7 +80,7 @@ static double arrival_in(const RodCourse *course, const Stretch *stretch, double
     } else {
         double square = v * v + 2 * slope * way;
         if (square < 0) return INFINITY;
-        // Of -v +- sqrt over the slope, without cancellation: the first that is not negative.
+        // The first root (-v +- sqrt)/slope that is not negative, without cancellation.
         double sum = v + sqrt(square);
         found = sum > 0 ? 2 * way / sum : INFINITY;
     }

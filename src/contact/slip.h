@@ -15,7 +15,7 @@ static inline int32_t slip_tangents(const Interface *interface)
     return interface->dim - 1;
 }
 
-// Of the tangential part of x [interface->count] at node i: how large it is, ...
+// Size of the tangential part of x [interface->count] at node i, ...
 static inline double slip_size(const Interface *interface, int32_t i, const double *x)
 {
     const double *tangent = x + interface_tangent(interface, i);

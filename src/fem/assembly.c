@@ -75,7 +75,7 @@ static void empty_row(int32_t dof, Bulk *bulk)
     }
 }
 
-// Of a checked mesh (fem/mesh_build) every determinant is positive: no element can fail here.
+// In a checked mesh (fem/mesh_build) every determinant is positive: no element can fail here.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
 {
     ElementGroup group;

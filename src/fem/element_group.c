@@ -174,7 +174,8 @@ void element_group_of(const Mesh *mesh, int32_t e, ElementGroup *group)
     element_group_at(mesh, first, group);
 }
 
-// Of one element, from its first node, so that equal shapes have equal matrices.
+// Offsets of the nodes of one element from its first node, so that equal shapes have equal
+// matrices.
 static void find_offsets(const Mesh *mesh, int32_t e, MeshPlace offset[ELEMENT_NODES_MAX])
 {
     int32_t first = mesh->first_node[e];

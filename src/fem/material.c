@@ -73,6 +73,16 @@ WaveSpeeds material_speeds(const Material *material)
     return speeds;
 }
 
+// A plane wave in a Kelvin-Voigt solid, rho u'' = M k^2 u + N k^2 u': N k / (2 sqrt(rho M)).
+double material_wave_damping(const Material *material, double length)
+{
+    const double pi = 3.14159265358979323846;
+    Moduli elastic = material_elastic(material), viscous = material_viscous(material);
+    double axial = moduli_axial(viscous) / sqrt(moduli_axial(elastic) * material->density);
+    double shear = moduli_shear(viscous) / sqrt(moduli_shear(elastic) * material->density);
+    return fmin(axial, shear) * pi / (2 * length);
+}
+
 double material_gradient(const Material *material, double pressure, double shear)
 {
     Moduli elastic = material_elastic(material);

@@ -56,7 +56,7 @@ static const int32_t SHEAR_AXES[3][2] = {{0, 1}, {1, 2}, {0, 2}};
 // entries beyond are 0.
 void moduli_matrix(Moduli moduli, int32_t dim, double d[STRAINS_MAX][STRAINS_MAX]);
 
-// Of a strain in the plane sigma_yy, which von Mises needs, with its viscous part: 0 in plane
+// sigma_yy of a strain in the plane, with its viscous part, for the stress of von Mises: 0 in plane
 // stress.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3]);
@@ -66,6 +66,10 @@ typedef struct WaveSpeeds {
 } WaveSpeeds;
 // Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
+
+// Damping over critical damping of the least damped wave of `length` (half a wave long): above 1 no
+// wave of this length or shorter runs, as damping grows with the wave number.
+double material_wave_damping(const Material *material, double length);
 
 // The norm of the displacement gradient under a pressure across it and a shear stress along it:
 // (tau/G, p/E'), E' that of uniaxial stress in the plane.
@@ -81,7 +85,7 @@ bool material_resists_area(const Material *material);
 
 enum { MATERIALS_MAX = 17 };
 
-// What a block is made of: one material, or one in each region of its mesh (Mesh.region).
+// The materials of a block: one, or one in each region of its mesh (Mesh.region).
 typedef struct Materials {
     int32_t count;
     Material list[MATERIALS_MAX];   // [count] by number of the region
@@ -106,7 +110,7 @@ double materials_viscous_time(const Materials *materials);
 typedef struct ViscousTimes {
     double volume, shear;
 } ViscousTimes;
-// Of all regions together the shortest and the longest of these times; of one material its own, in
+// The shortest and the longest of these times in all regions together; of one material its own, in
 // that order.
 ViscousTimes materials_viscous_range(const Materials *materials);
 

@@ -12,12 +12,20 @@
 
 enum { MESH_PATH_SIZE = 1024 };
 
+// From the coordinates of the file to those of the mesh: times `scale`, plus `shift`.
+typedef struct MeshMove {
+    double scale;
+    MeshPlace shift;   // length
+    bool onto_floor;   // along z so that the lowest contact node is at z = 0
+} MeshMove;
+
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
 // nodes and quadrature points; every node on an element; no node twice in one element; no face on
-// more than two elements; every face of a boundary group is a face of an element, listed once; all
-// elements in one part.
+// more than two elements, on one only where nothing lies behind it; every face of a boundary group
+// is a face of an element, listed once; all elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
+    char warning[MESH_WARNING_SIZE];   // MeshFile.warning
     int32_t dim;   // numbers of a place, and displacements of a node
     int32_t node_count;
     double *position;   // [node_count * dim] from x to z, length; owned
@@ -36,9 +44,10 @@ typedef struct Mesh {
     int32_t group_count;
     MeshGroup *groups;   // [group_count]; nodes by ascending x, ..., z; owned
     double x_min, x_max, y_min, y_max, z_min, z_max;   // extent, length; y: 0 in the plane
+    MeshMove move;
 } Mesh;
 
-// Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
+// In an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
 // from there to the node, and to d.
 static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
 {
@@ -66,6 +75,9 @@ static inline double mesh_height(const Mesh *mesh, int32_t node)
 // Where nodes [count] are: place [count]; offsets: from the first of them.
 void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place);
 void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset);
+
+// Sets the block's extent. A node on no element would change it, but is an error.
+void mesh_find_extent(Mesh *mesh);
 
 // "(0.5, 0)": a place in a message.
 enum { PLACE_TEXT_SIZE = 64 };
@@ -109,11 +121,11 @@ typedef struct MeshContact {
 } MeshContact;
 
 // Takes the arrays of `file` over (it is empty afterwards, also on failure), checks and completes
-// them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
-// Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
-// node, a clockwise element among others, a node on no element, a face of three elements, elements
-// of different order side by side, a boundary group that does not follow the elements or lists a
-// face twice, parts that share no node.
+// them. Elements that run clockwise (a surface was reversed in gmsh) are turned round. Errors
+// (ERROR_INPUT) name `path` and where: an element whose Jacobian determinant is 0 or changes its
+// sign, one that repeats a node, a node on no element, a face of three elements, elements on one
+// side of their common face or of different order, a boundary group that does not follow the
+// elements or lists a face twice, parts that share no node, a face of one element inside the block.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
 void mesh_destroy(Mesh *mesh);
 
@@ -128,11 +140,27 @@ bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, E
 // two on the same face, and the block not below z = 0: ERROR_INPUT names group and node.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err);
+// A name that is taken for the contact's where a scene gives none.
+bool mesh_is_contact_name(const char *name);
+
+// Puts a mesh that stands as its file has it where it is wanted.
+void mesh_move(double scale, const MeshPlace shift, Mesh *mesh);
+
+// Moves the mesh along z so that the lowest node of its contact is at z = 0; one that stands there
+// up to rounding is not moved. names: as of mesh_contact. ERROR_INPUT: there is no contact of such
+// a name.
+bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, Mesh *mesh,
+                         Error *err);
+
+// How it was moved, in words; empty: not at all.
+enum { MOVE_TEXT_SIZE = 160 };
+const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE]);
+
 // How high a contact node stands over z = 0; exactly 0 where only rounding is left.
 double mesh_gap(const Mesh *mesh, int32_t node);
 void mesh_contact_destroy(MeshContact *contact);
 
-// What `amontons info` says of a mesh.
+// The numbers that `amontons info` prints of a mesh.
 typedef struct MeshSummary {
     int32_t element_counts[ELEMENT_KIND_COUNT];   // by ElementKind
     double area;   // length^2; in space the volume, length^3

@@ -4,11 +4,16 @@
 
 #include "base/memory.h"
 #include "fem/mesh_faces.h"
+#include "fem/mesh_inside.h"
+#include "fem/mesh_parts.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+// Most points at which determinants of one kind are looked at: HEX27's nodes and quadrature points.
+enum { PROBES_MAX = ELEMENT_NODES_MAX + QUADRATURE_POINTS_MAX };
 
 // A determinant counts as zero below this times the square of the element's longest edge. Round-off
 // is 1e-16 of it; an element of aspect ratio 1e4 still has 2e-5 of it.
@@ -43,26 +48,11 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
                    .first_node = file->first_node,
                    .element_nodes = file->element_nodes,
                    .group_count = file->group_count,
-                   .groups = file->groups};
+                   .groups = file->groups,
+                   .move = {.scale = 1}};
     snprintf(mesh->path, sizeof mesh->path, "%s", path);
+    memcpy(mesh->warning, file->warning, sizeof file->warning);
     *file = (MeshFile){0};
-}
-
-// The block's extent. A node on no element would change it, but is an error.
-static void find_extent(Mesh *mesh)
-{
-    double *low[DIM_MAX] = {&mesh->x_min, &mesh->y_min},
-           *high[DIM_MAX] = {&mesh->x_max, &mesh->y_max};
-    low[mesh->dim - 1] = &mesh->z_min;
-    high[mesh->dim - 1] = &mesh->z_max;
-    for (int32_t d = 0; d < mesh->dim; d++) {
-        *low[d] = INFINITY;
-        *high[d] = -INFINITY;
-        for (int32_t i = 0; i < mesh->node_count; i++) {
-            *low[d] = fmin(*low[d], mesh_place(mesh, i)[d]);
-            *high[d] = fmax(*high[d], mesh_place(mesh, i)[d]);
-        }
-    }
 }
 
 // --- checks -------------------------------------------------------------------------------------
@@ -90,7 +80,10 @@ static bool check_nodes(const Mesh *mesh, Error *err)
         FAIL(err, ERROR_INPUT, "%s: node %lld at %s is on no %s element%s%s%s", mesh->path,
              (long long)mesh->node_number[i], mesh_place_text(mesh, i, at),
              mesh->dim == 2 ? "surface" : "volume", group ? "; it belongs to group '" : "",
-             group ? group : "", group ? "'" : "");
+             group ? group : "",
+             group
+                 ? "' (`groups: {body: REGION}` in the scene leaves out what is not of that region)"
+                 : "");
     }
 cleanup:
     memory_free(used);
@@ -133,26 +126,35 @@ static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace
 // Shape functions at the nodes and quadrature points of each kind, where Jacobians are looked at.
 typedef struct ProbePoints {
     int32_t count[ELEMENT_KIND_COUNT];
-    ShapeValues shape[ELEMENT_KIND_COUNT][ELEMENT_NODES_MAX + QUADRATURE_POINTS_MAX];
+    ShapeValues shape[ELEMENT_KIND_COUNT][PROBES_MAX];
 } ProbePoints;
+
+static void add_probe(ElementKind kind, const double *point, ProbePoints *probes)
+{
+    probes->shape[kind][probes->count[kind]++] = shape_at(kind, point);
+}
 
 // Evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees while
 // determinants at the quadrature points are positive; at quadrature points, because integrals are
-// taken there.
+// taken there; in hexahedra and wedges of first order, whose determinant is of second order,
+// between the corners too: a twisted one turns inside out in the middle.
 static void set_probes(ProbePoints *probes)
 {
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
-        if (element_dim((ElementKind)kind) < 2) continue;   // a face
-        Quadrature rule = shape_quadrature((ElementKind)kind);
-        int32_t count = 0;
-        for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
-            probes->shape[kind][count++] =
-                shape_at((ElementKind)kind, shape_node((ElementKind)kind, a));
-        }
-        for (int32_t q = 0; q < rule.count; q++)
-            probes->shape[kind][count++] = shape_at((ElementKind)kind, rule.point[q]);
-        probes->count[kind] = count;
+    for (ElementKind kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+        if (element_dim(kind) < 2) continue;   // a face
+        Quadrature rule = shape_quadrature(kind);
+        for (int32_t a = 0; a < element_node_count(kind); a++)
+            add_probe(kind, shape_node(kind, a), probes);
+        for (int32_t q = 0; q < rule.count; q++) add_probe(kind, rule.point[q], probes);
     }
+    for (int32_t a = element_node_count(ELEMENT_HEX8); a < element_node_count(ELEMENT_HEX27); a++)
+        add_probe(ELEMENT_HEX8, shape_node(ELEMENT_HEX27, a), probes);
+    for (int32_t a = 0; a < element_node_count(ELEMENT_T6); a++)
+        for (int32_t level = -1; level <= 1; level++) {
+            const double *seen_from_above = shape_node(ELEMENT_T6, a);
+            MeshPlace point = {seen_from_above[0], seen_from_above[1], level};
+            add_probe(ELEMENT_WEDGE6, point, probes);
+        }
 }
 
 // Smallest and largest determinant of element e over its probes, over the scale; its centre.
@@ -191,15 +193,42 @@ static void reverse_element(ElementKind kind, int32_t *nodes)
     for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(kind, a)];
 }
 
-// Clockwise throughout is a reversed surface, which is turned round; a clockwise element among
-// others is an error.
-static bool check_orientation(Mesh *mesh, Error *err)
+// The name of a region that element e is in, NULL: none.
+static const char *region_of_element(const Mesh *mesh, int32_t e)
 {
-    bool clockwise = false;   // as the first element is, all must be
-    int32_t first_bad = -1;
-    double bad_range[2] = {0};
-    MeshPlace bad_centre = {0};
+    for (int32_t g = 0; g < mesh->group_count; g++)
+        for (int32_t k = 0; k < mesh->groups[g].element_count; k++)
+            if (mesh->groups[g].elements[k] == e) return mesh->groups[g].name;
+    return NULL;
+}
+
+static bool refuse_element(const Mesh *mesh, int32_t e, const double range[2],
+                           const MeshPlace centre, Error *err)
+{
     char at[PLACE_TEXT_SIZE];
+    const char *region = region_of_element(mesh, e);
+    bool changes = range[0] < -AREA_TOLERANCE && range[1] > AREA_TOLERANCE;
+    return REFUSE(
+        err,
+        "%s: element %lld (%s) at %s%s%s%s has a non-positive %s: its Jacobian determinant runs "
+        "from %.3g to %.3g of its size %s; %s",
+        mesh->path, (long long)mesh->element_number[e], ELEMENTS[mesh->kind[e]].name,
+        place_text(mesh->dim, centre, at), region ? " of group '" : "", region ? region : "",
+        region ? "'" : "", mesh->dim == 2 ? "area" : "volume", range[0], range[1],
+        mesh->dim == 2 ? "squared" : "cubed",
+        !changes ? "its corners lie on one line or plane: draw it otherwise, or mesh it with other "
+                   "sizes"
+        : element_node_count(mesh->kind[e]) > element_corner_count(mesh->kind[e])
+            ? "it turns inside out: its sides are bent too far (`Mesh.HighOrderOptimize = 2;`, or "
+              "shorter cells where the boundary is curved), or its nodes are not in gmsh's order"
+            : "it turns inside out: its corners are not in gmsh's order, or it is twisted or "
+              "crossed");
+}
+
+// An element whose determinant is negative throughout runs the other way round, as those of a
+// reversed surface do: it is turned. One whose determinant is 0 or changes its sign is an error.
+static bool orient_elements(Mesh *mesh, Error *err)
+{
     ProbePoints *probes = NEW_ARRAY(ProbePoints, 1, err);
     if (!probes) goto cleanup;
     set_probes(probes);
@@ -207,28 +236,11 @@ static bool check_orientation(Mesh *mesh, Error *err)
         double range[2];
         MeshPlace centre;
         determinant_range(mesh, probes, e, range, centre);
-        bool reversed = range[1] < -AREA_TOLERANCE;
-        if (e == 0) clockwise = reversed;
-        bool bad = !(range[0] > AREA_TOLERANCE) && !reversed;
-        if (!bad && reversed == clockwise) continue;
-        first_bad = e;
-        memcpy(bad_range, range, sizeof range);
-        memcpy(bad_centre, centre, sizeof centre);
-        break;
-    }
-    if (first_bad >= 0)
-        FAIL(err, ERROR_INPUT,
-             "%s: element %lld (%s) at %s has a non-positive %s: its Jacobian determinant "
-             "runs from %.3g to %.3g of its size squared%s",
-             mesh->path, (long long)mesh->element_number[first_bad],
-             ELEMENTS[mesh->kind[first_bad]].name, place_text(mesh->dim, bad_centre, at),
-             mesh->dim == 2 ? "area" : "volume", bad_range[0], bad_range[1],
-             bad_range[0] > AREA_TOLERANCE || bad_range[1] < -AREA_TOLERANCE
-                 ? " while others run the other way round (a surface of the .geo is reversed)"
-                 : "");
-    if (clockwise)
-        for (int32_t e = 0; e < mesh->element_count; e++)
+        if (range[1] < -AREA_TOLERANCE)
             reverse_element(mesh->kind[e], mesh->element_nodes + mesh->first_node[e]);
+        else if (!(range[0] > AREA_TOLERANCE))
+            TRY(refuse_element(mesh, e, range, centre, err));
+    }
 cleanup:
     memory_free(probes);
     return error_is_clean(err);
@@ -243,29 +255,25 @@ static FaceNodes group_face(const Mesh *mesh, const MeshGroup *group, int32_t k)
 
 // Every face of a named boundary must be a face of an element, with the same mid-side nodes, and be
 // listed once: a load acts as often as its face is listed.
-static bool check_boundaries(const Mesh *mesh, Error *err)
+static bool check_boundaries(const Mesh *mesh, const MeshFaces *table, Error *err)
 {
-    MeshFaces table = {0};
     int32_t *listed = NULL;   // by face of the table: the last group that lists it, + 1
     const char *what = mesh->dim == 2 ? "edge" : "face",
                *piece = mesh->dim == 2 ? "curve" : "surface";
     char at[PLACE_TEXT_SIZE];
-    TRY(mesh_faces_build(mesh, &table, err));
-    TRY((listed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err)));
+    TRY((listed = NEW_ARRAY(int32_t, table->first[mesh->node_count], err)));
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
         for (int32_t k = 0; k < group->face_count; k++) {
             FaceNodes face = group_face(mesh, group, k);
             const int32_t *nodes = face.node;
-            const MeshFace *known = mesh_faces_find(&table, face);
+            const MeshFace *known = mesh_faces_find(table, face);
             if (!known || !mesh_face_is(known, face))
                 FAIL(err, ERROR_INPUT,
-                     "%s: group '%s': its %s from node %lld to %lld at %s is not an %s of any "
-                     "element",
+                     "%s: group '%s': its %s from node %lld to %lld at %s is on no element",
                      mesh->path, group->name, what, (long long)mesh->node_number[nodes[0]],
-                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at),
-                     what);
-            int32_t *last = &listed[known - table.faces];
+                     (long long)mesh->node_number[nodes[1]], mesh_place_text(mesh, nodes[0], at));
+            int32_t *last = &listed[known - table->faces];
             if (*last == g + 1)
                 FAIL(err, ERROR_INPUT,
                      "%s: group '%s' has its %s from node %lld to %lld at %s twice: a load on it "
@@ -279,78 +287,38 @@ static bool check_boundaries(const Mesh *mesh, Error *err)
     }
 cleanup:
     memory_free(listed);
-    mesh_faces_destroy(&table);
-    return error_is_clean(err);
-}
-
-// The first node of i's part (union-find with path halving).
-static int32_t part_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-// The box of the part that `root` stands for, in `text`.
-static void describe_part(const Mesh *mesh, int32_t *parent, int32_t root, char text[160])
-{
-    int32_t nodes = 0, up = mesh->dim - 1;
-    MeshPlace low, high;
-    for (int32_t d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
-    for (int32_t i = 0; i < mesh->node_count; i++) {
-        if (part_of(parent, i) != root) continue;
-        nodes++;
-        for (int32_t d = 0; d < mesh->dim; d++) {
-            low[d] = fmin(low[d], mesh_place(mesh, i)[d]);
-            high[d] = fmax(high[d], mesh_place(mesh, i)[d]);
-        }
-    }
-    snprintf(text, 160, "%d nodes in x = %g ... %g, z = %g ... %g", nodes, low[0], high[0], low[up],
-             high[up]);
-}
-
-// All elements hang together by their nodes; parts that only touch share none.
-static bool check_one_part(const Mesh *mesh, Error *err)
-{
-    int32_t *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
-    if (!parent) goto cleanup;
-    for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i;
-    for (int32_t e = 0; e < mesh->element_count; e++)
-        for (int32_t k = mesh->first_node[e] + 1; k < mesh->first_node[e + 1]; k++) {
-            int32_t one = part_of(parent, mesh->element_nodes[k - 1]);
-            parent[part_of(parent, mesh->element_nodes[k])] = one;
-        }
-    for (int32_t i = 1; i < mesh->node_count; i++) {
-        if (part_of(parent, i) == part_of(parent, 0)) continue;
-        char first[160], second[160];
-        describe_part(mesh, parent, part_of(parent, 0), first);
-        describe_part(mesh, parent, part_of(parent, i), second);
-        FAIL(err, ERROR_INPUT,
-             "%s: the mesh has parts that share no node, and a scene is one block: %s, and %s (let "
-             "them share points and lines in the .geo, or say `Coherence;`, `Coherence Mesh;`)",
-             mesh->path, first, second);
-    }
-cleanup:
-    memory_free(parent);
     return error_is_clean(err);
 }
 
 // --- building -----------------------------------------------------------------------------------
 
-// Each check may rely on those before it. *mesh is the caller's to destroy also on failure. Errors
-// name node or element by gmsh's number.
-bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
+// Each check may rely on those before it.
+bool mesh_build_parts(MeshFile *file, const char *path, Mesh *mesh, MeshParts *parts, Error *err)
 {
+    MeshFaces faces = {0};
+    *parts = (MeshParts){0};
     take_over(file, path, mesh);
-    find_extent(mesh);
-    if (!check_nodes(mesh, err)) return false;
-    if (!check_repeats(mesh, err)) return false;
-    if (!check_orientation(mesh, err)) return false;
-    if (!check_boundaries(mesh, err)) return false;
-    if (!check_one_part(mesh, err)) return false;
+    mesh_find_extent(mesh);
+    TRY(check_nodes(mesh, err));
+    TRY(check_repeats(mesh, err));
+    TRY(orient_elements(mesh, err));
+    TRY(mesh_faces_build(mesh, &faces, err));
+    TRY(check_boundaries(mesh, &faces, err));
+    TRY(mesh_parts_find(mesh, parts, err));
+    if (parts->count == 1) TRY(mesh_check_inside(mesh, &faces, err));
     for (int32_t g = 0; g < mesh->group_count; g++)
         mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
-    return true;
+cleanup:
+    mesh_faces_destroy(&faces);
+    return error_is_clean(err);
+}
+
+// *mesh is the caller's to destroy also on failure. Errors name node or element by gmsh's number.
+bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
+{
+    MeshParts parts;
+    bool done = mesh_build_parts(file, path, mesh, &parts, err) &&
+                (parts.count == 1 || mesh_parts_refuse(mesh, &parts, err));
+    mesh_parts_destroy(&parts);
+    return done;
 }

@@ -6,6 +6,7 @@
 #include "fem/mesh.h"
 
 #include "base/memory.h"
+#include "base/system.h"
 #include "fem/mesh_faces.h"
 #include "fem/mesh_pieces.h"
 #include "io/mesh/shape_functions.h"
@@ -31,7 +32,7 @@ double mesh_gap(const Mesh *mesh, int32_t node)
     return z > PLACE_TOLERANCE * extent(mesh) ? z : 0;
 }
 
-// By x first, by z last. `context` comes third, as qsort_r passes it: no state outside the call.
+// By x first, by z last. `context` comes third, as system_sort passes it: no state outside of it.
 static int compare_places(const void *a, const void *b, void *context)
 {
     const Mesh *mesh = context;
@@ -45,8 +46,8 @@ static int compare_places(const void *a, const void *b, void *context)
 // By place, so that numbers given out by gmsh do not decide the order of contact nodes.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
 {
-    Mesh order = *mesh;   // qsort_r takes no const
-    if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, &order);
+    Mesh order = *mesh;   // system_sort takes no const
+    if (count > 1) system_sort(nodes, (size_t)count, sizeof *nodes, compare_places, &order);
 }
 
 // The error lists the groups that there are.
@@ -78,8 +79,7 @@ void mesh_contact_destroy(MeshContact *contact)
     *contact = (MeshContact){0};
 }
 
-// The names taken where a scene gives none.
-static bool is_contact_name(const char *name)
+bool mesh_is_contact_name(const char *name)
 {
     return strcmp(name, "contact") == 0 || strncmp(name, "contact_", strlen("contact_")) == 0;
 }
@@ -108,7 +108,8 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
     for (int32_t k = 0; k < count; k++)
         if (!add_group(mesh, names[k], contact, err)) return false;
     for (int32_t g = 0; g < mesh->group_count && count == 0; g++)
-        if (mesh->groups[g].dimension == mesh->dim - 1 && is_contact_name(mesh->groups[g].name) &&
+        if (mesh->groups[g].dimension == mesh->dim - 1 &&
+            mesh_is_contact_name(mesh->groups[g].name) &&
             !add_group(mesh, mesh->groups[g].name, contact, err))
             return false;
     if (contact->group_count == 0 && !add_group(mesh, "contact", contact, err)) return false;
@@ -118,10 +119,10 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
     MeshBoundary *pad = contact->pads;
     for (int32_t g = 0; g < contact->group_count; g++)
         for (int32_t p = 0; p < contact->groups[g].count; p++) *pad++ = contact->groups[g].piece[p];
-    Mesh order = *mesh;   // qsort_r takes no const
+    Mesh order = *mesh;   // system_sort takes no const
     if (count == 0)
-        qsort_r(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads, compare_starts,
-                &order);
+        system_sort(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads,
+                    compare_starts, &order);
     return error_is_clean(err);
 }
 
@@ -230,8 +231,12 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
     if (mesh->z_min < -tolerance)
         return REFUSE(err,
                       "%s: the block reaches down to z = %g, below the substrate at z = 0 that "
-                      "group '%s' touches",
-                      mesh->path, mesh->z_min, contact->pads[0].name);
+                      "group '%s' touches%s",
+                      mesh->path, mesh->z_min, contact->pads[0].name,
+                      mesh->move.onto_floor || mesh->move.shift[mesh->dim - 1] == 0
+                          ? " (its lowest node is taken to be there): is all of the lower side in "
+                            "the group, and z up?"
+                          : " (without mesh.shift the lowest contact node is moved there)");
     for (int32_t k = 1; k < contact->node_count; k++) {
         int32_t b = contact->nodes[k], a = node_over(mesh, contact, k, tolerance);
         const char *name = contact->pads[contact->pad_of[k]].name;
@@ -251,7 +256,28 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
     return true;
 }
 
-// A block that was drawn at another height.
+bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, Mesh *mesh,
+                         Error *err)
+{
+    MeshContact contact = {0};
+    double lowest = INFINITY;
+    int32_t up = mesh->dim - 1;
+    TRY(pick_pads(mesh, names, name_count, &contact, err));
+    for (int32_t c = 0; c < contact.pad_count; c++)
+        for (int32_t k = 0; k < contact.pads[c].node_count; k++)
+            lowest = fmin(lowest, mesh_height(mesh, contact.pads[c].nodes[k]));
+    if (fabs(lowest) <= PLACE_TOLERANCE * extent(mesh)) goto cleanup;
+    for (int32_t i = 0; i < mesh->node_count; i++)
+        mesh->position[node_dof(mesh->dim, i, up)] -= lowest;
+    mesh->move.shift[up] -= lowest;
+    mesh->move.onto_floor = true;
+    mesh_find_extent(mesh);
+cleanup:
+    mesh_contact_destroy(&contact);
+    return error_is_clean(err);
+}
+
+// A block that mesh.shift put at another height.
 static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     int32_t lowest = contact->nodes[0];
@@ -259,10 +285,12 @@ static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *er
         if (mesh_height(mesh, contact->nodes[k]) < mesh_height(mesh, lowest))
             lowest = contact->nodes[k];
     if (mesh_gap(mesh, lowest) > 0)
-        return REFUSE(
-            err, "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = %g",
-            mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
-            mesh_height(mesh, lowest));
+        return REFUSE(err,
+                      "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = "
+                      "%g (without "
+                      "mesh.shift it is moved there)",
+                      mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+                      mesh_height(mesh, lowest));
     return true;
 }
 

@@ -42,3 +42,57 @@ const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT
 {
     return place_text(mesh->dim, mesh_place(mesh, node), text);
 }
+
+void mesh_find_extent(Mesh *mesh)
+{
+    double *low[DIM_MAX] = {&mesh->x_min, &mesh->y_min},
+           *high[DIM_MAX] = {&mesh->x_max, &mesh->y_max};
+    low[mesh->dim - 1] = &mesh->z_min;
+    high[mesh->dim - 1] = &mesh->z_max;
+    for (int32_t d = 0; d < mesh->dim; d++) {
+        *low[d] = INFINITY;
+        *high[d] = -INFINITY;
+        for (int32_t i = 0; i < mesh->node_count; i++) {
+            *low[d] = fmin(*low[d], mesh_place(mesh, i)[d]);
+            *high[d] = fmax(*high[d], mesh_place(mesh, i)[d]);
+        }
+    }
+}
+
+void mesh_move(double scale, const MeshPlace shift, Mesh *mesh)
+{
+    bool moved = scale != 1;
+    mesh->move.scale = scale;
+    for (int32_t d = 0; d < mesh->dim; d++) {
+        mesh->move.shift[d] = shift[d];
+        moved = moved || shift[d] != 0;
+    }
+    if (!moved) return;
+    for (int32_t i = 0; i < mesh->node_count; i++)
+        for (int32_t d = 0; d < mesh->dim; d++) {
+            double *place = &mesh->position[node_dof(mesh->dim, i, d)];
+            *place = scale * *place + shift[d];
+        }
+    mesh_find_extent(mesh);
+}
+
+const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE])
+{
+    const MeshMove *move = &mesh->move;
+    bool shifted = false;
+    int length = 0;
+    char by[PLACE_TEXT_SIZE];
+    for (int32_t d = 0; d < mesh->dim; d++) shifted = shifted || move->shift[d] != 0;
+    text[0] = 0;
+    if (move->scale != 1)
+        length = snprintf(text, MOVE_TEXT_SIZE, "coordinates times %g%s", move->scale,
+                          shifted ? ", then " : "");
+    if (move->onto_floor)
+        snprintf(text + length, MOVE_TEXT_SIZE - (size_t)length,
+                 "moved by %g along z, so that its lowest contact node stands on the floor z = 0",
+                 move->shift[mesh->dim - 1]);
+    else if (shifted)
+        snprintf(text + length, MOVE_TEXT_SIZE - (size_t)length, "moved by %s",
+                 place_text(mesh->dim, move->shift, by));
+    return text;
+}

@@ -82,7 +82,7 @@ bool friction_has_drop(const FrictionLaw *law)
     return is_known(law->kind) && KINDS[law->kind].drops;
 }
 
-// Of a law that has one, without memory.
+// mu_S - mu_K of a law without memory that has one.
 static inline double drop_of(const FrictionLaw *law)
 {
     return law->mu_static - law->mu_kinetic;
@@ -210,7 +210,7 @@ bool friction_strengthens(const FrictionLaw *law)
     return law->strengthens;
 }
 
-// Of v_c: where exp(-5) is left of the exponential law's drop, under 1 %.
+// In units of v_c: the speed at which exp(-5) of the exponential law's drop is left, less than 1 %.
 static const double SPENT = 5;
 
 double friction_spent_speed(const FrictionLaw *law)

@@ -78,8 +78,8 @@ static inline const FrictionLaw *friction_at(const FrictionLaw *law, int32_t i)
 // With `factor` >= 0 times the coefficient at every speed.
 FrictionLaw friction_scaled(const FrictionLaw *law, double factor);
 
-// What stands for the laws `each` [count] of the nodes together: the largest mu_S, the largest
-// drop, the least v_c; to be asked about a node through friction_at.
+// The law that stands for the laws `each` [count] of all nodes: it has the largest mu_S, the
+// largest drop and the least v_c. friction_at gives the law of a node.
 FrictionLaw friction_spread(const FrictionLaw *each, int32_t count);
 
 const char *friction_kind_name(FrictionKind kind);   // "unknown" for one that there is not
@@ -92,7 +92,7 @@ MemoryKind friction_memory_kind(FrictionKind kind);   // MEMORY_FORMULAS: none t
 // It has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);
 
-// What the law loses at most from a speed to a faster one, 1: mu_S - mu_K where it is nowhere above
+// The largest loss of mu from a speed to a faster one: mu_S - mu_K where mu is nowhere above
 // mu(0); 0 where nothing weakens.
 double friction_drop(const FrictionLaw *law);
 

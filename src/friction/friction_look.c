@@ -14,7 +14,7 @@ static const double PEAK = 1.01;   // a wide one is met that nearly
 enum { LOOKED_MAX = 20000, PIECES_MAX = 1100 };
 static const double SPENT_PART = 0.01;   // of the drop may be left where the law is spent
 
-// What mu and its slope are at this speed, and whether they may be that.
+// Looks at mu and its slope at this speed, and refuses values that no law may have.
 static bool look_at(const FrictionLaw *law, double speed, Error *err)
 {
     double mu = friction_coefficient(law, speed), slope = friction_slope(law, speed);

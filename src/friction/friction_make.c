@@ -143,6 +143,12 @@ static bool read_plugin(const FrictionSource *source, FrictionLaw *law, const ch
                                 .parameter_count = source->parameter_count};
     for (int32_t k = 0; k < source->parameter_count; k++)
         given->parameters[k] = source->parameters[k];
+    if (!source->trusted)
+        return REFUSE(
+            err,
+            "%s is a program that would be run: give --trust (in Python trust=True) if you "
+            "know where it comes from",
+            source->file);
     if (!friction_plugin_open(source->file, plugin, err)) return false;
     law->own.plugin = *plugin;
     if (!plugin->rates) return true;

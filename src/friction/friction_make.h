@@ -6,7 +6,7 @@
 #include "friction/friction_law.h"
 #include "friction/friction_source.h"
 
-// What a key of the map `friction` is to a law.
+// Whether a law takes, needs or ignores a key of the map `friction`.
 FrictionUse friction_use(const FrictionLaw *law, const char *key);
 
 // Makes one's own law of kind law->kind and of the numbers mu_static, mu_kinetic and

@@ -92,8 +92,8 @@ static void rate_state_rate(const FrictionMemory *memory, double speed, const do
     }
 }
 
-// Of v, the states and p, in this order: what nobody asks for comes last. slope: [wanted] of them;
-// none: the value alone.
+// The formula's arguments are v, the states and p, in this order. slope: the derivatives by the
+// first [wanted] of them; none: the value alone.
 static double formula_of(const FrictionMemory *memory, int32_t k, double speed, const double *state,
                          int32_t wanted, double *slope)
 {
@@ -196,7 +196,7 @@ void memory_rates(const FrictionMemory *memory, double speed, const double *stat
 
 // --- a stage ------------------------------------------------------------------------------------
 
-// What is inlined is compiled a second time for the one state that most laws have (n = 1).
+// Such a function is compiled a second time for the single state that most laws have (n = 1).
 #define INLINED static inline __attribute__((always_inline))
 
 // x becomes (1 - reach g_theta)^-1 x. false: singular.

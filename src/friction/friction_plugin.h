@@ -7,7 +7,8 @@
 #include "amontons_friction.h"
 #include "base/error.h"
 
-// Of a law of speed alone coefficient and slope, of one that remembers the rest; others are NULL.
+// A law of speed alone has coefficient and slope, one that remembers has the rest; the others are
+// NULL.
 typedef struct FrictionPlugin {
     double (*coefficient)(const AmontonsFriction *given, double speed);
     double (*slope)(const AmontonsFriction *given, double speed);
@@ -19,8 +20,8 @@ typedef struct FrictionPlugin {
 } FrictionPlugin;
 
 // Opens the file, which stays open until the program ends: copies of a law may be anywhere.
-// ERROR_INPUT where the user has not said that such a file may be trusted (variable AMONTONS_TRUST,
-// --trust), where it cannot be opened, or is no such plug-in.
+// Runs its code: only of a scene that is trusted. ERROR_INPUT where it cannot be opened, or is no
+// such plug-in.
 bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err);
 
 #endif

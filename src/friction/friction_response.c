@@ -81,7 +81,7 @@ double friction_respond(const FrictionRates *rates, double s, double y, const do
 void friction_own_rates(const FrictionRates *rates, double *re, double *im)
 {
     double matrix[STATES_MAX * STATES_MAX], vectors[STATES_MAX * STATES_MAX], sum = 0;
-    double work[4 + 11 * STATES_MAX + 2 * STATES_MAX * STATES_MAX];   // dense_eigen_work
+    double work[DENSE_EIGEN_WORK(STATES_MAX)];
     int32_t n = rates->states;
     for (int32_t j = 0; j < n; j++)
         for (int32_t k = 0; k < n; k++) sum += matrix[j * n + k] = rates->rate_state[k][j];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a small disturbance of slip meets in friction that remembers, from mu, g and their
+// The response of friction that remembers to a small disturbance of slip, from mu, g and their
 // derivatives at a node (friction/friction_state). With any number of states
 //
 //     mu' = mu_v v' + mu_theta theta',     d theta'/dt = g_v v' + g_theta theta',

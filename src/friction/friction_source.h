@@ -14,7 +14,7 @@ typedef struct FrictionStateText {
     char start[STATE_TEXT_SIZE];   // formula of numbers; empty: that of steady slip
 } FrictionStateText;
 
-// What one's own law is made of, as a scene gives it in its map `friction`. Nothing is owned.
+// The parts of a law of one's own, as a scene gives them in its map `friction`. Nothing is owned.
 typedef struct FrictionSource {
     const double *velocity, *mu;   // [velocity_count], [mu_count]
     int32_t velocity_count, mu_count;
@@ -28,9 +28,10 @@ typedef struct FrictionSource {
     const double *parameters;   // [parameter_count] of a plug-in
     int32_t parameter_count;
     double end;   // of a formula or plug-in, velocity
+    bool trusted;   // a plug-in may be run
 } FrictionSource;
 
-// What one of the keys of that map is to a law.
+// Whether a law takes, needs or ignores one of the keys of that map.
 typedef enum FrictionUse { FRICTION_UNUSED, FRICTION_MAY, FRICTION_MUST } FrictionUse;
 
 #endif

@@ -28,7 +28,7 @@ static void write_place(const FrictionSource *source, const FrictionMemory *memo
                          memory->from[k]);
 }
 
-// What mu and the rates are at memory->from, and whether they may be that.
+// Finds mu and the rates at memory->from, and refuses values that no law may have.
 static bool look_at(const FrictionSource *source, const FrictionMemory *memory, double speed,
                     FrictionRates *rates, const char **key, Error *err)
 {
@@ -78,6 +78,96 @@ bool friction_find_steady(FrictionMemory *memory, double speed)
     memory->reach = 0;
     if (!found) memcpy(memory->from, began, sizeof began);
     return found;
+}
+
+int32_t friction_count_steady(const FrictionMemory *memory, double speed, double states[2])
+{
+    static const double STARTS[] = {1e-6, 1e-3, 1, 1e3, 1e6};   // times the states at the start
+    static const double SAME_STATE = 1e-3;   // relative
+    double kept[STATES_MAX] = {0};
+    int32_t count = 0;
+    for (size_t s = 0; s < sizeof STARTS / sizeof *STARTS; s++) {
+        FrictionMemory tried = *memory;
+        bool differs = false;
+        for (int32_t k = 0; k < tried.states; k++)
+            tried.from[k] = STARTS[s] * (memory->start[k] != 0 ? memory->start[k] : 1);
+        if (!friction_find_steady(&tried, speed)) continue;
+        for (int32_t k = 0; k < tried.states; k++) {
+            double size = fmax(fmax(fabs(tried.from[k]), fabs(kept[k])), fabs(memory->start[k]));
+            bool differs_here = count > 0 && fabs(tried.from[k] - kept[k]) > SAME_STATE * size;
+            if (differs_here && !differs) states[0] = kept[k], states[1] = tried.from[k];
+            differs = differs || differs_here;
+        }
+        if (differs) return 2;
+        if (count == 0) memcpy(kept, tried.from, sizeof kept);
+        count = 1;
+    }
+    return count;
+}
+
+// mu over one of its arguments: speed (0), pressure (1), state k (2 + k), the others as they are.
+typedef struct Course {
+    FrictionMemory memory;
+    double speed;
+    int32_t argument;
+} Course;
+
+static double course_at(Course *course, double value)
+{
+    FrictionRates rates;
+    double speed = course->argument == 0 ? value : course->speed;
+    if (course->argument == 1) course->memory.pressure = value;
+    if (course->argument >= 2) course->memory.from[course->argument - 2] = value;
+    memory_rates(&course->memory, speed, course->memory.from, &rates);
+    return rates.mu;
+}
+
+// Where mu changes between two values, the interval is halved towards the larger change until
+// nothing but rounding is left of it: what is steep shrinks, a jump stays. True: there is none.
+static bool is_continuous(Course *course, double low, double high, double jump[3])
+{
+    static const double JUMP = 1e-6;   // of mu
+    double from = course_at(course, low), to = course_at(course, high);
+    double least = JUMP * fmax(fabs(from), fabs(to));
+    while (high - low > 1e-13 * high && fabs(to - from) > least) {
+        double middle = 0.5 * (low + high), mu = course_at(course, middle);
+        bool left = fabs(mu - from) > fabs(to - mu);
+        *(left ? &high : &low) = middle;
+        *(left ? &to : &from) = mu;
+    }
+    jump[0] = high, jump[1] = from, jump[2] = to;
+    return !(fabs(to - from) > least);
+}
+
+// Around the states and the pressure of the start, and at all speeds that are looked at.
+static bool check_continuous(const FrictionSource *source, const FrictionMemory *memory,
+                             const char **key, Error *err)
+{
+    static const double REACH = 1e3;   // times pressure and states at the start, and over it
+    Course course = {.memory = *memory, .speed = fmax(source->rod_velocity, 1e-3 * source->end)};
+    for (int32_t argument = 0; argument < 2 + memory->states; argument++) {
+        double middle = argument == 0   ? source->end / REACH
+                        : argument == 1 ? source->pressure
+                                        : fabs(memory->start[argument - 2]);
+        int32_t points = argument == 0 ? DECADES * DECADE : 6 * DECADE;
+        double jump[3], value = 0, next;
+        if (!(middle > 0)) continue;
+        for (int32_t k = 0; k < points; k++, value = next) {
+            course.memory = *memory;
+            course.argument = argument;
+            next = middle * REACH * pow(10, (double)(k + 1 - points) / DECADE);
+            if (k == 0 || is_continuous(&course, value, next, jump)) continue;
+            *key = memory->kind == MEMORY_FORMULAS ? "formula" : "file";
+            return REFUSE(err,
+                          "at %s %g the coefficient jumps from %g to %g: it must be continuous",
+                          argument == 0                        ? "velocity"
+                          : argument == 1                      ? "pressure"
+                          : argument - 2 < source->state_count ? source->state[argument - 2].name
+                                                               : "a state of",
+                          jump[0], jump[1], jump[2]);
+        }
+    }
+    return true;
 }
 
 static void rest_for(FrictionMemory *memory, double rest)
@@ -197,6 +287,7 @@ bool friction_start(const FrictionSource *source, FrictionMemory *memory, Fricti
     memcpy(memory->start, memory->from, sizeof memory->start);
     TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
     TRY(look_along(source, memory, steady, &law->steepest, key, err));
+    TRY(check_continuous(source, memory, key, err));
     set_scales(source, memory, steady);
 cleanup:
     return error_is_clean(err);

@@ -19,9 +19,14 @@
 //   D_c      drop over the most that mu loses in a unit of slip by its states
 //
 // A mu_S, mu_K, v_c or D_c that the scene gives stays. ERROR_INPUT, with the velocity and the
-// states: not finite, negative; or no steady state is found. *key: of the map `friction`.
+// states: not finite, negative, not continuous in one of its arguments; or no steady state is
+// found. *key: of the map `friction`.
 bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
                     const char **key, Error *err);
+
+// How many states of steady slip are found at this speed from states at the start and far from it:
+// 0, 1, or 2 for several; then states: one of them in two of these.
+int32_t friction_count_steady(const FrictionMemory *memory, double speed, double states[2]);
 
 // memory->from becomes that of steady slip. false: none is found from there; it is as it was.
 bool friction_find_steady(FrictionMemory *memory, double speed);

@@ -24,8 +24,8 @@ static inline bool friction_feels_pressure(const FrictionLaw *law)
     return law->remembers && law->own.memory.feels_pressure;
 }
 
-// Of a law that creeps (friction/friction_memory): where a step of Newton's method [count] leads in
-// friction.
+// For a law that creeps (friction/friction_memory): where a step of Newton's method [count] leads
+// in friction.
 void friction_follow(const FrictionLaw *law, int32_t count, const double *velocity,
                      const double *step, double *next);
 
@@ -49,7 +49,7 @@ void friction_rates_pressed(const FrictionLaw *law, double pressure, double spee
 // mu_v alone, at the end of that stage.
 double friction_direct_slope(const FrictionLaw *law, double speed);
 
-// What the states are when the rod begins to move; and state number k as people read it.
+// The states when the rod begins to move; and the value of state k as it is printed.
 void friction_start_state(const FrictionLaw *law, double *state);
 double friction_shown_state(const FrictionLaw *law, int32_t k, double state);
 

@@ -17,7 +17,8 @@ static double bounded(double slope, double before, double after)
     return copysign(fmin(fmax(copysign(1, before) * slope, 0), largest), before);
 }
 
-// Of the parabola through the points around k; at an end through the three next to it.
+// Slopes at point k of the parabola through it and its two neighbours; at an end through the three
+// nearest points.
 void friction_table_slopes(FrictionTable *table)
 {
     int32_t last = table->count - 1;

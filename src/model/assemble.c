@@ -6,36 +6,10 @@
 #include "base/clock.h"
 #include "algebra/dense.h"
 #include "model/regions.h"
+#include "model/scene_mesh.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-// Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
-static const double NODE_BYTES = 4e3;
-
-double model_memory_there(void)
-{
-    struct rlimit room;
-    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
-        have = fmin(have, (double)room.rlim_cur);
-    return have;
-}
-
-// Said before the memory is full: then the system would end this or another program.
-static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
-{
-    double have = model_memory_there();
-    if (node_count * NODE_BYTES > have)
-        return REFUSE(
-            err,
-            "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
-            "and there are %.1f; coarser cells, or cells graded towards the contact, are needed",
-            scene->mesh.file, node_count, node_count * NODE_BYTES / 1e9, have / 1e9);
-    return true;
-}
 
 // A material in space is neither in plane stress nor in plane strain: lambda is that of plane
 // strain. ERROR_INPUT: it keeps its volume.
@@ -75,16 +49,10 @@ bool model_read_mesh(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     double started = clock_seconds();
-    MeshFile file = {0};
-    bool done = mesh_file_read(scene->mesh.file, scene->mesh.parameters,
-                               scene->mesh.parameter_count, &file, err);
-    done = done && check_memory(scene, file.node_count, err);
-    TRY(scene_blame(scene, "mesh.file", done, err));
-    model->mesh_origin = file.origin;
-    if (file.origin == MESH_OF_OTHER_FILES && scene->reduction.cache)
+    TRY(scene_mesh_read(scene, &model->mesh, &model->mesh_origin, err));
+    if (model->mesh_origin == MESH_OF_OTHER_FILES && scene->reduction.cache)
         snprintf(model->cache_note, sizeof model->cache_note,
                  "the mesh file draws on more than its own text: meshed anew");
-    TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
     const Mesh *mesh = &model->mesh;
     model->length = mesh->x_max - mesh->x_min;
     model->middle = 0.5 * (mesh->x_min + mesh->x_max);
@@ -93,7 +61,6 @@ bool model_read_mesh(Model *model, Error *err)
     TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
     TRY(model_mark_regions(model, err));
 cleanup:
-    mesh_file_destroy(&file);
     model->seconds_mesh = clock_seconds() - started;
     return error_is_clean(err);
 }

@@ -11,8 +11,6 @@ bool model_read_mesh(Model *model, Error *err);
 bool model_lay_bulk(Model *model, Error *err);   // the bulk's loads, and the interface
 bool model_hold_supports(Model *model, Error *err);   // marks their unknowns
 
-double model_memory_there(void);   // of this computer, or what a limit leaves of it, bytes
-
 // The stress the loads are measured with.
 double load_reference(const Scene *scene);
 

@@ -2,6 +2,7 @@
 #include "model/extremes.h"
 
 #include <math.h>
+#include <stdio.h>
 
 // Below this a quotient is nothing unusual, and what failed is not its fault.
 static const double USUAL = 1e4;
@@ -43,17 +44,24 @@ static Extreme find_largest(const Model *model)
     return found;
 }
 
-bool model_blame_extremes(const Model *model, bool done, Error *err)
+bool model_blame_extremes(Model *model, Error *err)
 {
     Extreme largest = find_largest(model);
-    if (done || (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY)) return done;
+    if (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY) return false;
     if (largest.quotient > USUAL)
-        error_context(err,
-                      "%s is %.3g, too much for the rounding of a reduction (reduction.use: never "
-                      "steps on the whole mesh)",
-                      largest.what, largest.quotient);
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE,
+                 "%s is %.3g, too much for the rounding of a reduction", largest.what,
+                 largest.quotient);
     else
-        error_context(err, "`never` steps on the whole mesh");
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE, "%.*s", NOT_REDUCED_SIZE - 1, err->message);
+    if (model->scene->reduction.use == REDUCE_AUTO) {
+        error_clear(err);
+        return true;
+    }
+    if (largest.quotient > USUAL)
+        error_context(err, "%s (reduction.use: auto steps on the whole mesh)", model->not_reduced);
+    else
+        error_context(err, "reduction.use: auto steps on the whole mesh");
     err->code = ERROR_INPUT;
-    return scene_blame(model->scene, largest.key, done, err);
+    return scene_blame(model->scene, largest.key, false, err);
 }

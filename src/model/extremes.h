@@ -6,8 +6,10 @@
 
 #include "model/model.h"
 
-// done, or the error names the key of the largest quotient among the block's numbers, and what goes
-// without a reduction. Other errors than of computing stay as they are. Returns `done`.
-bool model_blame_extremes(const Model *model, bool done, Error *err);
+// After a reduction that failed with `err`. Under reduction.use: auto an error of computing is
+// taken back (true), and model->not_reduced says why the whole mesh is stepped: the largest
+// quotient of the block's numbers, where one is unusual. Under `always` the error names its key.
+// Other errors, such as lack of memory, stay: bits must not depend on them.
+bool model_blame_extremes(Model *model, Error *err);
 
 #endif

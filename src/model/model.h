@@ -10,7 +10,6 @@
 #include "friction/friction_law.h"
 #include "contact/rod.h"
 #include "io/cache/store.h"
-#include "model/choice.h"
 #include "record/observation.h"
 #include "scene/scene.h"
 
@@ -20,11 +19,14 @@ typedef struct RodEnd {
     double below;   // which part of it is below, 1
 } RodEnd;
 
+enum { NOT_REDUCED_SIZE = 200 };
+
 typedef struct Model {
     const Scene *scene;   // not owned; outlives the model
     Materials materials;
     RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
     int32_t contact_region;   // of which of them the contact (its first pad) is
+    bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
     FrictionLaw law;
     FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
     Mesh mesh;   // owned, like all that follows
@@ -41,10 +43,10 @@ typedef struct Model {
     double middle;   // x of its middle, length
     MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
-    ChoiceSizes choice;   // what reduction.use: auto goes by
-    ExpectedCost expected;
-    bool is_reduced;   // what was chosen
+    bool is_reduced;   // else the whole mesh is stepped
     bool from_cache;   // the basis was: nothing of the full mesh was factored
+    double memory;   // that a run takes at most, about, bytes; 0: not known
+    char not_reduced[NOT_REDUCED_SIZE];   // why a reduction that was tried failed; empty: none was
     char cache_note[CACHE_NOTE_SIZE];   // why what is cached was not used or kept; empty: nothing
     double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s
 } Model;

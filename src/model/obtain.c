@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/computation.h"
+#include "base/system.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
@@ -14,10 +15,11 @@
 #include "model/contact_laws.h"
 #include "model/extremes.h"
 #include "model/gaps.h"
-#include "model/stages.h"
+#include "model/memory.h"
+#include "model/scene_mesh.h"
 #include "scene/materials.h"
+#include "scene/programs.h"
 
-#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,12 +34,11 @@ static bool wants_modes(const Scene *scene)
     return scene->output.fields || scene->output.whole;
 }
 
-// A reduced bulk follows what the interface does: not a load put on at once or changed, nor a
-// velocity that supports stop.
+// A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
+// supports stop.
 static bool starts_at_interface(const Scene *scene)
 {
-    if (scene->start.state == START_UNDEFORMED || scene->load.program.factor.count > 0)
-        return false;
+    if (scene->start.state == START_UNDEFORMED) return false;
     for (int32_t k = 0; k < scene->load.support_count; k++) {
         const SceneSupport *support = &scene->load.supports[k];
         if (support->x && scene->start.velocity_x != 0) return false;
@@ -92,7 +93,7 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
 }
 
 // The basis of `block`, built and kept in the cache under its name. Of processes that need it at
-// once one builds it and the others wait.
+// once one builds it and the others wait. Where rounding leaves none the block is not reduced.
 static bool build_basis(Model *model, const ReductionBlock *block, const char *name, Error *err)
 {
     const Scene *scene = model->scene;
@@ -107,11 +108,15 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
     FileLock lock = {0};
     if (cache_lock(name, &lock)) TRY(load_basis(model, block, name, err));
     if (model->from_cache) goto cleanup;
-    bool built = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count, &def,
-                                          &model->reduced, err);
-    TRY(model_blame_extremes(model, built, err));
-    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
-    basis_cache_store(name, &model->reduced, model->cache_note);
+    model->is_reduced = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count,
+                                                 &def, &model->reduced, err);
+    system_give_back_memory();   // what a reduction needs at once nothing needs afterwards
+    if (model->is_reduced) {
+        basis_cache_store(name, &model->reduced, model->cache_note);
+    } else {
+        reduced_bulk_destroy(&model->reduced);
+        TRY(model_blame_extremes(model, err));
+    }
 cleanup:
     file_lock_release(&lock);
     return error_is_clean(err);
@@ -139,38 +144,26 @@ static bool is_viscous(const Scene *scene)
     return viscous;
 }
 
-// The scene's bulk can be reduced: implicitly, with viscosity, from states that the
-// interface made.
-static bool is_reducible(const Model *model)
+// Why the scene's bulk cannot be reduced: that takes implicit steps, viscosity, and states that the
+// interface made. NULL: it can be.
+static const char *find_obstacle(const Scene *scene)
 {
-    const Scene *scene = model->scene;
-    bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
-    bool allowed = scene->reduction.use != REDUCE_NEVER && scene->reduction.decided != REDUCE_NEVER;
-    return allowed && implicit && is_viscous(scene) && starts_at_interface(scene);
+    if (scene->time.scheme == SCHEME_EXPLICIT) return "explicit steps are those of the mesh";
+    if (!is_viscous(scene)) return "a block without viscosity cannot be reduced";
+    if (scene_has_program(&scene->load.program)) return "a load that changes needs the mesh";
+    if (!starts_at_interface(scene))
+        return "a start that the interface does not make needs the mesh";
+    return NULL;
 }
 
-// Sets what the run is expected to cost, on a block that is reduced in so many parts.
-static void expect(Model *model, int32_t parts)
+// *reducible: the bulk is to be reduced.
+static bool ask_reducible(const Scene *scene, bool *reducible, Error *err)
 {
-    const Scene *scene = model->scene;
-    Drive drive = stages_drive(model);
-    model->choice =
-        (ChoiceSizes){.space = model->mesh.dim > 2,
-                      .unknowns = model->bulk.dof_count,
-                      .interface = model->interface.count,
-                      .stages = stages_expect(scene, &drive),
-                      .parts = parts,
-                      .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
-                      .several = model->materials.count > 1,
-                      .held = model->from_cache};
-    model->expected = choice_expect(&model->choice);
-}
-
-static bool reduction_pays(const Model *model)
-{
-    const Scene *scene = model->scene;
-    bool is_asked = scene->reduction.use == REDUCE_AUTO && scene->reduction.decided == REDUCE_AUTO;
-    return !is_asked || choice_reduces(&model->choice, &model->expected);
+    const char *obstacle = find_obstacle(scene);
+    *reducible = !obstacle && scene->reduction.use != REDUCE_NEVER;
+    if (!obstacle || scene->reduction.use != REDUCE_ALWAYS) return true;
+    error_set(err, ERROR_INPUT, __FILE__, __LINE__, "`always`, but %s: auto or never", obstacle);
+    return scene_blame(scene, "reduction.use", false, err);
 }
 
 // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
@@ -188,15 +181,24 @@ static bool check_rod(const Model *model, Error *err)
 
 // Said before anything is factored; in space, where it goes up with the fourth power of the cells
 // along a side.
-static bool check_memory(const Model *model, Error *err)
+static bool check_memory(Model *model, int32_t parts, Error *err)
 {
-    double bytes = model->is_reduced ? model->expected.bytes_reduced : model->expected.bytes_full;
-    double have = model_memory_there();
-    if (bytes > have && model->scene->time.scheme != SCHEME_EXPLICIT)
+    MemorySizes sizes = {.space = model->mesh.dim > 2,
+                         .unknowns = model->bulk.dof_count,
+                         .interface = model->interface.count,
+                         .parts = parts};
+    double have = memory_there(), whole = memory_expected(&sizes, false);
+    model->memory = memory_expected(&sizes, model->is_reduced);
+    if (model->scene->time.scheme == SCHEME_EXPLICIT) model->memory = 0;
+    if (model->memory > have)
         return REFUSE(err,
                       "%s: %d contact nodes are too many for this computer: a run takes some %.0f "
-                      "GB of memory, and there are %.1f; coarser cells at the contact are needed",
-                      model->scene->path, model->interface.contact_count, bytes / 1e9, have / 1e9);
+                      "GB of memory, and there are %.1f; coarser cells at the contact are needed%s",
+                      model->scene->path, model->interface.contact_count, model->memory / 1e9,
+                      have / 1e9,
+                      model->is_reduced && whole < have
+                          ? ", or reduction.use: never, which takes less memory and longer"
+                          : "");
     return true;
 }
 
@@ -209,7 +211,6 @@ static void name_basis(const Model *model, const ReductionBlock *block, char nam
     name[0] = 0;
     if (!scene->reduction.cache) return;
     hash_number(&hash, reduction_tolerance(scene));
-    hash_number(&hash, scene->reduction.use);   // or auto would take what always alone makes
     reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
     hash_write(&hash, name);
 }
@@ -224,7 +225,7 @@ static bool make_block(Model *model, ReductionBlock *block, char name[HASH_TEXT_
         return false;
     name_basis(model, block, name);
     if (!load_basis(model, block, name, err)) return false;
-    *parts = model->reduced.part_count;
+    *parts = model->reduced.part_count;   // where it is from the cache
     return model->from_cache || (reduction_block_assemble(&model->mesh, block, err) &&
                                  mirror_count_parts(&block->bulk, block->image, interface->dofs,
                                                     interface->count, parts, err));
@@ -235,18 +236,15 @@ static bool make_block(Model *model, ReductionBlock *block, char name[HASH_TEXT_
 static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *block,
                     char name[HASH_TEXT_SIZE], Error *err)
 {
-    bool reducible = is_reducible(model);
     int32_t parts = 1;
     int64_t limit;   // of the cache that is to be used
+    if (!ask_reducible(model->scene, &model->is_reduced, err)) return false;
     if (model->scene->reduction.cache && !cache_folder_limit(&limit, err)) return false;
     if (notice && !notice->tell(notice->self, "meshing", err)) return false;
     if (!model_read_mesh(model, err) || !model_lay_bulk(model, err)) return false;
     if (!check_rod(model, err) || !model_hold_supports(model, err)) return false;
-    if (reducible && !make_block(model, block, name, &parts, err)) return false;
-    expect(model, parts);
-    model->is_reduced = reducible && reduction_pays(model);
-    if (!model->is_reduced) reduction_block_destroy(block);
-    return check_memory(model, err);
+    if (model->is_reduced && !make_block(model, block, name, &parts, err)) return false;
+    return check_memory(model, parts, err);
 }
 
 // What velocities and times are measured with.
@@ -287,6 +285,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     TRY(prepare(notice, model, &block, name, err));
     if (notice && !model->from_cache) TRY(notice->tell(notice->self, "reducing", err));
     if (model->is_reduced && !model->from_cache) TRY(build_basis(model, &block, name, err));
+    if (!model->is_reduced) reduction_block_destroy(&block);
     if (model->is_reduced)
         TRY(adopt_basis(model, err));
     else

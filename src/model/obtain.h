@@ -17,8 +17,8 @@ typedef struct StageNotice {
 // notice: NULL: nobody.
 bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, Error *err);
 
-// Meshed and assembled where the cache does not have the shape, not reduced: sizes, `expected` and
-// what would be chosen. On failure `model` holds what was made.
+// Meshed and assembled where the cache does not have the shape, not reduced: sizes, memory, and
+// whether it would be. On failure `model` holds what was made.
 bool model_forecast(const Scene *scene, Model *model, Error *err);
 
 #endif

@@ -15,11 +15,6 @@ static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error 
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
     const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
     if (!group) return false;
-    if (group->blurred)
-        return REFUSE(err,
-                      "%s: which elements belong to group '%s' cannot be told: another group has "
-                      "its elementary number (save the mesh in format 4.1)",
-                      mesh->path, name);
     for (int32_t k = 0; k < group->element_count; k++) {
         int32_t e = group->elements[k];
         if (owner[e])
@@ -143,20 +138,28 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
-    uint8_t *on_pad = NULL, *on_rod = NULL;
+    uint8_t *on_pad = NULL, *on_contact = NULL, *on_rod = NULL;
     MeshBoundary rod;
     int32_t pad = 0;   // contact nodes of the first pad
+    model->on_contact[0] = !mesh->region;
     if (!mesh->region) return true;
     while (pad < interface->contact_count && interface->pad[pad] == interface->pad[0]) pad++;
     TRY((on_pad = mark_nodes(mesh, interface->node, pad, err)));
     model->contact_region = find_region(mesh, on_pad, NULL);
     if (model->contact_region < 0) model->contact_region = 0;
+    TRY((on_contact = mark_nodes(mesh, interface->node, interface->contact_count, err)));
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        int32_t count = 0;
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            count += on_contact[mesh->element_nodes[a]];
+        if (count >= mesh->dim) model->on_contact[mesh_region(mesh, e)] = true;
+    }
     if (scene->rod.kind == ROD_NONE) goto cleanup;
     TRY(mesh_boundary(mesh, scene->groups.rod, &rod, err));
     TRY((on_rod = mark_nodes(mesh, rod.nodes, rod.node_count, err)));
     model->rod_end[0] = find_end(model, &rod, on_rod, 0, low, high);
     model->rod_end[1] = find_end(model, &rod, on_rod, interface->rod_count - 1, low, high);
 cleanup:
-    memory_free_all(on_pad, on_rod);
+    memory_free_all(on_pad, on_contact, on_rod);
     return error_is_clean(err);
 }

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EVENTS_SHOWN_MAX = 300, COLUMNS = 8, KINDS = 3, DIGITS = 5 };
+enum { EVENTS_SHOWN_MAX = 300, COLUMNS = 8, DIGITS = 5 };
 
 static const int64_t FILM_MOST = 4 << 20;   // bytes: of a film inside of the page
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
@@ -140,7 +140,8 @@ static void write_event(HtmlWriter *html, const EventTable *table, int32_t k, co
                         const RenderFrames *frames)
 {
     double *const *column = table->column;
-    int32_t kind = column[KIND][k] >= 0 && column[KIND][k] < KINDS ? (int32_t)column[KIND][k] : -1;
+    int32_t kind =
+        column[KIND][k] >= 0 && column[KIND][k] < EVENT_KIND_COUNT ? (int32_t)column[KIND][k] : -1;
     const double shown[] = {column[U_START][k],
                             column[U_STOP][k],
                             column[T_STOP][k] - column[T_START][k],

@@ -44,7 +44,8 @@ static const NumberRow RESULTS[] = {
 
 static const NumberRow EVENTS[] = {
     {"quasi-static", NUMBER_PLAIN, "quasi-static precursors", "slow slip grew from an edge"},
-    {"bounded rapid", NUMBER_PLAIN, "bounded rapid precursors", "rapid slip stopped on its way"},
+    {"bounded rapid", NUMBER_PLAIN, "bounded rapid precursors",
+     "rapid slip, faster than 2.5 V and over 5 % of the contact, stopped on its way"},
     {"leading rapid", NUMBER_PLAIN, "slidings of the whole block",
      "slip crossed the whole contact; the paper\u2019s leading rapid precursors"},
 };
@@ -144,8 +145,8 @@ bool numbers_write(HtmlWriter *html, PageSource *source, Error *err)
     const RunSource *runs = source->runs;
     int32_t count = source->count;
     begin_table(html,
-                "What was found. \u00b1 is 95 %; without it: the digits "
-                "that finer meshes keep as a rule, the last within 1.",
+                "What was found. \u00b1 is 95 %; without it: down to the "
+                "first digit that finer meshes change as a rule.",
                 runs, count);
     write_rows(html, RESULTS, sizeof RESULTS / sizeof *RESULTS, write_cell, runs, count);
     write_rows(html, EVENTS, sizeof EVENTS / sizeof *EVENTS, write_event_cell, runs, count);

@@ -2,11 +2,13 @@
 // amontons_report: which page the results want, and the page as a file.
 #include "amontons.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/decimal_point.h"
+#include "io/files/open_file.h"
 #include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
+#include "run/result/own_file.h"
 #include "run/result/pictures.h"
 
 #include <unistd.h>
@@ -54,32 +56,25 @@ cleanup:
     return false;
 }
 
-// What a process that crashed has left; not what another one is writing.
-static void drop_part(const char *file)
-{
-    char part[PATH_MAX + 8];
-    PartFile left = {0};
-    Error ignored = {0};
-    if (part_file_name(file, part) && access(part, F_OK) == 0 &&
-        part_file_create(&left, file, &ignored))
-        part_file_discard(&left);
-}
-
 // A stranger's history may crash HDF5, or keep it busy for ever.
 bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
                      Error *err)
 {
     NUMBERS_HAVE_A_POINT;
     ReportRequest request = {results, count, file, overwrite};
-    ApartWork work = {.path = count > 0 ? results[0] : "",
+    ChildWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
                       .advice = "its history is damaged",
                       .read = write_file,
                       .context = &request};
+    char part[PATH_MAX + 8];
+    bool left = part_file_name(file, part) && open_is_there(part);   // by whom, is not known
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
-    TRY(apart_do(&work, err));
+    for (int32_t k = 0; k < count; k++) TRY(own_file_adopt(results[k], err));
+    TRY(child_do(&work, err));
 cleanup:
-    if (!error_is_clean(err)) drop_part(file);
+    // A process that crashed leaves what it began.
+    if (!error_is_clean(err) && !left && part_file_name(file, part)) unlink(part);
     return error_is_clean(err);
 }

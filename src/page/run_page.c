@@ -44,11 +44,13 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
                           "<sub>N</sub> = <strong><i>\u03bc</i><sub>M</sub> = ");
         double bar = NAN, known_to = run_known_to(run, "results.mu_M", &bar);
         estimate_write(html, mu_M, bar, known_to);
-        html_markup(html, "</strong>%s.",
-                    steady        ? ", slowly and steadily: no sliding was fast"
-                    : !isnan(bar) ? ""
-                                  : " (in the digits that finer meshes keep as a rule; there is no "
-                                    "error bar)");
+        html_markup(
+            html, "</strong>%s.",
+            steady ? ", slowly and steadily: no sliding was fast"
+            : !isnan(bar)
+                ? ""
+                : " (down to the first digit that finer meshes change as a rule; there is no "
+                  "error bar)");
     } else {
         bool told = strncmp(is, "none: ", 6) == 0;
         html_around(html, " There is no <i>\u03bc</i><sub>M</sub>: ",

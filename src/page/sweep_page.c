@@ -181,7 +181,7 @@ static bool write_answer(HtmlWriter *html, PageSource *source, Error *err)
     TRY(text_file_read(path, ANSWER_BYTES_MAX, &text, &size, err));
     html_around(html, "<pre tabindex='0'>", text, "</pre>\n");
     if (!folder_holds(sweep->folder, "figures/best.png", path)) goto cleanup;
-    TRY(text_file_read(path, ANSWER_BYTES_MAX, &picture, &size, err));
+    TRY(text_file_bytes(path, ANSWER_BYTES_MAX, &picture, &size, err));
     html_markup(html, "<figure><img alt='mesh and rod of the best design' src='");
     html_data(html, "image/png", picture, size);
     html_markup(html, "'><figcaption>The best design: its mesh, and the rod.</figcaption>"
@@ -279,9 +279,9 @@ static bool write_points(HtmlWriter *html, PageSource *source, Error *err)
              "%d of %d points, with \u00b1 where there is an error bar; more columns in sweep.csv",
              shown, rows);
     if (run_number(&sweep->run, "scene.accuracy.mu") == 0)
-        html_markup(html,
-                    "<p class='note'>mu in the digits that finer meshes keep as a rule; "
-                    "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
+        html_markup(
+            html, "<p class='note'>mu down to the first digit that finer meshes change as a rule; "
+                  "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
     write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
     return error_is_clean(err);
 }

@@ -66,22 +66,25 @@ static void answer_peaks(const Drops *drops, Answers *answers)
     if (count > 1) answers->mu_M_spread = answers->mu_M_high - answers->mu_M_low;
 }
 
-// Means over the peaks that count; l_sc where it was seen at all.
+// Means over the peaks that count; l_c and l_sc where they were seen at all.
 static void answer_lengths(const Drops *drops, Answers *answers)
 {
     double critical = 0, part = 0, subcritical = 0;
-    int32_t count = 0, seen = 0;
+    int32_t count = 0, known = 0, seen = 0;
     for (int32_t k = answers->first; k < drops->count; k++) {
         if (!drops->list[k].bulk) continue;
         Drop peak = drops_as(drops, DROP_BULK, k);
-        critical += peak.critical_length;
         part += peak.critical_part;
         count++;
+        if (!isnan(peak.critical_length)) {
+            critical += peak.critical_length;
+            known++;
+        }
         if (isnan(peak.front_uncertified)) continue;
         subcritical += peak.front_uncertified;
         seen++;
     }
-    if (count > 0) answers->critical_length = critical / count;
+    if (known > 0) answers->critical_length = critical / known;
     if (count > 0) answers->critical_part = part / count;
     if (seen > 0) answers->subcritical_length = subcritical / seen;
 }
@@ -119,7 +122,7 @@ static void write_branches(const Drops *drops, DropKind kind, int32_t first, dou
         SeriesBranch branch;
         k = series_branch(drops->series, count, k, tolerance, &branch);
         json_object_of(json, NULL, {"mu", branch.mean}, {"low", branch.low}, {"high", branch.high},
-                       {"pads", branch.kind}, {"count", branch.count});
+                       {"pads_slid", branch.kind}, {"count", branch.count});
     }
     json_end(json);
 }
@@ -156,8 +159,14 @@ static void write_list(const Drops *drops, DropKind kind, const char *key, JsonW
     for (int32_t k = 0; k < drops->count; k++) {
         if (!drop_is(&drops->list[k], kind)) continue;
         Drop drop = drops_as(drops, kind, k);
-        json_object_of(json, NULL, {"U", drop.U}, {"mu", drop.mu}, {"mu_after", drop.mu_after},
-                       {"pads", drop.pads});
+        json_begin_object(json, NULL);
+        json_numbers_of(json, {"U", drop.U}, {"mu", drop.mu}, {"mu_after", drop.mu_after});
+        json_begin_list(json, "pads");
+        for (int32_t p = 0; drops->pad_name && p < drops->pad_count; p++)
+            if (drops->slid[(int64_t)k * drops->pad_count + p])
+                json_text(json, NULL, drops->pad_name[p]);
+        json_end(json);
+        json_end(json);
     }
     json_end(json);
 }

@@ -29,6 +29,8 @@ bool drops_create(const Interface *interface, const Events *events, double toler
 {
     *drops = (Drops){.events = events,
                      .tolerance = tolerance,
+                     .pad_count = interface->pad_count,
+                     .pad_name = interface->pad_name,
                      .room = FIRST_ROOM,
                      .settled = -1,
                      .mu_static = NAN,
@@ -38,13 +40,14 @@ bool drops_create(const Interface *interface, const Events *events, double toler
     if (!stretches_create(interface, &drops->stretches, err)) return false;
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
+    drops->slid = NEW_ARRAY(uint8_t, FIRST_ROOM * drops->pad_count, err);
     drops->states = NEW_ARRAY(double, (FIRST_ROOM + 1) * state_size(drops), err);
     return error_is_clean(err);
 }
 
 void drops_destroy(Drops *drops)
 {
-    memory_free_all(drops->list, drops->series, drops->states);
+    memory_free_all(drops->list, drops->series, drops->slid, drops->states);
     stretches_destroy(&drops->stretches);
     *drops = (Drops){0};
 }
@@ -52,16 +55,21 @@ void drops_destroy(Drops *drops)
 // --- recording ----------------------------------------------------------------------------------
 
 // `rising` joins the list, and what follows starts anew. ERROR_MEMORY leaves the list as it was.
-static bool push_drop(Drops *drops, Error *err)
+static bool push_drop(Drops *drops, const Interface *interface, Error *err)
 {
     int32_t room = drops->room, size = state_size(drops);
     if (!memory_grow(&drops->series, drops->count, &room, sizeof *drops->series, err)) return false;
     if (room > drops->room &&
-        !memory_resize(&drops->states, (int64_t)(drops->room + 1) * size,
-                       (int64_t)(room + 1) * size, sizeof *drops->states, err))
+        (!memory_resize(&drops->states, (int64_t)(drops->room + 1) * size,
+                        (int64_t)(room + 1) * size, sizeof *drops->states, err) ||
+         !memory_resize(&drops->slid, (int64_t)drops->room * drops->pad_count,
+                        (int64_t)room * drops->pad_count, sizeof *drops->slid, err)))
         return false;
     if (!memory_grow(&drops->list, drops->count, &drops->room, sizeof *drops->list, err))
         return false;
+    for (int32_t p = 0; p < drops->pad_count; p++)
+        drops->slid[(int64_t)drops->count * drops->pad_count + p] =
+            events_pad_slid(drops->events, interface, p);
     drops->rising.state = drops->count;
     drops->list[drops->count++] = drops->rising;
     drops->rising = NOTHING_SEEN;
@@ -117,14 +125,6 @@ static void forget_fall(Drops *drops, const Observation *seen)
     rise(drops, seen);
 }
 
-static int32_t count_slid(const Events *events, const Interface *interface)
-{
-    int32_t slid = 0;
-    for (int32_t p = 0; p < interface->pad_count; p++)
-        slid += events_pad_slid(events, interface, p);
-    return slid;
-}
-
 // The event of this step makes a drop, of these kinds; but one that began with the run.
 static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *err)
 {
@@ -137,11 +137,14 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
     }
     bool divided = seen->interface->pad_count > 1;
     rising->critical_length = divided ? event->slip_length : event->front_start - seen->trailing;
+    if (divided ? !(event->slip_length > 0) : !event->front_slips) rising->critical_length = NAN;
     rising->critical_part = event->slip_before / drops->events->size;
-    rising->pads = count_slid(drops->events, seen->interface);
+    rising->pads = 0;
+    for (int32_t p = 0; p < drops->pad_count; p++)
+        rising->pads += events_pad_slid(drops->events, seen->interface, p);
     rising->bulk = bulk;
     rising->load = bulk || has_fallen(drops);
-    return !(rising->load || rising->pads > 0) || push_drop(drops, err);
+    return !(rising->load || rising->pads > 0) || push_drop(drops, seen->interface, err);
 }
 
 // While the whole block slides nothing rises: mu then says nothing of static friction.
@@ -236,10 +239,11 @@ static void drop_archive(Drop *drop, int32_t events, Archive *archive)
                        &drop->front_uncertified, &drop->front_growth);
 }
 
-// Work and states: room for as many as the list has.
+// Work, states and pads that slid: room for as many as the list has.
 static bool make_room(Drops *drops, Error *err)
 {
-    memory_free_all(drops->series, drops->states);
+    memory_free_all(drops->series, drops->slid, drops->states);
+    drops->slid = NEW_ARRAY(uint8_t, (int64_t)drops->room * drops->pad_count, err);
     drops->series = NEW_ARRAY(SeriesItem, drops->room, err);
     drops->states = NEW_ARRAY(double, (int64_t)(drops->room + 1) * state_size(drops), err);
     return error_is_clean(err);
@@ -257,6 +261,7 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
         drop_archive(&drops->list[k], events, archive);
         drops->list[k].state = k;
     }
+    archive_octets(archive, drops->slid, drops->count * drops->pad_count);
     archive_numbers(archive, drops->states, (int64_t)(drops->count + 1) * state_size(drops));
     stretches_archive(&drops->stretches, archive);
     archive_index(archive, &drops->settled, -1, drops->count + 1);

@@ -22,10 +22,11 @@ typedef struct Drop {
     double mu_after;   // the smallest mu of the event
     int32_t event;   // its number in the list of events
     int32_t state;   // the row of drops->states that holds the contact's state at that mu
-    int32_t pads;   // that slid over all their length in it
+    int32_t pads;   // how many slid over all their length in it (which: drops->slid)
     bool bulk, load;   // of these kinds; every bulk sliding is a load drop
     double critical_length;   // when the event began: l; on several pads how much slipped of the
-        // one on which slow slip turned fast. Of a bulk sliding l_c from the dynamics, length
+        // one on which slow slip turned fast. Of a bulk sliding l_c from the dynamics, length; NaN:
+        // no slow slip had come from the trailing end
     double critical_part;   // of the whole contact, how much slipped then: A_c/A
     // On one pad: l when the certificate was first lost (l_sc) and when real growth was first seen
     // (l_c from the rates) since the drop before, length; NaN: not seen.
@@ -39,6 +40,9 @@ typedef struct Drops {
     Drop *list;   // [count] in order of time; owned
     SeriesItem *series;   // [room] work; owned
     Stretches stretches;   // of the contact
+    uint8_t *slid;   // [room][pad_count] 1: this pad slid over all its length in the drop; owned
+    int32_t pad_count;
+    char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count], not owned; NULL: they have none
     double *states;   // [room + 1][2 stretches.count] a row a drop (stretches_read), the next one's
         // behind the last; owned
     int32_t settled;   // drops on the list when the last node of the contact slipped for the first

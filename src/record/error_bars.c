@@ -277,14 +277,19 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
     levels_estimate(levels);
 }
 
+const Level *levels_last(const Levels *levels)
+{
+    return levels->count > 0 ? &levels->list[levels->count - 1] : NULL;
+}
+
 bool levels_have_runs(const Levels *levels)
 {
-    return levels->count > 0 && levels->list[levels->count - 1].run_count > 0;
+    return levels->count > 0 && levels_last(levels)->run_count > 0;
 }
 
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
 {
-    return levels->count > 0 ? &levels->list[levels->count - 1].answer[kind] : NULL;
+    return levels->count > 0 ? &levels_last(levels)->answer[kind] : NULL;
 }
 
 // Over the value. NaN: cells are too long for slip.

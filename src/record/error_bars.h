@@ -79,6 +79,7 @@ typedef struct Levels {
 extern const char *const ANSWER_NAMES[ANSWER_KINDS];   // "mu_M", "mu_hold"
 
 // The last level has at least a whole run, and so have all before.
+const Level *levels_last(const Levels *levels);   // NULL: there is none
 bool levels_have_runs(const Levels *levels);
 // Adds a run to the last level, which has room, and estimates anew.
 void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps);

@@ -50,8 +50,8 @@ static void write_branches(const Levels *levels, JsonWriter *json)
 {
     SeriesItem sorted[LEVEL_RUNS_MAX];
     SeriesBranch branch;
-    const Level *last = &levels->list[levels->count - 1];
-    int32_t count = levels->count > 0 ? sort_runs(last, levels->asked, sorted) : 0;
+    const Level *last = levels_last(levels);
+    int32_t count = last ? sort_runs(last, levels->asked, sorted) : 0;
     json_begin_list(json, "branches");
     for (int32_t k = 0; k < count;) {
         k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The three kinds of precursor that Otsuki and Matsukawa (2013) tell apart, by two thresholds on
 // the largest slip rate, with hysteresis: quasi-static slip goes at V or less (its front and rate
-// are proportional to V), rapid slip at several V (bounded) or at several v_c (leading).
+// are proportional to V), rapid slip at several V (bounded) or at several v_c (leading). A fourth
+// kind is what passes the first threshold but is no precursor: slow slip that oscillates about V
+// comes to 2 V without ever turning back, and where it is not resolved single nodes jump.
 //
 // At any time at most one rapid event and one slow one are under way. A rapid event has hysteresis:
 // it begins above RATE_START and ends below RATE_STOP. `slipped` marks the nodes that have slipped
-// since it began; when all have, it is leading, and from then on the block slides.
+// since it began; when all have, it is leading, and from then on the block slides. An event begins
+// as slight; what it has come to so far can only raise its kind.
 #include "record/events.h"
 
 #include "base/memory.h"
@@ -18,6 +21,9 @@
 // Against the rod's velocity. Quasi-static slip stays below 1 in parameter set A (bounded events
 // reach 3 to 6, leading ones 90), so 2 and 1 leave room on both sides.
 static const double RATE_START = 2, RATE_STOP = 1;
+// A quarter above the most that an oscillation about V comes to without turning back.
+static const double RATE_COUNTS = 2.5;
+const double LEAST_RAPID = 0.05;
 enum { FIRST_ROOM = 64 };
 
 static const struct {
@@ -35,7 +41,7 @@ const char *event_name(EventKind kind)
 
 const char *event_words(double stored)
 {
-    return stored >= 0 && stored < EVENT_LEADING + 1 ? KINDS[(int32_t)stored].words : "unknown";
+    return stored >= 0 && stored < EVENT_KIND_COUNT ? KINDS[(int32_t)stored].words : "unknown";
 }
 
 // rate_scale: the rod's velocity, or what stands for it (model/obtain, set_scales).
@@ -43,6 +49,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 {
     *events = (Events){.rate_start = RATE_START * rate_scale,
                        .rate_stop = RATE_STOP * rate_scale,
+                       .rate_counts = RATE_COUNTS * rate_scale,
                        .in_space = interface->dim > 2,
                        .rapid = -1,
                        .slow = -1,
@@ -79,6 +86,7 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .U_start = seen->U,
                                    .t_start = seen->t,
                                    .front_start = events->front_before,
+                                   .front_slips = events->front_slips_before,
                                    .reach = seen->front,
                                    .front_speed = NAN,
                                    .area_front_speed = NAN,
@@ -218,7 +226,7 @@ static void note_slip(const Events *events, const Interface *interface, Event *e
 // Slip has turned fast in this step: where, and how much slipped there before.
 static bool start_rapid(Events *events, const Observation *seen, Error *err)
 {
-    if (!start_event(events, EVENT_BOUNDED, seen, &events->rapid, err)) return false;
+    if (!start_event(events, EVENT_SLIGHT, seen, &events->rapid, err)) return false;
     Event *event = &events->list[events->rapid];
     event->reach = interface_line_x(seen->interface, 0);   // slow slip of other pads is none of it
     event->pad = 0;
@@ -250,6 +258,25 @@ static void follow_front(Events *events, const Observation *seen)
     events->fast_reach = reach;
 }
 
+// Slip was rapid over LEAST_RAPID of the contact by now, or a pad has slid over all its length.
+static bool is_wide(const Events *events, const Interface *interface)
+{
+    double rapid = 0;
+    bool pad_slid = false;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (!isnan(events->path.arrival[i])) rapid += interface->weight[i];
+    for (int32_t p = 0; interface->pad_count > 1 && p < interface->pad_count; p++)
+        pad_slid = pad_slid || events_pad_slid(events, interface, p);
+    return rapid >= LEAST_RAPID * events->size || pad_slid;
+}
+
+static void raise_kind(Events *events, Event *event, EventKind kind)
+{
+    events->kinds[event->kind]--;
+    events->kinds[kind]++;
+    event->kind = kind;
+}
+
 // One step of the rapid event under way. It becomes leading in the step in which the last node has
 // slipped; the slow growth that came before ends with that, too.
 static void follow_rapid(Events *events, const Observation *seen)
@@ -259,10 +286,11 @@ static void follow_rapid(Events *events, const Observation *seen)
     front_path_follow(&events->path, seen);
     extend_event(event, seen, farthest_reach(events, seen->interface));
     follow_front(events, seen);
+    if (event->kind == EVENT_SLIGHT && event->peak_slip_rate >= events->rate_counts &&
+        is_wide(events, seen->interface))
+        raise_kind(events, event, EVENT_BOUNDED);
     if (all && event->kind != EVENT_LEADING) {
-        events->kinds[event->kind]--;
-        events->kinds[EVENT_LEADING]++;
-        event->kind = EVENT_LEADING;
+        raise_kind(events, event, EVENT_LEADING);
         events->crossed = true;
         end_slow(events, seen->interface);
     }
@@ -313,6 +341,7 @@ bool events_record(void *self, const Observation *seen, Error *err)
     pad_sums(seen, events->pads);
     bool followed = follow_step(events, seen, err);
     events->front_before = seen->front;
+    events->front_slips_before = seen->front_slips;
     front_path_keep(&events->path, seen);
     return followed;
 }
@@ -338,11 +367,12 @@ bool events_pad_slid(const Events *events, const Interface *interface, int32_t p
 static void event_archive(Event *event, int32_t pad_count, Archive *archive)
 {
     int32_t kind = (int32_t)event->kind;
-    archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_LEADING + 1);
+    archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_KIND_COUNT);
     event->kind = (EventKind)kind;
     archive_numbers_of(archive, &event->U_start, &event->U_stop, &event->t_start, &event->t_stop,
                        &event->front_start, &event->reach, &event->slipped, &event->peak_slip_rate,
                        &event->front_speed, &event->area_front_speed);
+    archive_flag(archive, &event->front_slips);
     archive_index(archive, &event->pad, -1, pad_count);
     archive_numbers_of(archive, &event->slip_length, &event->slip_cells, &event->slip_before);
     archive_numbers(archive, event->front_times, FRONT_STATIONS);
@@ -357,10 +387,11 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     events->list = list;
     for (int32_t k = 0; k < events->count; k++)
         event_archive(&events->list[k], interface->pad_count, archive);
-    archive_indices(archive, events->kinds, 3, 0, events->count + 1);
+    archive_indices(archive, events->kinds, EVENT_KIND_COUNT, 0, events->count + 1);
     archive_index(archive, &events->rapid, -1, events->count);
     archive_index(archive, &events->slow, -1, events->count);
     archive_number(archive, &events->front_before);
+    archive_flag(archive, &events->front_slips_before);
     archive_flag(archive, &events->began);
     archive_flag(archive, &events->ended);
     archive_flag(archive, &events->crossed);

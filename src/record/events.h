@@ -2,9 +2,11 @@
 // Precursors, told apart while the run goes on. Quasi-static slip goes at about the rod's velocity
 // or below; a rapid event begins when some contact node slips faster than `rate_start` and ends
 // when all are below `rate_stop`. It is leading when it carried the whole interface (every node
-// slipped from the trailing to the leading edge), bounded otherwise. Between slidings the slow
-// growth of the front is one quasi-static event. Read by record/drops, record/pads, record/fields
-// and run/report.
+// slipped from the trailing to the leading edge). Otherwise it is bounded, and counts as a
+// precursor, if it came to `rate_counts` and was rapid over LEAST_RAPID of the contact or slid a
+// whole pad; if not, it is slight: slow slip that rings, or a node or two that jump. Between
+// slidings the slow growth of the front is one quasi-static event. Read by record/drops,
+// record/pads, record/fields and run/report.
 #ifndef AMONTONS_RECORD_EVENTS_H
 #define AMONTONS_RECORD_EVENTS_H
 
@@ -15,12 +17,14 @@
 #define EVENT_KINDS(X)                                                                             \
     X(EVENT_QUASI_STATIC, "quasi-static", "quasi-static")                                          \
     X(EVENT_BOUNDED, "bounded rapid", "bounded rapid")                                             \
-    X(EVENT_LEADING, "leading rapid", "bulk sliding")
+    X(EVENT_LEADING, "leading rapid", "bulk sliding")                                              \
+    X(EVENT_SLIGHT, "slight rapid", "slight rapid")
 
 typedef enum EventKind {
 #define X(symbol, name, words) symbol,
     EVENT_KINDS(X)
 #undef X
+        EVENT_KIND_COUNT
 } EventKind;
 
 typedef struct Event {
@@ -28,6 +32,7 @@ typedef struct Event {
     double U_start, U_stop;   // length
     double t_start, t_stop;   // time
     double front_start;   // front when it began, length
+    bool front_slips;   // some node up to it slipped then (record/observation)
     double reach;   // slow: the farthest front; rapid: largest x up to which a pad that took part
         // has slipped from its trailing end on, along the line of the contact, length
     double
@@ -49,13 +54,14 @@ typedef struct Event {
 } Event;
 
 typedef struct Events {
-    double rate_start, rate_stop;   // velocity
+    double rate_start, rate_stop, rate_counts;   // velocity
     int32_t count, room;
     Event *list;   // [count] in order of their starts; owned
-    int32_t kinds[3];   // counted, by kind
+    int32_t kinds[EVENT_KIND_COUNT];   // counted, by kind
     int32_t rapid;   // index of the rapid event under way; -1: none
     int32_t slow;   // index of the quasi-static event under way; -1: none
     double front_before;   // front in the step seen before, length
+    bool front_slips_before;   // some node up to it slipped
     bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became
         // leading in this step
     uint8_t *slipped;   // [contact_count] in the rapid event under way; owned
@@ -69,6 +75,10 @@ typedef struct Events {
     bool in_space;
     PadSum *pads, *pads_before;   // [pad_count] of the step seen last, and before it; owned
 } Events;
+
+// Part of the contact over which slip is rapid at least in an event that counts as a bounded
+// precursor.
+extern const double LEAST_RAPID;
 
 const char *event_name(EventKind kind);   // static storage
 // Of a kind as history.h5 has it; "unknown": it is none. Static storage.

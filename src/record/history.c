@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double FLUSH_EVERY = 2.0;   // s; what a kill -9 may cost
+static const double FLUSH_EVERY = 2.0;   // s
+static const double FLUSH_SHARE = 0.02;   // of the time, at most, where the disk is slow
 
 // head: title, units and numbers are set; what belongs to the nodes is added here and points into
 // `history` and `interface`, which must outlive the call. `contact` must outlive the history.
@@ -18,8 +19,9 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
                     const ContactArrays *contact, History *history, Error *err)
 {
     int32_t count = interface->contact_count;
-    *history = (History){
-        .contact = contact, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
+    *history = (History){.contact = contact,
+                         .flush_at = clock_seconds() + FLUSH_EVERY,
+                         .pad_count = interface->pad_count};
     history->status = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     if (interface->line) history->line = NEW_ARRAY(double, count, err);
@@ -131,11 +133,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
     history->end.rows++;
     double now = clock_seconds();
     history->seconds += now - started;
-    if (now - history->flushed_at > FLUSH_EVERY) {
-        if (!array_file_flush(history->file, err)) return false;
-        history->flushed_at = now;
-    }
-    return true;
+    return now < history->flush_at || history_sync(history, err);
 }
 
 void history_end_archive(HistoryEnd *end, Archive *archive)
@@ -190,7 +188,11 @@ bool history_take_back(History *history, const HistoryEnd *end, Error *err)
 
 bool history_sync(History *history, Error *err)
 {
-    return !history->file || array_file_sync(history->file, err);
+    double started = clock_seconds();
+    bool done = !history->file || array_file_flush(history->file, err);
+    double now = clock_seconds();
+    history->flush_at = now + fmax(FLUSH_EVERY, (now - started) / FLUSH_SHARE);
+    return done;
 }
 
 // Entry number k of a table, of peaks or of events. false: that drop is no peak, a bulk sliding.

@@ -20,7 +20,7 @@ typedef struct History {
     HistoryEnd end;
     bool written[RESULT_SERIES_COUNT];   // which series there are
     double seconds;   // wall time spent
-    double flushed_at;   // wall time of the last flush, s
+    double flush_at;   // wall time of the next flush, s
     double *status;   // [contact_count] as numbers, of the step under way; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned
     double *line;   // [contact_count] 1: of the contact's line; NULL in the plane; owned

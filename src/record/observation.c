@@ -26,14 +26,17 @@ static double judged_velocity(const StepControl *control, const ObservationScale
 // rod's velocity hardly moves while the rod drives the block by its own slip.
 static const double CREEP = 0.1;
 
-// x of the last node of the run of nodes from the trailing edge that do not stick: l.
-static double slip_front(const Observation *seen)
+// x of the last node of the run of nodes from the trailing edge that do not stick: l. *slips: some
+// node of the run slips.
+static double slip_front(const Observation *seen, bool *slips)
 {
     const Interface *interface = seen->interface;
     double front = interface_line_x(interface, 0);
+    *slips = false;
     for (int32_t k = 0; k < interface_line_count(interface); k++) {
         int32_t i = interface_line_node(interface, k);
         if (seen_status(seen, i) == CONTACT_STICK) break;
+        *slips = *slips || status_slips(seen_status(seen, i));
         front = interface->x[i];
     }
     return front;
@@ -75,7 +78,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .certified = control->certified,
                         .grows = control->grows};
     if (friction_creeps(scheme->law)) seen.creep = CREEP * scales->slip_velocity;
-    seen.front = slip_front(&seen);
+    seen.front = slip_front(&seen, &seen.front_slips);
     if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;
     double load = scales->load * load_factor(scheme->course, state->time);
     seen.mu = seen.rod_force / load;

@@ -22,6 +22,8 @@ typedef struct Observation {
     double
         front;   // x to which slip reaches without a gap from the trailing edge, along the line of
     // the contact
+    bool front_slips;   // some node up to the front slips; false: these are all open, or the front
+        // stands at the trailing edge, and its place is no length of slip
     double trailing;   // x of the block's trailing end: l is front - trailing
     double max_slip_rate;   // velocity
     double creep;   // where no node ever sticks, one that slips slower than this counts as at rest;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a pad does is seen from two marks of each contact node: it has stuck since the last sliding,
-// and it has slipped since it stuck. A pad is detached when all of its nodes have; it slips rapidly
-// between the rates at which record/events begins and ends rapid events, so that the same
-// thresholds hold for pads and block.
+// and it has slipped since it stuck. A pad is detached when each of its nodes has slipped or is
+// open, and at least one of them has slipped: a lifted corner holds nothing, whether or not it ever
+// stuck. A pad slips rapidly between the rates at which record/events begins and ends rapid events,
+// so that the same thresholds hold for pads and block.
 #include "record/pads.h"
 
 #include "base/memory.h"
@@ -46,7 +47,7 @@ void pads_destroy(Pads *pads)
 }
 
 // A node counts from when it has stuck: the tail of a sliding is not the next cycle's slip.
-// An open node counts as one that has slipped, as it carries nothing.
+// A node that opens after it stuck has slipped, as it carries nothing any more.
 static void mark_nodes(Pads *pads, const Observation *seen)
 {
     for (int32_t i = 0; i < pads->contact_count; i++) {
@@ -55,15 +56,6 @@ static void mark_nodes(Pads *pads, const Observation *seen)
         else if (pads->stuck[i])
             pads->slipped[i] = 1;
     }
-}
-
-// How many nodes of pad p have slipped in this cycle.
-static int32_t count_slipped(const Pads *pads, const Interface *interface, int32_t p)
-{
-    int32_t slipped = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        if (interface->pad[i] == p) slipped += pads->slipped[i];
-    return slipped;
 }
 
 // How much of pad p slipped before it turned fast, if it is on this pad that a rapid event has
@@ -82,14 +74,19 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
     Pad *pad = &pads->list[p];
     PadCycle *now = &pad->now;
     const PadSum *sum = &pads->events->pads[p];
-    int32_t slipped = count_slipped(pads, seen->interface, p);
+    int32_t slipped = 0, free = 0;   // nodes that have slipped in this cycle; that or are open now
+    for (int32_t i = 0; i < pads->contact_count; i++) {
+        if (seen->interface->pad[i] != p) continue;
+        slipped += pads->slipped[i];
+        free += pads->slipped[i] || seen_status(seen, i) == CONTACT_OPEN;
+    }
     if (!pads->started) pad->normal_force_start = sum->normal_force;
     if (seen->mu > pads->mu) {
         now->normal_force = sum->normal_force;
         now->shear = sum->shear;
     }
     if (slipped > 0 && isnan(now->U_first_slip)) now->U_first_slip = seen->U;
-    if (slipped == pad->size.nodes && isnan(now->U_detached)) {
+    if (slipped > 0 && free == pad->size.nodes && isnan(now->U_detached)) {
         now->U_detached = seen->U;
         now->order = pads->detached + 1;
         ++*detaching;
@@ -138,6 +135,31 @@ bool pads_record(void *self, const Observation *seen, Error *err)
     if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING))
         begin_cycle(pads);
     return error_is_clean(err);
+}
+
+void pads_order(const Pads *pads, char text[PADS_ORDER_SIZE])
+{
+    int32_t told = 0, left = 0;
+    size_t used = 0;
+    *text = '\0';
+    for (int32_t p = 0; p < pads->count; p++) left += pads->list[p].last.order > 0;
+    for (int32_t order = 1; order <= pads->count; order++) {
+        bool first = true;   // of those that let go in the same step
+        for (int32_t p = 0; p < pads->count; p++) {
+            const Pad *pad = &pads->list[p];
+            if (pad->last.order != order) continue;
+            const char *before = told == 0 ? "" : first ? ", " : " with ";
+            if (used + strlen(before) + strlen(pad->name) + sizeof ", and 2147483647 more" >
+                PADS_ORDER_SIZE) {
+                snprintf(text + used, PADS_ORDER_SIZE - used, ", and %d more", left);
+                return;
+            }
+            used += (size_t)sprintf(text + used, "%s%s", before, pad->name);
+            first = false;
+            told++;
+            left--;
+        }
+    }
 }
 
 void pads_write_json(const Pads *pads, JsonWriter *json)

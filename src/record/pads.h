@@ -14,7 +14,8 @@
 typedef struct PadCycle {
     double normal_force, shear;   // where mu was largest, force/width
     double U_first_slip;   // when some of it slips, length
-    double U_detached;   // when all of it has slipped since the sliding before, length
+    double U_detached;   // when each of its nodes had slipped since the sliding before or was open,
+        // length
     int32_t order;   // of that, from 1; pads that detach in the same step share it
     double U_rapid, t_rapid;   // when it slips rapidly for the last time before sliding
     double slow_length;   // how much of it slipped just before: l_c of the pad, length; NaN: slip
@@ -50,6 +51,11 @@ void pads_destroy(Pads *pads);
 bool pads_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
 void pads_write_json(const Pads *pads, JsonWriter *json);   // results.pads
+
+// The order in which pads let go before the last sliding of the whole block: "left, middle with
+// right". As many names as there is room for, then "and 7 more". Empty: there was no such sliding.
+enum { PADS_ORDER_SIZE = 200 };
+void pads_order(const Pads *pads, char text[PADS_ORDER_SIZE]);
 
 void pads_archive(Pads *pads, Archive *archive);
 

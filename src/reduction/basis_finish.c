@@ -60,7 +60,7 @@ bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err)
     double *w = basis->interior[BULK_MASS], *half = basis->interior[BULK_STIFFNESS],
            *damping = basis->interior[BULK_DAMPING];
     DenseView turn = dense_view(w, r, r);
-    double *work = NEW_ARRAY(double, dense_eigen_work((int32_t)r), err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(r), err);
     double *beside = NEW_ARRAY(double, r *m, err);
     part->full_dofs = basis->full_dofs;
     part->border_count = (int32_t)m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is left of a response is a difference of nearly equal energies. Its products come from
+// The remainder of a response is a difference of nearly equal energies. Its products come from
 // those of the responses, so that columns as long as the mesh are multiplied once. Where too many
 // digits are lost, or some of what is new depends on the rest, the block itself becomes what is new
 // of it, orthonormal in K, and is multiplied by the mesh.
@@ -16,7 +16,7 @@ static const double DEPENDENT_LIMIT = 1e-12;
 
 enum { INVERSE_STEPS = 8 };   // to the smallest eigenvalue, within some per cent
 
-// What the next block brings, as small matrices.
+// The extension by the next block, as small matrices.
 typedef struct Extension {
     int64_t m, count, added;   // count: columns of Phi before
     double *gram[BULK_TERMS];   // [(m + count + added) * added] X' (K, C, M) X_next
@@ -118,7 +118,7 @@ static void take_out_statics(const Basis *basis, const ResponseBlock *next, Exte
     dense_apply_transposed(parts, basis->load, -1, 1, x->load);
 }
 
-// Of L L', from above.
+// An upper bound of the smallest eigenvalue of L L'.
 static double smallest_eigenvalue(const double *lower, int32_t n, double *work)
 {
     double size = 0;
@@ -151,13 +151,13 @@ static double factor_energy(const Basis *basis, Extension *x)
     return least > DEPENDENT_LIMIT * x->largest ? x->largest / least : INFINITY;
 }
 
-// What of the new columns is not rounding, orthonormal in K: eigenvectors of what is left of their
-// energy, in `turn` [added * added], its last columns; how many.
+// Finds the part of the new columns above rounding, orthonormal in K: eigenvectors of their
+// remaining energy, in `turn` [added * added], its last columns; how many.
 static bool find_new(Extension *x, double *turn, int64_t *kept, Error *err)
 {
     int32_t added = (int32_t)x->added;
     double *values = NEW_ARRAY(double, added, err);
-    double *work = NEW_ARRAY(double, dense_eigen_work(added), err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(added), err);
     if (!values || !work) goto cleanup;
     DenseView along = dense_view(x->along, x->count, added);
     memcpy(turn, x->own[BULK_STIFFNESS], (size_t)(x->added * x->added) * sizeof *turn);
@@ -248,7 +248,7 @@ static bool extend_square(double **square, const Extension *x, BulkTerm term, Er
     return true;
 }
 
-// Of the factor, whose upper triangle is of no use.
+// Extends the lower factor; its upper triangle has no meaning.
 static bool extend_lower(Basis *basis, const Extension *x, Error *err)
 {
     int64_t count = x->count, added = x->added, size = count + added;

@@ -18,7 +18,7 @@ typedef struct FactoredPointsDef {
     const double *load;   // [dofs]
     const OperatorTerms *terms;   // [count]
     int32_t count;
-    // Of term `k`; the point is gone afterwards.
+    // Is called for term `k`; the point is gone afterwards.
     bool (*visit)(void *context, int32_t k, const FactoredPoint *point, Error *err);
     void *context;
 } FactoredPointsDef;

@@ -4,7 +4,7 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 
-// Of what is allowed: a larger error of S and all is done on the whole bulk.
+// Part of the allowed error: with a larger error of S all is done on the whole bulk.
 static const double ERROR_MAX = 0.15;
 
 void far_field_destroy(FarField *far)
@@ -20,7 +20,7 @@ void far_field_destroy(FarField *far)
 static bool append_patch(const Bulk *mesh, const PatchModes *modes, Transform *by, Error *err)
 {
     int64_t q = modes->count, size = modes->size;
-    double *work = NEW_ARRAY(double, dense_eigen_work(modes->count), err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(modes->count), err);
     double *values = NEW_ARRAY(double, q, err);
     double *stiffness = NEW_ARRAY(double, q *q, err), *mass = NEW_ARRAY(double, q *q, err);
     double *turned = NEW_ARRAY(double, size *q, err);

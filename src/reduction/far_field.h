@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is far from the interface moves in few ways only: a wave of wave number k has fallen by
+// Far from the interface the bulk moves in few ways only: a wave of wave number k has fallen by
 // exp(-k d) at a distance d. So unknowns far from it are replaced by a few modes, patch by
 // patch, the deeper the larger (reduction/far_patches):
 //
@@ -7,7 +7,7 @@
 //                                         [   F1        ]
 //                                         [      F2     ]   and so on.
 //
-// What is left is a small bulk: rows of elements that are near, and dense blocks, few of them high
+// The result is a small bulk: rows of elements that are near, and dense blocks, few of them high
 // up. The error in S is measured at a point that the modes were not made at; where it is no small
 // part of what is allowed nothing is replaced. Called by reduction/reduction.
 #ifndef AMONTONS_REDUCTION_FAR_FIELD_H

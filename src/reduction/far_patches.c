@@ -21,8 +21,8 @@ static const double LEFT = 1.5;
 
 enum { LAYERS_MAX = 12 };
 
-// Of each unknown: elements from the interface, -1: out of reach; the place of the nearest unknown
-// of the interface.
+// Distance of each unknown from the interface in elements, -1: out of reach; the place of the
+// nearest unknown of the interface.
 typedef struct Reach {
     int32_t *distance, *nearest;   // [dofs] owned
     int32_t farthest;

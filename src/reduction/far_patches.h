@@ -2,7 +2,7 @@
 // The unknowns far from the interface, divided into patches: layers by their distance from it, each
 // twice as deep as the one before, and each cut into parts that are nearest to the same part of the
 // interface, twice as wide, too. Called by reduction/far_field
-// and reduction/far_samples, its counts by model/choice.
+// and reduction/far_samples, its counts by model/memory.
 #ifndef AMONTONS_REDUCTION_FAR_PATCHES_H
 #define AMONTONS_REDUCTION_FAR_PATCHES_H
 

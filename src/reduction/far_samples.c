@@ -28,7 +28,7 @@ static const double INERTIA_STEP = 6;
 // e^-5 of a response has come through the elements between at most, where inertia is asked last.
 static const double FALLEN = 5;
 
-// Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
+// Part of the mean diagonal by which S of K alone is lifted, as rigid motions cost nothing there.
 static const double LIFT = 1;
 
 enum { LEVELS_MAX = 16, POINTS_MAX = TRAINING_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
@@ -147,7 +147,7 @@ static int32_t take_load(const Sampling *work, const double *held)
     return 1;
 }
 
-// What is new in the responses before to patches that found much of it.
+// The part of the earlier responses that is new to patches which found much of it.
 typedef struct Turn {
     Sampling *work;
     DenseView fields;
@@ -266,7 +266,7 @@ bool far_samples_compare(const FarSamples *samples, BulkOperator *mesh, BulkOper
     int32_t m = left->interface_count;
     InterfaceOperator *full = NULL, *condensed = NULL;
     double *excess = NEW_ARRAY(double, (int64_t)m *m, err), *values = NEW_ARRAY(double, m, err);
-    double *work = NEW_ARRAY(double, dense_eigen_work(m), err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(m), err);
     if (!error_is_clean(err)) goto cleanup;
     full = interface_operator_create(mesh, samples->compared, err);
     TRY((condensed = full ? interface_operator_create(left, samples->compared, err) : NULL));

@@ -14,7 +14,7 @@ typedef struct FarFieldDef {
     Materials materials;
 } FarFieldDef;
 
-// What the whole mesh says, of which the first line is given.
+// Samples of the whole mesh; the first field is given.
 typedef struct FarSamples {
     FarPatches *patches;   // begun and filled; not owned
     double *stiffness;   // [interface_count^2] S of K/E; owned by who calls

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the time stepper knows of the bulk: a linear system with `dof_count` unknowns, of which a
+// The bulk as the time stepper sees it: a linear system with `dof_count` unknowns, of which a
 // few, the interface, carry unknown reactions:
 //
 //     M u'' + C u' + K u = f + G' r
@@ -73,12 +73,12 @@ void interface_operator_destroy(InterfaceOperator *condensed);   // NULL is fine
 const double *interface_operator_schur(const InterfaceOperator *condensed);
 // S is no longer kept; asked for it, NULL. What is condensed needs none.
 void interface_operator_drop_schur(InterfaceOperator *condensed);
-// Of the full mesh, not lifted: the Cholesky factor of S, 0 above the diagonal.
+// The Cholesky factor of S of a full mesh that is not lifted, 0 above the diagonal.
 const double *interface_operator_schur_lower(const InterfaceOperator *condensed);
 // rhs [dof_count] -> g [interface_count]; expand must follow before the next condense.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err);
-// What pulls the rod at v_R = 0 in all that is condensed from here on, force/width.
+// Sets the force that pulls the rod at v_R = 0 in all that is condensed from here on, force/width.
 void interface_operator_pull(InterfaceOperator *condensed, double force);
 // y [interface_count], against the rod, becomes v_b; returns v_R (0, and v_b as it is: no spring).
 double interface_operator_release(const InterfaceOperator *condensed, double *velocity);
@@ -98,7 +98,7 @@ bool interface_operator_respond_held(InterfaceOperator *condensed, const double 
 
 // The load, which a caller may have changed, and the counters; all else is the model's.
 void bulk_operator_archive(BulkOperator *system, Archive *archive);
-// What a state of it depends on: a state of another bulk means nothing here.
+// Hashes all that a state depends on: a state of another bulk means nothing here.
 void bulk_operator_hash(const BulkOperator *system, Hash *hash);
 
 #endif

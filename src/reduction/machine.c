@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-// Of damping alone kappa is 0, and S' of all rod nodes is singular: a rod that no node touches may
-// move as it likes. It gets this part of what the block sets against it, far above rounding and far
-// below what tells a certified state from another.
+// With damping alone kappa is 0, and S' of all rod nodes is singular: a rod that no node touches
+// may move as it likes. It gets this part of what the block sets against it, far above rounding and
+// far below what tells a certified state from another.
 static const double LOOSE = 1e-6;
 
 // So it is in a step so short that beside the block the spring is rounding. There the rod gets at

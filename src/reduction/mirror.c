@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-// Of the diagonal entries of row and column, for rounding.
+// Tolerance for rounding, relative to the diagonal entries of row and column.
 static const double ALIKE = 1e-9;
 
 // More mirrored unknowns than this part of the interface: it lies on one side, and two parts gain
@@ -47,7 +47,7 @@ void mirror_destroy(Mirror *mirror)
     *mirror = (Mirror){0};
 }
 
-// What moves along the axis, and nothing else, has another sign in the image of a motion.
+// Motion along the axis, and no other, changes its sign in the image.
 static double sign_of(const Finder *find, int32_t k, int32_t dof)
 {
     return dof_axis(find->bulk->dim, dof) == find->axis[k] ? -1 : 1;

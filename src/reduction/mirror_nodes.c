@@ -34,7 +34,7 @@ static bool are_close(int32_t dim, const double *one, const double *other, doubl
     return true;
 }
 
-// What is looked through.
+// The nodes that are searched.
 typedef struct Nodes {
     int32_t dim, count;
     const double *position;   // [count * dim]

@@ -24,7 +24,7 @@ void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double 
     if (r > 0) dense_apply_transposed(coupling, x + m, 1, 1, y);
 }
 
-// Of a column of A, but for its part in K; mass: NULL is 0.
+// Adds up a column of A without its part in K; mass: NULL is 0.
 static void combine_column(OperatorTerms terms, const double *mass, const double *damping,
                            int64_t rows, double *out)
 {

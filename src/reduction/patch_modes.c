@@ -7,11 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-// Of the largest energy of some fields: what has less is looked at again when the others are taken
-// out, or half of its digits would be lost.
+// Part of the largest energy of some fields: a field with less is looked at again when the others
+// are taken out, or half of its digits would be lost.
 static const double DIGITS = 1e-8;
 
-// Of the squares of some fields: taken out once more where less is left.
+// Part of the squares of some fields: where less is left, they are taken out once more.
 static const double LITTLE = 1e-4;
 
 void patch_modes_destroy(PatchModes *modes)
@@ -29,7 +29,7 @@ bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err)
                       .parts = NEW_ARRAY(double, (size + columns) * columns, err),
                       .energies = NEW_ARRAY(double, columns *columns, err),
                       .values = NEW_ARRAY(double, columns, err),
-                      .eigen = NEW_ARRAY(double, dense_eigen_work((int32_t)columns), err)};
+                      .eigen = NEW_ARRAY(double, DENSE_EIGEN_WORK(columns), err)};
     return error_is_clean(err);
 }
 

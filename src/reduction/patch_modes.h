@@ -18,11 +18,11 @@ typedef struct PatchModes {
     double *image;   // [size * room] (K/E) F
 } PatchModes;
 
-// What one thread works in, patch by patch.
+// Work arrays of one thread, used patch by patch.
 typedef struct FarRoom {
     double *rows, *next;   // [size * columns] rows of the fields, their image
     double *parts;   // [(size + columns) * columns]
-    double *energies, *values, *eigen;   // [columns^2], [columns], [dense_eigen_work(columns)]
+    double *energies, *values, *eigen;   // [columns^2], [columns], [DENSE_EIGEN_WORK(columns)]
 } FarRoom;
 
 // For patches of up to `size` unknowns, `columns` fields at once.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a reduced bulk is asked in a scene's units: products, and its A condensed on the interface.
+// Products of a reduced bulk in a scene's units, and its A condensed on the interface.
 // It does so part by part, with work that all it made share: not from two threads at once. Called
 // by reduction/interface_operator.
 #ifndef AMONTONS_REDUCTION_REDUCED_OPERATOR_H

@@ -45,7 +45,7 @@ typedef struct Builder {
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *excess;   // [m^2] S_r - S
     double *values;   // [m] eigenvalues
-    double *eigen_work;   // [dense_eigen_work(m)]
+    double *eigen_work;   // [DENSE_EIGEN_WORK(m)]
     BulkOperator mesh;   // the whole, where nothing is replaced
     FarField far;
 } Builder;
@@ -65,7 +65,7 @@ static bool builder_create(Builder *work, Error *err)
     if (!basis_create(work->full, &work->def->scales, &work->basis, err)) return false;
     work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
     work->values = NEW_ARRAY(double, m, err);
-    work->eigen_work = NEW_ARRAY(double, dense_eigen_work(m), err);
+    work->eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(m), err);
     return error_is_clean(err);
 }
 
@@ -190,7 +190,7 @@ static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error 
     TrainingPoint now = work->training.points[k];
     double left = 0, *error = &work->part->errors.error[now.level];
     if (!train_at(work, now.point, full, &left, err)) return false;
-    // What the last one added is looked at, too.
+    // The error left by the last addition counts, too.
     if (k == work->training.count - 1 && !train_at(work, now.point, full, &left, err)) return false;
     *error = fmax(*error, left);
     return true;
@@ -218,7 +218,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What is far from the interface comes back into the modes.
+// Expands the unknowns far from the interface in their modes.
 static bool expand_modes(Builder *work, Error *err)
 {
     const Transform *by = &work->far.modes;

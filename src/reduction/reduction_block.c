@@ -91,7 +91,7 @@ bool reduction_block_assemble(const Mesh *mesh, ReductionBlock *block, Error *er
     return bulk_assemble(&scaled, block->materials.list, &block->bulk, err);
 }
 
-// Of several materials all numbers, and where each is.
+// Hashes all numbers of several materials, and where each of them is.
 static void hash_materials(const Materials *materials, const Mesh *mesh, Hash *hash)
 {
     hash_number(hash, materials->list[0].poisson);

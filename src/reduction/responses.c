@@ -151,7 +151,7 @@ static unsigned needed_products(const Responses *responses, const ResponseBlock 
     return apart ? light : mass | light;
 }
 
-// What is done to each piece of the next block's columns.
+// The product that each piece of the next block's columns goes through.
 typedef struct Multiplication {
     const Responses *responses;
     double *const *gram;

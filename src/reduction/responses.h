@@ -31,7 +31,7 @@ typedef struct ResponseShelf {
     int64_t room, filled;   // columns
 } ResponseShelf;
 
-// What one thread multiplies in; owned.
+// Work arrays of one thread for products; owned.
 typedef struct ResponseRoom {
     double *image;   // [dofs * RESPONSES_TOGETHER]
     double *product;   // [rows * RESPONSES_TOGETHER] while responses are multiplied

@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "reduction/mirror.h"
 
-// What of the whole follows from its parts.
+// Sets the numbers of the whole that follow from its parts.
 static bool join(ReducedBulk *reduced, Error *err)
 {
     const double *loads[REDUCED_PARTS_MAX];
@@ -20,7 +20,8 @@ static bool join(ReducedBulk *reduced, Error *err)
     return reduced->load != NULL;
 }
 
-// Of the unknowns on the border; a rigid motion is a static one, so that all else follows.
+// Lists rigid motions of the unknowns on the border; a rigid motion is a static one, so that all
+// else follows.
 static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const ReductionDef *def,
                                ReducedBulk *reduced, Error *err)
 {

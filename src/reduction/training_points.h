@@ -35,8 +35,8 @@ void training_points_list(const Materials *materials, const BulkScales *scales, 
                           double element_inertia, ReductionErrors *errors,
                           TrainingPoints *training);
 
-// What the ends and steps in viscosity are: viscosity [TRAINING_VISCOSITIES_MAX] ascending; their
-// number.
+// Finds the ends and steps in viscosity: viscosity [TRAINING_VISCOSITIES_MAX] ascending; returns
+// their number.
 int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
                              double *viscosity);
 

@@ -23,7 +23,7 @@ static const double STEP = 1.189207115002721;   // of cell size from level to le
 // the levels of a search tell of it says less: times of short runs are noise.
 static const double GROWTH[] = {2, 4};
 // A mesh may take so many times less than is expected: of long ones nine of ten are off by less
-// (validation/strangers/forecasts.py --meshes). One that time then cuts short costs time that
+// (validation/strangers/forecasts.py). One that time then cuts short costs time that
 // nothing else could use.
 static const double FORECAST_OFF = 2;
 

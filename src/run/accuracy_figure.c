@@ -4,6 +4,7 @@
 #include "amontons.h"
 #include "base/text.h"
 #include "io/files/folder.h"
+#include "io/files/own_list.h"
 #include "io/text/json_writer.h"
 
 #include <math.h>
@@ -104,7 +105,8 @@ void accuracy_stopped(Levels *levels, const char *title, const char *folder, Err
         error_context(err, "no run has ended yet, nothing was written");
         return;
     }
-    bool kept = folder && accuracy_figure(levels, title, folder, &failed);
+    bool kept = folder && own_list_make(folder, &failed) &&
+                accuracy_figure(levels, title, folder, &failed);
     name_estimates(levels, estimates);
     *err = (Error){0};
     (void)FAULT(

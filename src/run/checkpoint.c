@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/checkpoint.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/clock.h"
 #include "run/warnings.h"
 
@@ -104,13 +104,13 @@ bool checkpoint_try_history(const char *folder, const HistoryEnd *end, Error *er
     char path[PATH_SIZE];
     HistoryTry try = {folder, end};
     snprintf(path, sizeof path, "%s/history.h5", folder);
-    ApartWork work = {.path = path,
+    ChildWork work = {.path = path,
                       .reader = "HDF5",
                       .seconds = 600,
                       .advice = "say --overwrite to begin anew",
                       .read = try_history,
                       .context = &try};
-    if (apart_do(&work, err)) return true;
+    if (child_do(&work, err)) return true;
     err->code = ERROR_INPUT;
     error_context(err, "the history cannot be gone on with (--overwrite begins anew)");
     return false;

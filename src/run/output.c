@@ -73,7 +73,8 @@ static bool open_history(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const Model *model = &simulation->model;
-    WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
+    const Material *material = &model->materials.list[model->contact_region];
+    WaveSpeeds speeds = material_speeds(material);
     bool creeps = friction_creeps(&model->law);
     char names[STATES_MAX * (STATE_NAME_SIZE + 1)];
     ResultHead head = {
@@ -97,6 +98,8 @@ static bool open_history(Simulation *simulation, Error *err)
                     [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
                     [NUMBER_C_SHEAR] = speeds.shear,
                     [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
+                    [NUMBER_WAVE_DAMPING] =
+                        material_wave_damping(material, fmax(model->length, model->height)),
                     [NUMBER_ROD_LOW] = NAN,
                     [NUMBER_ROD_HIGH] = NAN,
                     [NUMBER_ROD_BREADTH] = NAN,

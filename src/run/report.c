@@ -67,15 +67,6 @@ static void write_timing(JsonWriter *json, const Model *model, const RunTiming *
                    {"outside_loop_cpu", timing->outside});
 }
 
-// What `reduction.use: auto` chose by, processor seconds.
-static void write_expected(JsonWriter *json, const Model *model)
-{
-    const ExpectedCost *expected = &model->expected;
-    json_object_of(json, "expected_s", {"reduction", expected->reduction},
-                   {"reduced", expected->reduced}, {"full", expected->full},
-                   {"stages", trunc(model->choice.stages)}, {"runs", trunc(model->choice.runs)});
-}
-
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
@@ -87,21 +78,31 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_boolean(json, "by_halves", model->reduced.part_count > 1);
     json_text(json, "mesh_by", model->mesh_origin == MESH_OF_CACHE ? "cache" : "gmsh");
     json_boolean(json, "from_cache", model->from_cache);
-    write_expected(json, model);
+    json_number(json, "mesh_scale", model->mesh.move.scale);
+    json_number_list(json, "mesh_shift", model->mesh.move.shift, model->mesh.dim);
     json_numbers_of(json, {"length", model->length}, {"height", model->height});
     json_object_of(json, "wave_speeds", {"longitudinal", speeds.longitudinal},
                    {"shear", speeds.shear}, {"rayleigh", speeds.rayleigh});
+    json_number(json, "wave_damping",
+                material_wave_damping(&model->materials.list[model->contact_region],
+                                      fmax(model->length, model->height)));
     json_integer(json, "relaxation_steps", relaxation_steps);
     json_text(json, "cache_note", model->cache_note[0] ? model->cache_note : NULL);
     json_end(json);
 }
 
-// When the front of a rapid event came to each station, and how fast it went in between.
-static void write_front(JsonWriter *json, const Event *event, const FrontPath *path)
+// When the front of a rapid event came to each station, how fast it went in between, and whether
+// that is faster than the fastest wave anywhere.
+static void write_front(JsonWriter *json, const Event *event, const FrontPath *path,
+                        double wave_speed)
 {
     double speeds[FRONT_STATIONS - 1];
-    for (int32_t k = 0; k < FRONT_STATIONS - 1; k++)
+    bool faster = fabs(event->front_speed) > wave_speed;
+    for (int32_t k = 0; k < FRONT_STATIONS - 1; k++) {
         speeds[k] = front_path_speed(path, event->front_times, k);
+        faster = faster || fabs(speeds[k]) > wave_speed;
+    }
+    json_boolean(json, "faster_than_waves", faster);
     json_number_list(json, "front_times", event->front_times, FRONT_STATIONS);
     json_number_list(json, "front_speeds", speeds, FRONT_STATIONS - 1);
 }
@@ -120,7 +121,8 @@ static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
 }
 
 // In order of time, slow ones too; only rapid ones have a front to follow.
-static void write_events(JsonWriter *json, const Events *events, const Pads *pads)
+static void write_events(JsonWriter *json, const Events *events, const Pads *pads,
+                         double wave_speed)
 {
     json_begin_list(json, "events");
     for (int32_t k = 0; k < events->count; k++) {
@@ -139,7 +141,7 @@ static void write_events(JsonWriter *json, const Events *events, const Pads *pad
         if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, pads);
-            write_front(json, event, &events->path);
+            write_front(json, event, &events->path, wave_speed);
         }
         json_end(json);
     }
@@ -163,7 +165,11 @@ static void write_results(JsonWriter *json, const RunReport *report)
     pads_write_json(&simulation->pads, json);
     if (simulation->model.interface.dim > 2) turning_write_json(&simulation->turning, json);
     if (simulation->readings.course) program_results_json(&simulation->readings, json);
-    write_events(json, &simulation->events, &simulation->pads);
+    const Model *model = &simulation->model;
+    const Material *material =
+        model->materials.count > 0 ? &model->materials.list[model->contact_region] : NULL;
+    write_events(json, &simulation->events, &simulation->pads,
+                 material ? material_speeds(material).longitudinal : (double)NAN);
     json_end(json);
 }
 

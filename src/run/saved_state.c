@@ -245,17 +245,6 @@ static bool open_archive(const SavedState *state, Archive *archive, Error *err)
     return true;
 }
 
-SceneReduce saved_state_reduction(const SavedState *state)
-{
-    char format[WORD_SIZE + 1] = "";
-    Archive archive = archive_read(state->bytes, state->size);
-    archive_text(&archive, format, sizeof format);
-    if (archive.failed) return REDUCE_AUTO;
-    return strcmp(format, FORMATS[1]) == 0   ? REDUCE_ALWAYS
-           : strcmp(format, FORMATS[0]) == 0 ? REDUCE_NEVER
-                                             : REDUCE_AUTO;
-}
-
 bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead *head, Error *err)
 {
     Archive archive;
@@ -299,7 +288,7 @@ bool saved_state_take_back(Simulation *simulation, const SavedState *state, Erro
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
-    return part_file_put(path, state->bytes, state->size, err);
+    return part_file_put(path, true, state->bytes, state->size, err);
 }
 
 // Checked when it is restored.

@@ -16,10 +16,6 @@ typedef struct SavedHead {
 // not so.
 bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead *head, Error *err);
 
-// Whether the state is one of a reduced block (REDUCE_ALWAYS) or of the full mesh (REDUCE_NEVER),
-// so that `auto` goes on with what it chose; REDUCE_AUTO: it is no state. Nothing else is checked.
-SceneReduce saved_state_reduction(const SavedState *state);
-
 // Where the computation stands, without what was written of it and what the report counts: for
 // run/rewind. Taken back, the simulation goes the same way again.
 bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err);

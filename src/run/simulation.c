@@ -181,6 +181,8 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
     if (!result_folder_claim(options->folder, options->overwrite || options->resume,
                              &simulation->folder, err))
         return false;
+    const char *unlocked = file_lock_warning(&simulation->folder.lock);
+    if (unlocked) warnings_add(&simulation->warnings, "%s", unlocked);
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
         return REFUSE(err,
                       "%s: says not when to stop (time.until): it is a scene for `amontons static`",
@@ -188,7 +190,6 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
     if (options->resume && !options->folder)
         return REFUSE(err, "a run without a result folder leaves nothing to go on from");
     if (options->resume && !checkpoint_read(options->folder, state, err)) return false;
-    if (options->resume) simulation->scene.reduction.decided = saved_state_reduction(state);
     return true;
 }
 
@@ -213,11 +214,19 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
     StageNotice notice = {.tell = tell_stage, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
+    if (simulation->model.not_reduced[0])
+        warnings_add(&simulation->warnings,
+                     "the block is not reduced, steps are those of the whole mesh: %s",
+                     simulation->model.not_reduced);
     TRY(start_prepare_steps(simulation, err));
+    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
     if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
         warnings_add(&simulation->warnings,
                      "material.plane means nothing here: the mesh is in space");
     Schedule load = scene_schedule(&scene->load.program);
+    if (simulation->model.mesh.warning[0])
+        warnings_add(&simulation->warnings, "gmsh made the mesh, but says: %s",
+                     simulation->model.mesh.warning);
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);
@@ -225,6 +234,9 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                        &simulation->warnings);
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,
                       &simulation->warnings);
+    warnings_of_units(&simulation->model, &simulation->warnings);
+    warnings_of_gaps(&simulation->model, &simulation->warnings);
+    warnings_of_states(&simulation->model, &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
     if (options->resume)
@@ -363,7 +375,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
-    warnings_of_turning(&simulation->turning, &simulation->warnings);
+    warnings_of_turning(&simulation->scene, &simulation->turning, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside &&
         !(output_store_warnings(simulation, err) &&

@@ -7,14 +7,18 @@
 
 #include <math.h>
 
-// Always false.
+// Always false. Says what is kept only where it is.
 static bool stop_here(Simulation *simulation, Error *err)
 {
-    Error unseen = {0};
-    bool kept = checkpoint_is_kept(simulation) && checkpoint_now(simulation, &unseen);
+    Error lost = {0};
+    bool asked = checkpoint_is_kept(simulation), kept = asked && checkpoint_now(simulation, &lost);
     const char *folder = simulation->folder.path;
-    return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", simulation->seen.U,
-                 simulation->seen.t, *folder ? "; what was computed is kept in " : "", folder,
+    double U = simulation->seen.U, t = simulation->seen.t;
+    if (asked && !kept)
+        return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g); this state is not kept: %s",
+                     U, t, lost.message);
+    return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", U, t,
+                 *folder ? "; what was computed is kept in " : "", folder,
                  kept ? "; the same command with --resume goes on from there" : "");
 }
 

@@ -138,19 +138,28 @@ static void note_slip(const Simulation *simulation, int32_t first, RunSummary *s
 static void note_levels(const Simulation *simulation, RunSummary *summary)
 {
     const Levels *levels = simulation->levels;
-    const Level *last = &levels->list[levels->count - 1];
+    const Level *last = levels_last(levels);
     for (int32_t l = 0; l < levels->count; l++) summary->bar_runs += levels->list[l].run_count;
     summary->bar_meshes = levels->count;
-    summary->bar_nodes = last->contact_nodes;
+    summary->bar_nodes = last ? last->contact_nodes : 0;
     summary->bar_wanted = levels->wanted;
     summary->bar_window = simulation->scene.accuracy.window;
     summary->bar_ended = levels->ended;
+    const Scene *scene = &simulation->scene;
+    summary->bar_goes_on = scene->time.until_periodic || scene->time.until_slidings > 0 ||
+                           scene->time.until_mu_below > 0;
 }
 
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
     NUMBERS_HAVE_A_POINT;
     text_estimate(value, bar, known_to, text);
+}
+
+void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
+{
+    NUMBERS_HAVE_A_POINT;
+    text_known_to(value, known_to, text);
 }
 
 static void note_program(const ProgramReadings *readings, RunSummary *summary)
@@ -192,6 +201,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .quasi_static = kinds[EVENT_QUASI_STATIC],
                             .bounded = kinds[EVENT_BOUNDED],
                             .leading = kinds[EVENT_LEADING],
+                            .slight = kinds[EVENT_SLIGHT],
                             .critical_length = answers->critical_length / simulation->model.length,
                             .energy_error = simulation->errors.energy,
                             .moment_error = simulation->errors.moment,
@@ -205,7 +215,9 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .figures = simulation->figures};
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
+    mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
     note_slip(simulation, answers->first, summary);
+    if (simulation->pads.count > 1) pads_order(&simulation->pads, summary->pads_order);
     note_program(&simulation->readings, summary);
     memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);
     memcpy(summary->mu_hold_parts, &answers->mu_hold_parts, sizeof summary->mu_hold_parts);

@@ -13,8 +13,10 @@
 // with more (median 0.3 %, largest 3.2 %).
 #include "run/warnings.h"
 
+#include "friction/friction_start.h"
 #include "friction/friction_state.h"
 #include "record/drops.h"
+#include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
 
@@ -51,6 +53,19 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
         *worst = ratio > *worst ? ratio : *worst;
     }
     return count;
+}
+
+void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings)
+{
+    if (!(friction_drop(&scene->friction) > 0) || amontons_scene_warning(scene)) return;
+    for (int32_t k = 0; k < model->materials.count; k++) {
+        if (!model->on_contact[k] || model->materials.list[k].eta1 > 0) continue;
+        warnings_add(warnings,
+                     "eta1 is 0 in %s, which touches the floor: with friction that weakens, the "
+                     "shortest wave that the mesh can hold grows fastest, so the answer has no "
+                     "limit as the mesh gets finer (an ill-posed problem)",
+                     k == 0 ? "material" : scene->materials.region[k - 1].group);
+    }
 }
 
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
@@ -148,14 +163,15 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
 // before it is said. A symmetric block keeps within rounding.
 static const double TURNING_SEEN = 0.01;
 
-void warnings_of_turning(const Turning *turning, RunWarnings *warnings)
+void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings)
 {
+    const char *unit = scene->units == UNITS_SI ? " m" : "";
     double share = turning_share(turning);
     if (share <= TURNING_SEEN) return;
     warnings_add(warnings,
-                 "the block does not go straight: it turned about z by %.2g rad and went %.2g "
-                 "across the drive, on a way of %.2g: %.2g %% of it at its sides",
-                 turning->angle, turning->drift, turning->way, 100 * share);
+                 "the block does not go straight: it turned about z by %.2g rad and went %.2g%s "
+                 "across the drive, on a way of %.2g%s: %.2g %% of it at its sides",
+                 turning->angle, turning->drift, unit, turning->way, unit, 100 * share);
 }
 
 static bool gives_parameter(const Scene *scene, const char *name)
@@ -249,6 +265,97 @@ void warnings_of_shape(const Scene *scene, double length, double height, RunWarn
                      "mesh.set.height is not, so it is %.4g, that of the mesh file, over a length "
                      "of %.4g: set mesh.set.height",
                      height / length, height, length);
+}
+
+// A block longer than this was drawn in mm, most likely, m.
+static const double LENGTH_PLAUSIBLE = 20;
+// Speeds of longitudinal waves in solids, m/s: soft gels have some 1, diamond 18 000.
+static const double SOUND_SLOWEST = 0.2, SOUND_FASTEST = 3e4;
+
+void warnings_of_units(const Model *model, RunWarnings *warnings)
+{
+    const Scene *scene = model->scene;
+    if (scene->units != UNITS_SI) return;
+    bool by_scene = scene->mesh.scale != 1 || scene->given[scene_key_index("mesh.unit")];
+    if (model->length > LENGTH_PLAUSIBLE && !by_scene)
+        warnings_add(
+            warnings,
+            "a block of %.3g m: an SI scene takes the coordinates of a mesh for metres; one "
+            "that is drawn in mm needs `mesh: {unit: mm}`",
+            model->length);
+    for (int32_t k = 0; k < model->materials.count; k++) {
+        const Material *material = &model->materials.list[k];
+        double sound = material_speeds(material).longitudinal;
+        if (sound >= SOUND_SLOWEST && sound <= SOUND_FASTEST) continue;
+        warnings_add(
+            warnings,
+            "sound of %.3g m/s in `%s`: no solid has that; are Young's modulus, %.3g Pa, and "
+            "density, %.4g kg/m3, in these units (3.3 GPa, 1190 kg/m3)?",
+            sound, scene_region_name(scene, k), material->young, material->density);
+        return;
+    }
+}
+
+// Of a gap: over the block's height; its slope, whose square is the error of pressing along z.
+static const double GAP_LARGE = 0.5, GAP_STEEP = 0.2;
+
+void warnings_of_gaps(const Model *model, RunWarnings *warnings)
+{
+    const Interface *interface = &model->interface;
+    const double *gap = interface->gap;
+    double largest = 0, least = INFINITY, steepest = GAP_STEEP, at = 0;
+    int32_t count = interface->contact_count;
+    if (!gap) return;
+    for (int32_t i = 0; i < count; i++) {
+        largest = fmax(largest, gap[i]);
+        least = fmin(least, gap[i]);
+    }
+    if (largest > GAP_LARGE * model->height)
+        warnings_add(warnings,
+                     "a gap as large as the block: up to %.3g under a block that is %.3g high; is "
+                     "it in the scene's unit of length, and of the right sign?",
+                     largest, model->height);
+    // What the block may come to touch: as far as the mean pressure presses it down, times 10.
+    double pressure = model->scales.load / (model->length * model->breadth);
+    double reach = least + 10 * pressure / model->materials.mean.young * model->height;
+    for (int32_t i = 1; i < count && interface->dim == 2; i++) {
+        double way = interface->x[i] - interface->x[i - 1];
+        double slope = fabs(gap[i] - gap[i - 1]) / way;
+        bool touches = fmin(gap[i], gap[i - 1]) <= reach &&
+                       interface->pad[i] == interface->pad[i - 1];
+        if (!touches || slope <= steepest) continue;
+        steepest = slope;
+        at = 0.5 * (interface->x[i] + interface->x[i - 1]);
+    }
+    if (steepest > GAP_STEEP)
+        warnings_add(
+            warnings,
+            "the floor is steep where the block may touch it: a slope of %.2g at x = %.4g; "
+            "nodes come down along z and are pressed along z, an error of the square of "
+            "the slope, %.0f %%",
+            steepest, at, 100 * fmin(steepest * steepest, 1));
+}
+
+void warnings_of_states(const Model *model, RunWarnings *warnings)
+{
+    const FrictionLaw *law = &model->law;
+    double speed = model->scene->rod.velocity, states[2] = {0};
+    bool own = law->remembers &&
+               (law->own.memory.kind == MEMORY_FORMULAS || law->own.memory.kind == MEMORY_PLUGIN);
+    if (!own || law->own.memory.states == 0 || !(speed > 0)) return;
+    int32_t count = friction_count_steady(&law->own.memory, speed, states);
+    if (count == 0)
+        warnings_add(
+            warnings,
+            "the states of friction.state do not come to steady slip at the rod's velocity "
+            "%.3g: what the run gives depends on where they begin, and how long it is",
+            speed);
+    if (count == 2)
+        warnings_add(warnings,
+                     "the states of friction.state have several values of steady slip at the rod's "
+                     "velocity %.3g, such as %.3g and %.3g: which of them contacts come to depends "
+                     "on where they begin",
+                     speed, states[0], states[1]);
 }
 
 // Less of the strip than this may miss the face, relative to its width: rounding of either.

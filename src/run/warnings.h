@@ -21,6 +21,9 @@
 // evenly spread. 0 without damping.
 int32_t undamped_nodes(const Certificate *certificate, double load, double *worst);
 
+// Materials without viscosity on which friction that weakens acts, where others have some.
+void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings);
+
 // Says so. Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
@@ -31,6 +34,13 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings);
 // A block that is taller than long though only its length was given: one that a mesh file made so
 // by a height of its own.
 void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings);
+// In an SI scene: a block, or a speed of sound, of a size that a unit left out would explain.
+void warnings_of_units(const Model *model, RunWarnings *warnings);
+// A gap under the contact as large as the block, or so steep where the block may touch that nodes
+// which come down along z do not describe it.
+void warnings_of_gaps(const Model *model, RunWarnings *warnings);
+// States of one's own law that have several values of steady slip at the rod's velocity, or none.
+void warnings_of_states(const Model *model, RunWarnings *warnings);
 // The rod's strip against the extent of its face; height: H, length.
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);
@@ -40,7 +50,7 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
 void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings);
 
 // The block turned about z, or went across the drive, by a part of its way that can be seen.
-void warnings_of_turning(const Turning *turning, RunWarnings *warnings);
+void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

@@ -182,6 +182,14 @@ static bool check_groups(const Check *check)
     return true;
 }
 
+static bool check_mesh(const Check *check)
+{
+    bool plain = check->scene->units == UNITS_NORMALISED && is_given(check, "mesh.unit");
+    return !plain ||
+           blame(check, "mesh.unit",
+                 "a normalised scene has no units of length: give mesh.scale, or units: si");
+}
+
 static bool check_rod(const Check *check)
 {
     if (check->scene->rod.kind != ROD_NONE || !is_given(check, "rod.stiffness")) return true;
@@ -246,10 +254,6 @@ static bool check_programs(const Check *check)
                      "begins with %g, not with 1: the block relaxes under load.pressure and "
                      "load.tractions as they are",
                      load->factor.value[0]);
-    if (scene_has_program(load) && scene->reduction.use == REDUCE_ALWAYS)
-        return blame(
-            check, "reduction.use",
-            "`always`, but a load that changes needs the mesh (load.program): auto or never");
     return true;
 }
 
@@ -331,15 +335,13 @@ static bool check_output(const Check *check)
     return true;
 }
 
+// Of one of several materials only the mesh tells whether friction acts on it: run/warnings.
 const char *amontons_scene_warning(const Scene *scene)
 {
-    if (!(friction_drop(&scene->friction) > 0)) return NULL;
+    if (!(friction_drop(&scene->friction) > 0) || scene->material.eta1 > 0) return NULL;
     for (int32_t i = 0; i < scene->materials.count; i++)
-        if (!(scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0))
-            return "eta1 is 0 in one of the regions of `materials`: where friction that weakens "
-                   "acts on it, the shortest wave that the mesh can hold grows fastest, so the "
-                   "answer has no limit as the mesh gets finer (an ill-posed problem)";
-    if (scene->material.eta1 > 0) return NULL;
+        if (scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0)
+            return NULL;
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
            "problem)";
@@ -351,6 +353,7 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_materials(&check) && check_groups(&check) && check_rod(&check) &&
-           check_programs(&check) && check_time(&check) && check_output(&check);
+           check_materials(&check) && check_groups(&check) && check_mesh(&check) &&
+           check_rod(&check) && check_programs(&check) && check_time(&check) &&
+           check_output(&check);
 }

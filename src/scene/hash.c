@@ -13,7 +13,7 @@ static bool hash_file(const char *path, Hash *hash, Error *err)
     char *bytes = NULL;
     int32_t size = 0;
     if (!*path) return true;
-    TRY(text_file_read(path, BYTES_MAX, &bytes, &size, err));
+    TRY(text_file_bytes(path, BYTES_MAX, &bytes, &size, err));
     hash_bytes(hash, bytes, (size_t)size);
 cleanup:
     memory_free(bytes);

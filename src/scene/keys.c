@@ -16,6 +16,11 @@ static const char *const law_choices[] = {
 #undef X
         NULL};
 static const char *const interpolation_choices[] = {"cubic", "linear", NULL};
+static const char *const unit_choices[] = {
+#define X(symbol, name, metres) name,
+    SCENE_LENGTHS(X)
+#undef X
+        NULL};
 static const char *const evolution_choices[] = {"ageing", "slip", NULL};
 static const char *const figure_choices[] = {
 #define X(symbol, name, title) name,
@@ -48,6 +53,18 @@ static const SceneKey keys[] = {
     KEY("mesh.set", KEY_PARAMETERS, mesh, "length", RANGE_ANY, "{}",
         "Parameters of a .geo file, each a number or a word; which there are, the file says. Every "
         "mesh has `refine`: cells so many times as small (2, 4, ...)."),
+    KEY("mesh.unit", KEY_CHOICE, mesh.unit, "1", RANGE_ANY, NULL,
+        "SI scenes: the unit in which the mesh is drawn; if not given, m.",
+        .choices = unit_choices),
+    NUMBER(mesh.scale, "1", RANGE_POSITIVE, "1",
+           "Coordinates of the mesh times this, beside its unit."),
+    KEY("mesh.shift", KEY_NUMBERS, mesh.shift, "length", RANGE_ANY, NULL,
+        "The mesh is then moved by this, [x, z], in space [x, y, z]; if not given, along z alone, "
+        "so "
+        "that its lowest contact node stands on the substrate."),
+    WORDS(KEY_NAMES, groups.body, "[]",
+          "The physical surfaces (volumes) that are the block; none named: all that the mesh has. "
+          "What else is in the mesh, such as a base, is left out: the floor is rigid."),
     WORDS(KEY_NAME, groups.top, "top", "The physical group that carries load.pressure."),
     WORDS(KEY_NAME, groups.rod, "rod",
           "The physical group of the trailing face, which the rod touches."),
@@ -280,7 +297,8 @@ static const SceneKey keys[] = {
            "averaged."),
     CHOICE(reduction.use, "auto",
            "Reduce the bulk to its interface and a small interior basis before stepping; `auto`: "
-           "where that is expected to be faster.",
+           "wherever the scene allows it; `always`: likewise, or it is an error; `never`: step on "
+           "the whole mesh.",
            "auto", "always", "never"),
     NUMBER(reduction.tolerance, "1", RANGE_PART_OR_ZERO, "0",
            "Error allowed to the answers of the reduced interior, relative, in the energy norm; 0: "

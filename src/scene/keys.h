@@ -46,7 +46,7 @@ typedef struct SceneKey {
     const char *name;   // "material.young"
     SceneKeyType type;
     size_t offset;   // into Scene
-    const char *unit;   // a dimension of scene/units: "stress", "velocity", "1"
+    const char *unit;   // a dimension of base/units: "stress", "velocity", "1"
     SceneRange range;   // of a number
     const char *standard;   // default, as it would be written in YAML; NULL: none
     const char *sentence;   // what it means, for the reference

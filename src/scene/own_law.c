@@ -107,6 +107,7 @@ FrictionSource scene_friction_source(const SceneNumbersOf *of)
                             .straight = own->interpolation == INTERPOLATION_LINEAR,
                             .formula = own->formula,
                             .file = own->file,
+                            .trusted = scene->trusted,
                             .look_up = find_number,
                             .context = of,
                             .state = own->states.state,

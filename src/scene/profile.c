@@ -3,166 +3,114 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "base/text.h"
-#include "io/files/text_file.h"
-#include "scene/units.h"
+#include "base/units.h"
+#include "io/text/csv_reader.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-static const char BLANKS[] = " \t\r", BETWEEN[] = " \t,;", AROUND[] = " \t\r\"'";
-enum { COLUMNS_MAX = 3, HEAD_SIZE = 80 };
+enum { COLUMNS_MAX = 3 };
 
 typedef struct ProfilePoint {
     double column[COLUMNS_MAX];   // length
 } ProfilePoint;
 
-// A file on its way: `line` is cut out of it, with a zero byte at its end.
+// A surface on its way.
 typedef struct Table {
     const char *path;
-    SceneUnits units;
-    char *line;
-    int32_t number;   // of the line, from 1
-    int32_t columns;   // 2: x and gap; 3: x, y and gap; 0: not seen yet
-    double unit[COLUMNS_MAX];   // what a 1 in the column is, length
-    int32_t count, room;
+    int32_t columns;   // 2: x and gap; 3: x, y and gap
+    int32_t count;
     ProfilePoint *points;   // [count] as they stand in the file; owned
 } Table;
 
-// Where in the line `at` stands, from 1.
-static int column_of(const Table *table, const char *at)
-{
-    return (int)(at - table->line) + 1;
-}
+static const char *const NAMES[] = {"x", "y", "gap"};
+static const char HEADS[] =
+    "wanted: x and gap, of a height map x, y and gap, in any order: `x, gap`, or with units `x "
+    "[mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um`";
 
-// The unit of "x [mm]", "x (mm)", "x/mm", "x_mm", "x in mm", "x mm" or "mm", which is cut where the
-// unit ends; *unit NULL: "x" and "gap" alone. false: none of these.
-static bool find_unit(char *head, char **unit)
+// Which of NAMES a column is, with the unit behind it; the unit alone ("mm"): *name -1. false: it
+// is none of these.
+static bool read_head(const CsvTable *csv, int32_t k, int32_t *name, CsvUnit *unit)
 {
+    const char *head = csv_name(csv, k);
     double one = 1;
-    char *sign = strpbrk(head, "[(/"), *last = strpbrk(head, "_ ");
-    if (sign) {
-        char *end = *sign == '/' ? sign + strlen(sign) : sign + strcspn(sign, "])");
-        if (*sign != '/' && (*end == 0 || end[1] != 0)) return false;
-        *end = 0;
-        *unit = sign + 1 + strspn(sign + 1, BLANKS);
+    for (*name = 0; *name < COLUMNS_MAX; ++*name) {
+        size_t length = strlen(NAMES[*name]);
+        if (strncasecmp(head, NAMES[*name], length) != 0) continue;
+        if (head[length] && !csv_take_unit(head + length, unit)) continue;
+        if (!head[length]) *unit = csv_unit_of_row(csv, k);
         return true;
     }
-    for (char *next = last; next; next = strpbrk(next + 1, "_ ")) last = next;
-    *unit = last ? last + 1 : head;
-    if (unit_to_si(*unit, "length", &one)) return true;
-    *unit = NULL;
-    return strcasecmp(head, "x") == 0 || strcasecmp(head, "y") == 0 || strcasecmp(head, "gap") == 0;
+    *name = -1;
+    *unit = (CsvUnit){head, (int32_t)strlen(head)};
+    return unit_to_si(head, "length", &one);
 }
 
-// What heads a column, `length` bytes from `at` on, and the unit in it; the name alone leaves the
-// unit as it is.
-static bool read_head(const Table *table, const char *at, size_t length, double *scale, Error *err)
+// place[x, y, gap]: which column of the file it is, -1: none; scale: what a 1 in it is, length.
+static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLUMNS_MAX],
+                       double scale[COLUMNS_MAX], Error *err)
 {
-    char head[HEAD_SIZE], *unit = NULL;
-    size_t before = strspn(at, AROUND);
-    at += before;
-    length -= before < length ? before : length;
-    while (length > 0 && strchr(AROUND, at[length - 1])) length--;
-    snprintf(head, sizeof head, "%.*s", (int)length, at);
-    if (length == 0 || length >= sizeof head || !find_unit(head, &unit))
-        return REFUSE(err,
-                      "%s:%d:%d: found `%.*s`; wanted: two numbers, x and gap, or names of the two "
-                      "columns: `x, gap`, or with units `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, "
-                      "gap_um`, `mm, um`; of a height map three: x, y and gap",
-                      table->path, table->number, column_of(table, at),
-                      length < 60 ? (int)length : 60, at);
-    if (!unit) return true;
-    at += unit - head;
-    if (table->units == UNITS_NORMALISED)
-        return REFUSE(err,
-                      "%s:%d:%d: found a unit, `%s`; a normalised scene has plain numbers (units "
-                      "need `units: si`)",
-                      table->path, table->number, column_of(table, at), unit);
-    *scale = 1;
-    if (!unit_to_si(unit, "length", scale))
-        return REFUSE(err, "%s:%d:%d: `%s` is no unit of length; allowed: %s", table->path,
-                      table->number, column_of(table, at), unit, unit_examples("length"));
+    for (int32_t k = 0; k < COLUMNS_MAX; k++) {
+        place[k] = -1;
+        scale[k] = 1;
+    }
+    bool heads = csv->named;
+    for (int32_t k = 0; k < csv->columns; k++) {
+        int32_t name = -1;
+        CsvUnit unit = {"", 0};
+        if (heads && !read_head(csv, k, &name, &unit)) {
+            if (!csv->named_by_comment)
+                return csv_refuse(csv, -1, k, err, "is no column of a surface; %s", HEADS);
+            heads = false;   // the comment is another one: columns are in the order of NAMES
+            k = -1;
+            for (int32_t n = 0; n < COLUMNS_MAX; n++) {
+                place[n] = -1;
+                scale[n] = 1;
+            }
+            continue;
+        }
+        if (name < 0) name = k < csv->columns - 1 ? k : COLUMNS_MAX - 1;
+        if (csv->columns > COLUMNS_MAX || (csv->columns == 2 && name == 1) || place[name] >= 0)
+            return csv_refuse(csv, -1, k, err, "cannot stand there: there are %d columns; %s",
+                              csv->columns, HEADS);
+        place[name] = k;
+        if (unit.length == 0) continue;
+        if (units == UNITS_NORMALISED)
+            return csv_refuse(csv, -1, k, err,
+                              "has a unit; a normalised scene has plain numbers (units need "
+                              "`units: si`)");
+        if (!csv_to_si(csv, k, unit, "length", &scale[name], err)) return false;
+    }
+    if (csv->columns == 1)
+        return REFUSE(err, "%s:%d: one column; %s", csv->path, csv->line[0], HEADS);
     return true;
 }
 
-// What heads the columns, from `at` on.
-static bool read_heads(Table *table, const char *at, Error *err)
+static bool read_points(const CsvTable *csv, const int32_t place[COLUMNS_MAX],
+                        const double scale[COLUMNS_MAX], Table *table, Error *err)
 {
-    double unit[COLUMNS_MAX];
-    int32_t heads = 0;
-    memcpy(unit, table->unit, sizeof unit);
-    for (const char *next = at; next; heads++) {
-        size_t length = strcspn(next, ",;\t");
-        const char *behind = next[length] ? next + length + 1 : NULL;
-        if (!behind && heads == 0) behind = next + length;   // nothing heads the gap
-        if (heads == COLUMNS_MAX - 1) length = strlen(next);
-        if (!read_head(table, next, length, &unit[heads], err)) return false;
-        next = heads < COLUMNS_MAX - 1 ? behind : NULL;
+    double before = -INFINITY;
+    if (!(table->points = memory_array(csv->rows, sizeof *table->points, err))) return false;
+    table->columns = csv->columns;
+    for (int32_t row = 0; row < csv->rows; row++) {
+        ProfilePoint *point = &table->points[table->count++];
+        for (int32_t name = 0, k = 0; name < COLUMNS_MAX; name++) {
+            if (place[name] < 0) continue;
+            if (!csv_read_number(csv, row, place[name], &point->column[k], err)) return false;
+            point->column[k++] *= scale[name];
+        }
+        double x = point->column[0], gap = point->column[table->columns - 1];
+        if (table->columns == 2 && !(x > before))
+            return csv_refuse(csv, row, place[0], err, "x = %g comes after %g; x must ascend", x,
+                              before);
+        if (!(gap >= 0))
+            return csv_refuse(csv, row, place[COLUMNS_MAX - 1], err,
+                              "at x = %g the gap is %g; a number >= 0 is needed", x, gap);
+        before = x;
     }
-    table->columns = heads;
-    memcpy(table->unit, unit, sizeof unit);
     return true;
-}
-
-static bool add_point(Table *table, const double *column, Error *err)
-{
-    ProfilePoint point;
-    int32_t last = table->columns - 1;
-    bool finite = true;
-    for (int32_t k = 0; k <= last; k++) {
-        point.column[k] = column[k] * table->unit[k];
-        finite = finite && isfinite(point.column[k]);
-    }
-    double x = point.column[0], gap = point.column[last];
-    double before = table->count > 0 ? table->points[table->count - 1].column[0] : -INFINITY;
-    if (last == 1 && !(x > before))
-        return REFUSE(err, "%s:%d: x = %g comes after %g; x must ascend", table->path,
-                      table->number, x, before);
-    if (!(gap >= 0 && finite))
-        return REFUSE(err, "%s:%d: at x = %g the gap is %g; a number >= 0 is needed", table->path,
-                      table->number, x, gap);
-    if (!memory_grow(&table->points, table->count, &table->room, sizeof point, err)) return false;
-    table->points[table->count++] = point;
-    return error_is_clean(err);
-}
-
-// How many numbers stand in the line from *at on, `most` of them at most; *at is left behind them.
-static int32_t read_numbers(const char **at, int32_t most, double number[COLUMNS_MAX])
-{
-    int32_t read = 0;
-    while (read < most) {
-        int32_t length = text_number(*at, &number[read]);
-        size_t blanks = strspn(*at + length, BLANKS), between = strspn(*at + length, BETWEEN);
-        if (length == 0) break;
-        read++;
-        bool ends = (*at)[length + (int32_t)blanks] == 0;
-        *at += length + (int32_t)(ends ? blanks : between);
-        if (ends || between == 0) break;
-    }
-    return read;
-}
-
-static bool read_line(Table *table, Error *err)
-{
-    double number[COLUMNS_MAX];
-    const char *at = table->line + strspn(table->line, BLANKS);
-    bool first = table->count == 0;
-    Error no_heads = {0};
-    if (*at == '#' && first) read_heads(table, at + 1, &no_heads);   // or other words
-    if (*at == 0 || *at == '#') return true;
-    if (first && text_number(at, number) == 0) return read_heads(table, at, err);
-    int32_t read = read_numbers(&at, table->columns ? table->columns : COLUMNS_MAX, number);
-    if (table->columns == 0) table->columns = read == COLUMNS_MAX ? read : COLUMNS_MAX - 1;
-    if (*at || read != table->columns)
-        return REFUSE(err, "%s:%d:%d: found `%.60s`; wanted: %s", table->path, table->number,
-                      column_of(table, at), table->line,
-                      table->columns == COLUMNS_MAX ? "three numbers, x, y and gap"
-                                                    : "two numbers, x and gap");
-    return add_point(table, number, err);
 }
 
 // The places along a column, ascending, each once.
@@ -228,25 +176,21 @@ static bool lay_out(const Table *table, SceneProfile *profile, Error *err)
 
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
 {
-    Table table = {.path = scene->contact.profile, .units = scene->units, .unit = {1, 1, 1}};
-    char *bytes = NULL;
-    int32_t size = 0;
+    Table table = {.path = scene->contact.profile};
+    CsvTable csv = {0};
+    int32_t place[COLUMNS_MAX];
+    double scale[COLUMNS_MAX];
     *profile = (SceneProfile){0};
     if (!*table.path) return true;
-    TRY(text_file_read(table.path, SCENE_PROFILE_BYTES_MAX, &bytes, &size, err));
-    if (memchr(bytes, 0, (size_t)size)) FAIL(err, ERROR_INPUT, "%s is no text", table.path);
-    for (char *next = bytes; next;) {
-        table.line = next;
-        table.number++;
-        next = strchr(next, '\n');
-        if (next) *next++ = 0;
-        TRY(read_line(&table, err));
-    }
-    if (table.count == 0)
+    TRY(csv_read_bare(table.path, &csv, err));
+    TRY(read_heads(&csv, scene->units, place, scale, err));
+    if (csv.rows == 0)
         FAIL(err, ERROR_INPUT, "%s has 0 points; two or more are needed", table.path);
+    TRY(read_points(&csv, place, scale, &table, err));
     TRY(lay_out(&table, profile, err));
 cleanup:
-    memory_free_all(bytes, table.points);
+    memory_free(table.points);
+    csv_destroy(&csv);
     if (!error_is_clean(err)) scene_profile_destroy(profile);
     return error_is_clean(err);
 }

@@ -7,8 +7,6 @@
 
 #include "scene/scene.h"
 
-enum { SCENE_PROFILE_BYTES_MAX = 1 << 26 };
-
 typedef struct SceneProfile {
     int32_t count;   // of places along x; 0: the scene has none
     int32_t rows;   // of places along y; 1: the gap is of x alone
@@ -17,11 +15,11 @@ typedef struct SceneProfile {
     double *gap;   // [rows * count] row by row, length; owned
 } SceneProfile;
 
-// Two or three numbers a line, with a comma, a semicolon, a tab or blanks between them; empty lines
-// and those that begin with # are passed over. Points of three are those of a grid, in any order.
-// Before the first point a line, also one behind #, may name the columns, in an SI scene with
-// units: `x [mm], gap [um]`, `x/mm, y/mm, gap/um`, `x_mm, gap_um`, `mm, um`. ERROR_INPUT with file,
-// line and column: also for names that are none of these.
+// A table (io/text/csv_reader) of two or three numbers a line. Points of three are those of a grid,
+// in any order. The first line, or a comment above the numbers, may name the columns, in any order
+// and in an SI scene with units: `x [mm], gap [um]`, `x/mm, y/mm, gap/um`, `x_mm, gap_um`, `mm,
+// um`; else they are x and gap, or x, y and gap. ERROR_INPUT with file, line and column: also for
+// names that are none of these.
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err);
 void scene_profile_destroy(SceneProfile *profile);   // zeroed is fine
 

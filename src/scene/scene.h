@@ -29,6 +29,21 @@ typedef enum SceneScheme {
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
 
+// The units of a drawing, and how many metres they have.
+#define SCENE_LENGTHS(X)                                                                           \
+    X(LENGTH_M, "m", 1)                                                                            \
+    X(LENGTH_CM, "cm", 1e-2)                                                                       \
+    X(LENGTH_MM, "mm", 1e-3)                                                                       \
+    X(LENGTH_UM, "um", 1e-6)                                                                       \
+    X(LENGTH_NM, "nm", 1e-9)                                                                       \
+    X(LENGTH_KM, "km", 1e3)                                                                        \
+    X(LENGTH_INCH, "inch", 0.0254)
+typedef enum SceneLength {
+#define X(symbol, name, metres) symbol,
+    SCENE_LENGTHS(X)
+#undef X
+} SceneLength;
+
 typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
     char title[SCENE_TEXT_SIZE];
@@ -37,11 +52,15 @@ typedef struct Scene {
         char file[SCENE_TEXT_SIZE];   // resolved against the scene file's folder
         int32_t parameter_count;
         MeshParameter parameters[SCENE_LIST_MAX];   // mesh.set.*
+        SceneLength unit;   // of the drawing
+        double scale;   // of its coordinates, beside its unit
+        SceneNumbers shift;   // by so much it is moved, [dim], length; none: onto the substrate
     } mesh;
     struct {
         char top[GROUP_NAME_SIZE], rod[GROUP_NAME_SIZE];   // groups.top, groups.rod
         SceneNames contact;   // groups.contact: one name or a list; empty: every curve
             // group called "contact" or "contact_..."
+        SceneNames body;   // regions that are the block; none: all
     } groups;
     struct {
         double young, poisson, density, eta1, eta2;
@@ -100,10 +119,9 @@ typedef struct Scene {
         SceneAnswer of;   // whose bar it is
     } accuracy;
     struct {
-        SceneReduce use, decided;   // decided: no key; by a run that goes on; REDUCE_AUTO: not yet
+        SceneReduce use;
         double tolerance;   // of the interior basis, relative
         bool cache;   // keep the basis on disk for the next run of the shape
-        int32_t runs;   // no key: of a sweep, those that step on this basis; 0: no sweep
     } reduction;
     struct {
         bool history, fields;   // fields: none, or {every_U, every_t, every_step, at_events, film}
@@ -115,6 +133,7 @@ typedef struct Scene {
         SceneNames figures;   // names of render's RENDER_FIGURES
         char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file
     } output;
+    bool trusted;   // not a key: its .geo and plug-in may do what they want
     bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
     int32_t line[SCENE_KEYS_MAX];   // where, in the file `path`, from 1; 0: not in that file
 } Scene;
@@ -125,7 +144,7 @@ typedef struct Scene {
 // Errors (ERROR_INPUT) give file:line:column (or the --set text), the key, what was found and what
 // is allowed; an unknown key comes with the nearest known one.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
-                Scene *scene, Error *err);
+                bool trusted, Scene *scene, Error *err);
 
 // Passes on whether a use of the value of `key` was `done`. If not, the error is wrong input, and
 // says where it stands: "FILE:LINE: KEY: ...", without a line where the file does not give it.
@@ -139,7 +158,7 @@ typedef struct SceneSetting {
 } SceneSetting;
 
 typedef struct SceneSource SceneSource;   // a file read once, for many scenes of other settings
-bool scene_source_open(const char *path, SceneSource **source, Error *err);
+bool scene_source_open(const char *path, bool trusted, SceneSource **source, Error *err);
 void scene_source_close(SceneSource *source);   // also of one half opened
 bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,
                         Scene *scene, Error *err);

@@ -10,20 +10,33 @@
 
 #include <string.h>
 
-bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
-                         Scene **scene, Error *err)
+static bool read_new(const char *path, const char *const *overrides, int32_t override_count,
+                     bool trusted, Scene **scene, Error *err)
 {
-    NUMBERS_HAVE_A_POINT;
     *scene = NULL;
     Scene *made = NEW_ARRAY(Scene, 1, err);
     TRY(made);
     if (!decimal_point_is_set()) FAIL(err, ERROR_MEMORY, "no memory for a locale with a point");
-    TRY(scene_read(path, overrides, override_count, made, err));
+    TRY(scene_read(path, overrides, override_count, trusted, made, err));
     *scene = made;
     made = NULL;
 cleanup:
     memory_free(made);
     return error_is_clean(err);
+}
+
+bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                         Scene **scene, Error *err)
+{
+    NUMBERS_HAVE_A_POINT;
+    return read_new(path, overrides, override_count, false, scene, err);
+}
+
+bool amontons_scene_read_trusted(const char *path, const char *const *overrides,
+                                 int32_t override_count, Scene **scene, Error *err)
+{
+    NUMBERS_HAVE_A_POINT;
+    return read_new(path, overrides, override_count, true, scene, err);
 }
 
 void amontons_scene_destroy(Scene *scene)

@@ -38,6 +38,7 @@ typedef struct Reader {
     Setting *settings;   // [setting_count] of SETTINGS_MAX, later ones win
     int32_t setting_count;
     SceneValue sources[SCENE_KEYS_MAX];
+    bool trusted;   // Scene.trusted of what is read
 } Reader;
 
 // --- gathering ----------------------------------------------------------------------------------
@@ -256,7 +257,7 @@ static bool gather_file(Reader *reader, Error *err)
 // What the file gives. *scene is overwritten, and of no use after a failure.
 static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
-    *scene = (Scene){0};
+    *scene = (Scene){.trusted = reader->trusted};
     reader->keys = scene_keys(&reader->key_count);
     if (!yaml_read(path, &reader->file, err)) return false;
     if (strlen(path) >= SCENE_TEXT_SIZE)
@@ -323,9 +324,9 @@ static void destroy_reader(Reader *reader)
 }
 
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
-                Scene *scene, Error *err)
+                bool trusted, Scene *scene, Error *err)
 {
-    Reader reader = {0};
+    Reader reader = {.trusted = trusted};
     TRY(begin_reading(&reader, path, scene, err));
     TRY((reader.overrides = NEW_ARRAY(YamlDocument *, 2 * (int64_t)override_count, err)));
     for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
@@ -346,10 +347,11 @@ struct SceneSource {
     Scene file, made;   // what the file alone gives; the scene at hand, not finished
 };
 
-bool scene_source_open(const char *path, SceneSource **source, Error *err)
+bool scene_source_open(const char *path, bool trusted, SceneSource **source, Error *err)
 {
     SceneSource *made = *source = NEW_ARRAY(SceneSource, 1, err);
     if (!made) return false;
+    made->reader.trusted = trusted;
     if (!begin_reading(&made->reader, path, &made->file, err)) return false;
     made->file_count = made->reader.setting_count;
     if (!store_settings(&made->reader, &made->file, err)) return false;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each type of key has a function that reads, checks and stores it, and refuses anything else with
 // what was found and what is allowed, at its line. Numbers may carry a unit in an SI scene
-// (scene/units). A value is stored only when it is right: a scene half set keeps its defaults.
+// (base/units). A value is stored only when it is right: a scene half set keeps its defaults.
 #include "scene/value.h"
 
 #include "base/text.h"
-#include "scene/units.h"
+#include "base/units.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 // The key table holds offsets into Scene.
 static void *field_of(const SceneKey *key, Scene *scene)
@@ -84,14 +86,34 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
     return true;
 }
 
+// ERROR_INPUT: "0,003", or a minus sign that is none of ASCII, as word processors and spreadsheets
+// have it.
+static bool check_typing(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    static const char minus[] = "\xE2\x88\x92", dash[] = "\xE2\x80\x93";   // U+2212, U+2013
+    const char *text = yaml_text(value->document, value->node);
+    const char *comma = strchr(text, ',');
+    if (comma > text && isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`, with a comma: decimals follow a point, as in 0.003",
+                          key->name, text);
+    if (strstr(text, minus) || strstr(text, dash))
+        return yaml_error(value->document, value->node, err,
+                          "%s: found `%.60s`, with a minus sign or dash of a word processor: the "
+                          "hyphen of the keyboard, -, is needed",
+                          key->name, text);
+    return true;
+}
+
 // Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
                         double *number, Error *err)
 {
     const char *suffix = "";
     if (!expect_scalar(key, value, err)) return false;
-    if (!split_number(yaml_text(value->document, value->node), number, &suffix))
-        return report_wrong(key, value, err);
+    const char *text = yaml_text(value->document, value->node);
+    if (!check_typing(key, value, err)) return false;
+    if (!split_number(text, number, &suffix)) return report_wrong(key, value, err);
     if (!apply_unit(key, value, units, suffix, number, err)) return false;
     if (!isfinite(*number)) return report_wrong(key, value, err);
     if (!scene_size_holds(*number))
@@ -134,12 +156,22 @@ static bool set_numbers(const SceneKey *key, const SceneValue *value, Scene *sce
 
 // --- words --------------------------------------------------------------------------------------
 
-// true and false only: YAML 1.1's yes, no, on and off are refused.
+// true and false as YAML 1.2's core schema has them; YAML 1.1's yes, no, on and off are refused.
+static bool read_flag(const char *text, bool *flag)
+{
+    static const char *const words[2][3] = {{"false", "False", "FALSE"}, {"true", "True", "TRUE"}};
+    for (int32_t k = 0; k < 6; k++) {
+        *flag = k >= 3;
+        if (strcmp(text, words[*flag][k % 3]) == 0) return true;
+    }
+    return false;
+}
+
 static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    const char *text = yaml_text(value->document, value->node);
-    bool flag = strcmp(text, "true") == 0;
-    if (!flag && strcmp(text, "false") != 0) return report_wrong(key, value, err);
+    bool flag;
+    if (!read_flag(yaml_text(value->document, value->node), &flag))
+        return report_wrong(key, value, err);
     memcpy(field_of(key, scene), &flag, sizeof flag);
     return true;
 }
@@ -158,12 +190,29 @@ static bool copy_text(const SceneKey *key, const SceneValue *value, size_t size,
     return true;
 }
 
-// -1: not among them.
+// -1: not among them. Programs that read YAML 1.1 write `on` and `off` back as true and false.
 static int32_t find_choice(const SceneKey *key, const char *text)
 {
+    bool flag;
     for (int32_t k = 0; key->choices[k]; k++)
         if (strcmp(key->choices[k], text) == 0) return k;
+    for (int32_t k = 0; read_flag(text, &flag) && key->choices[k]; k++)
+        if (strcmp(key->choices[k], flag ? "on" : "off") == 0) return k;
     return -1;
+}
+
+// The choice that a word probably means; -1: none. A yes or a no never means the other one, however
+// alike the words are.
+static int32_t nearest_choice(const SceneKey *key, const char *text, int32_t count)
+{
+    static const char *const words[][2] = {{"yes", "on"},  {"y", "on"},     {"on", "on"},
+                                           {"true", "on"}, {"no", "off"},   {"n", "off"},
+                                           {"off", "off"}, {"false", "off"}};
+    bool switches = false;
+    for (int32_t k = 0; k < count; k++) switches = switches || strcmp(key->choices[k], "off") == 0;
+    for (size_t k = 0; switches && k < sizeof words / sizeof *words; k++)
+        if (strcasecmp(text, words[k][0]) == 0) return find_choice(key, words[k][1]);
+    return text_nearest(text, key->choices, count);
 }
 
 static bool report_choice(const SceneKey *key, const SceneValue *value, Error *err)
@@ -171,7 +220,7 @@ static bool report_choice(const SceneKey *key, const SceneValue *value, Error *e
     const char *text = yaml_text(value->document, value->node);
     int32_t count = 0;
     while (key->choices[count]) count++;
-    int32_t nearest = text_nearest(text, key->choices, count);
+    int32_t nearest = nearest_choice(key, text, count);
     char allowed[300];
     scene_key_allowed(key, allowed, sizeof allowed);
     if (nearest < 0) return report_wrong(key, value, err);

@@ -21,7 +21,7 @@ bool both_sides_hold(BothSides sides, const State *state, double reach, bool *od
     return holds && *odd_decays;
 }
 
-// Of one certificate.
+// The answer of one certificate.
 static bool answer(Certificate *certificate, const State *state, Ladder *ladder,
                    BothSidesAsked asked, RungRange range, double growth)
 {

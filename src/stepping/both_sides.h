@@ -19,7 +19,8 @@ typedef struct BothSides {
 // questions that follow are about the state that this was asked about last.
 bool both_sides_hold(BothSides sides, const State *state, double reach, bool *odd_decays);
 
-// What the certificate is asked about the rungs of a range; the first two about its first alone.
+// Questions to the certificate about the rungs of a range; the first two are about its first rung
+// alone.
 typedef enum BothSidesAsked {
     SIDES_RESOLVE,   // certificate_step_resolves
     SIDES_FIND_NO_RUNAWAY,   // not certificate_finds_runaway, known to hold on that rung

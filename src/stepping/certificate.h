@@ -61,8 +61,8 @@ typedef struct Certificate {
 } Certificate;
 
 bool certificate_create(const Block *block, Certificate *certificate, Error *err);
-// Of what is even or odd on one side, its unknowns those of `block`, whose bulk is not asked for.
-// Where S_C is not its own image nothing is certified.
+// The certificate of the symmetric or antisymmetric part on one side; its unknowns are those of
+// `block`, whose bulk is not asked for. Where S_C is not its own image nothing is certified.
 bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
                        bool odd, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
@@ -99,10 +99,10 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
 double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
                          double reach);
 
-// What another one has counted counts here, no longer there.
+// Moves the counts of another certificate into this one.
 void certificate_take_counts(Certificate *certificate, Certificate *from);
 
-// What its one matrix keeps, and its counter.
+// Writes or reads the state of its one matrix, and its counter.
 void certificate_archive(Certificate *certificate, Archive *archive);
 
 #endif

@@ -13,7 +13,7 @@ void energy_store(const State *state, EnergyLedger *ledger)
     ledger->elastic = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
 }
 
-// What is stored now counts as given; works begin at 0.
+// Opens a ledger: the energy stored now counts as given; works begin at 0.
 EnergyLedger energy_open(const State *state)
 {
     EnergyLedger ledger = {0};

@@ -31,7 +31,7 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
                         const ContactSolution *contact);
 
 double energy_imbalance(const EnergyLedger *ledger);   // work - stored - dissipated
-// What an imbalance is measured with: everything that was moved since the ledger was opened, summed
+// The measure of an imbalance: all energy that was moved since the ledger was opened, summed
 // by magnitude, and what was stored then.
 double energy_turnover(const EnergyLedger *ledger);
 

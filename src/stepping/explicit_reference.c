@@ -93,14 +93,14 @@ static double slip_speed(const FrictionLaw *law, double free_speed, double stren
     return speed;
 }
 
-// What a force dissipates that changes v to v' in a step is its work by their mean: to slip, and to
+// A force that changes v to v' in a step dissipates its work by their mean: to slip, and to
 // the plastic impact of a node that arrives.
 static double mean_power(double force, double before, double after)
 {
     return 0.5 * force * (before + after);
 }
 
-// What friction leaves of the free v [dim] of a pressed node, which keeps its direction.
+// Reduces the free v [dim] of a pressed node by friction; its direction stays.
 static void resolve_slip(const ExplicitReference *scheme, int32_t i, double strength, double *v,
                          State *state)
 {
@@ -247,7 +247,7 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, do
     return pushed;
 }
 
-// Of the load that acts in the step, by the velocities at its end.
+// Power of the load that acts in the step, by the velocities at its end.
 static double load_power(const ExplicitReference *scheme)
 {
     double power = 0;

@@ -16,7 +16,7 @@
 //                which has the direction of the free v_t
 //     rod        v'_x >= (target(t_n+1) - u_n)/dt,  r_x >= 0, complementary; bonded: =
 //
-// What friction remembers is stepped by the midpoint rule, theta' = theta + dt g(|v'_t|, (theta +
+// The states of friction are stepped by the midpoint rule, theta' = theta + dt g(|v'_t|, (theta +
 // theta')/2), and friction takes the mean, too: both stand at the time of v', half a step on.
 //
 // A rod on a spring couples its nodes: first its own velocity is found, for which their forces and

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What stepping/explicit_reference does at every node of the mesh: where its vectors stand, its
-// matrices by blocks, and the step that is free of contact.
+// The sweep of stepping/explicit_reference over every node of the mesh: where its vectors stand,
+// its matrices by blocks, and the step that is free of contact.
 #ifndef AMONTONS_STEPPING_EXPLICIT_SWEEP_H
 #define AMONTONS_STEPPING_EXPLICIT_SWEEP_H
 

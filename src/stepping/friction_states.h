@@ -28,7 +28,7 @@ typedef struct FrictionStates {
 bool friction_states_create(const Block *block, FrictionStates *states, Error *err);
 void friction_states_destroy(FrictionStates *states);
 
-// What the states are when the rod begins to move, into `state`; the laws are those of it.
+// Puts the states at the moment when the rod begins to move into `state`; the laws are those of it.
 void friction_states_reset(FrictionStates *states, State *state);
 
 // In the order in which they are called in a step. Stage 0 begins with friction_states_begin.

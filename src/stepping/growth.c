@@ -50,7 +50,7 @@ struct Growth {
     double *g, *border;   // [interface_count]
     double *rhs, *image;   // [dof_count]
     double *basis;   // [state_size * (VECTORS_LIMIT + 1)] orthonormal
-    double *eigen_work;   // [dense_eigen_work(VECTORS_LIMIT)]
+    double *eigen_work;   // [DENSE_EIGEN_WORK(VECTORS_LIMIT)]
     double *mode_re, *mode_im, *real_mode;   // [interface_count]
     double projected[(VECTORS_LIMIT + 1) * VECTORS_LIMIT];   // Hessenberg
     double square[VECTORS_LIMIT * VECTORS_LIMIT], ritz[VECTORS_LIMIT * VECTORS_LIMIT];
@@ -83,7 +83,7 @@ static bool allocate(Growth *growth, Error *err)
     growth->rhs = NEW_ARRAY(double, n, err);
     growth->image = NEW_ARRAY(double, n, err);
     growth->basis = NEW_ARRAY(double, state_size(growth) * (VECTORS_LIMIT + 1), err);
-    growth->eigen_work = NEW_ARRAY(double, dense_eigen_work(VECTORS_LIMIT), err);
+    growth->eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(VECTORS_LIMIT), err);
     growth->mode_re = NEW_ARRAY(double, m, err);
     growth->mode_im = NEW_ARRAY(double, m, err);
     growth->real_mode = NEW_ARRAY(double, m, err);

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-// What of a problem is odd, over the largest of what is even, at most: rounding of a state that was
-// stepped as a whole, far below what a step may be off.
+// Largest antisymmetric part of a problem over its largest symmetric one: rounding of a state that
+// was stepped as a whole, far below what a step may be off.
 static const double ALIKE = 1e-9;
 
 // A node that stands for two yields half as much to the sum of their forces. false: two are not
@@ -83,7 +83,7 @@ bool half_step_take_law(HalfStep *half, const FrictionLaw *law)
     return alike;
 }
 
-// What of a solution is even, on one side.
+// The symmetric part of a solution, on one side.
 static void fold_solution(const ContactHalf *half, const ContactSolution *from,
                           const ContactSolution *to)
 {

@@ -45,7 +45,7 @@ const State *half_step_fold(HalfStep *half, const State *state);
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *odd,
                      ContactSolution *solution, bool *alike);
 
-// What outlives a step.
+// Writes or reads all that outlives a step.
 void half_step_archive(HalfStep *half, Archive *archive);
 
 #endif

@@ -62,7 +62,8 @@ static OperatorTerms rung_terms(const Ladder *ladder, int32_t k)
     return (OperatorTerms){.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
 }
 
-// What the contact sees of a rung that is built with its S, which goes where nobody else has it.
+// Makes the matrix that the contact sees of a rung that is built with its S, which is freed where
+// nobody else uses it.
 static bool make_half(Ladder *ladder, int32_t k, Error *err)
 {
     int64_t count = ladder->half->interface.count;

@@ -11,7 +11,7 @@
 
 enum { LADDER_RUNGS_MAX = 128 };
 
-// What of the contact is asked for.
+// The part of the contact that is asked for.
 typedef enum LadderSide { LADDER_WHOLE, LADDER_EVEN, LADDER_ODD, LADDER_SIDES } LadderSide;
 
 typedef struct Ladder {
@@ -20,8 +20,8 @@ typedef struct Ladder {
     double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
-    // Of the rungs that are built, S, or what is even or odd of it on one side, when first asked
-    // for. S itself is kept only where it was. Owned.
+    // S of the rungs that are built, or its symmetric or antisymmetric part on one side, when first
+    // asked for. S itself is kept only where it was. Owned.
     ContactMatrix contact[LADDER_SIDES][LADDER_RUNGS_MAX];
     double *half_schur[LADDER_SIDES][LADDER_RUNGS_MAX];   // that of `contact`, but for both sides
     const ContactHalf *half;   // by which it is halved; NULL: never; not owned
@@ -43,8 +43,8 @@ int32_t ladder_find(const Ladder *ladder, double step);
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
 // Builds what lies between rungs that are built; false: one cannot be factored.
 bool ladder_fill(Ladder *ladder);
-// What the contact sees of rung k; NULL: it is not built. From here on it is whole where a S turns
-// out not to be its own image.
+// The matrix that the contact sees of rung k; NULL: it is not built. From here on it is whole where
+// a S turns out not to be its own image.
 ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
 ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side);
 

@@ -59,8 +59,8 @@ typedef struct MovingSet {
     const FrictionLaw *law;
     const Rod *rod;
     MovingUnknown *list;   // [interface->count]; owned
-    // Of the list once more, close together for what goes through S. Where there is no friction:
-    // the unknown itself and 0.
+    // The same numbers as in the list, close together for products with S. Where there is no
+    // friction: the unknown itself and 0.
     int32_t *unknown, *normal;   // [interface->count]; owned
     double *friction;   // likewise
     int32_t count;   // |F|

@@ -5,7 +5,7 @@
 #include "friction/friction_response.h"
 #include "contact/slip.h"
 
-// Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at
+// Part of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at
 // v_c/34 came out 1 % too high (nu = 0, 16 cells); oscillations of rods at v_c/300 and below stay
 // under 0.05.
 static const double SMALL_RATE = 0.1;

@@ -96,7 +96,8 @@ static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *
     return own;
 }
 
-// Of a law that asks for pressure: problems in a row, each with the pressures of the one before.
+// A law that asks for pressure takes at most so many problems in a row, each with the pressures of
+// the one before.
 enum { PRESSURES_LIMIT = 40 };
 
 // The whole contact, or one side of it. Whether it was settled.
@@ -137,7 +138,7 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
     if (!*solved) goto cleanup;
     scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
-    // What is held is held exactly, not to the rounding of the substitution.
+    // Held nodes are held exactly, not to the rounding of the substitution.
     for (int32_t k = 0; k < interface->count; k++)
         v[scheme->system->interface_dofs[k]] = contact->velocity[k];
 cleanup:
@@ -204,8 +205,8 @@ static void guess_contact(const State *from, State *to)
     memcpy(to->reaction, from->reaction, bytes);
 }
 
-// What stage i starts from: u_i* in scheme->predictor, K u_i* in scheme->force and M w_i in
-// to->inertia.
+// Puts the start of stage i into its arrays: u_i* into scheme->predictor, K u_i* into
+// scheme->force, M w_i into to->inertia.
 static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
 {
     const State *from = trial->from;

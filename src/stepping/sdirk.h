@@ -37,7 +37,7 @@ typedef struct Sdirk {
     double *predictor;   // [dof_count] work: u_i*
     double *g, *bound;   // [interface_count] work; bound: of the last stage
     double reach;   // gamma dt of the last stage, time
-    // Of all stages but the last: v_i and dt M a_i [stages - 1, dof_count], r_i [stages - 1,
+    // All stages but the last: v_i and dt M a_i [stages - 1, dof_count], r_i [stages - 1,
     // interface_count].
     double *stage_velocity, *stage_impulse, *stage_reaction;
     double *stage_elastic;   // [stages, dof_count] K v_i
@@ -70,7 +70,8 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
 void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double step,
                       EnergyLedger *ledger);
 
-// What the last step leaves: its bounds, by which it is judged, and counters. The rod is another's.
+// Writes or reads all that outlives a step: its bounds, by which it is judged, and counters. The
+// rod is another's.
 void sdirk_archive(Sdirk *scheme, Archive *archive);
 
 #endif

@@ -8,7 +8,8 @@
 #include "contact/contact_problem.h"
 #include "friction/friction_state.h"
 
-// What is stepped: the bulk, where it meets the world, and by which laws. Nothing is owned.
+// The system that is stepped: the bulk, where it meets the world, and by which laws. Nothing is
+// owned.
 typedef struct Block {
     BulkOperator *system;
     const Interface *interface;

@@ -32,7 +32,8 @@ static const double SMALL_OSCILLATION = 0.01;
 // of them all.
 enum { SCANNED_PARTS = 200 };
 
-// What is odd is stepped along where it is more than this part of what is even: rounding.
+// The antisymmetric part is stepped along where it is more than this part of the symmetric one:
+// rounding.
 static const double ODD_LIMIT = 1e-12;
 
 // Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,
@@ -98,7 +99,7 @@ void step_control_restart(StepControl *control)
     control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
 }
 
-// What the contact is asked for in the next step from `now`.
+// Chooses whether the next step from `now` solves the whole contact or its symmetric part.
 static void choose_side(StepControl *control)
 {
     bool halved = control->ladder.half && !control->lopsided &&
@@ -208,7 +209,7 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
-// Of the local error in dt: one more than the scheme's.
+// Order of the local error: one more than the scheme's order.
 static double estimate_order(const StepControl *control)
 {
     return control->scheme.tableau.order + 1;
@@ -238,7 +239,7 @@ static int32_t next_rung(StepControl *control, int32_t k, double error, bool ret
     double expected = error * exp2(estimate_order(control));
     bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
     int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
-    // What a step longer than the waves led to was asked already.
+    // A state that a step longer than the waves led to was examined already.
     bool free = k < resolving || next >= resolving || control->certified ||
                 may_skip_waves(control, &control->now, next);
     if (!free) return resolving;

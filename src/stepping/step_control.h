@@ -93,8 +93,8 @@ void step_control_use_explicit(StepControl *control, const ExplicitReference *sc
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
                                    Error *err);
 
-// What drives the block has changed between two steps: waves are resolved again, and what was seen
-// of oscillations no longer counts.
+// To be called when the drive has changed between two steps: waves are resolved again, and earlier
+// records of oscillations no longer count.
 void step_control_disturb(StepControl *control);
 
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.

@@ -63,7 +63,10 @@ class Abi(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def compare(self, now):
-        return run("abidiff", RECORD, now, status=(0, CHANGED, CHANGED | BROKEN))
+        # What FILE has inside is the C library's, and differs from version to version.
+        known = self.folder / "known.ini"
+        known.write_text("[suppress_type]\nname = _IO_FILE\n")
+        return run("abidiff", "--suppressions", known, RECORD, now, status=(0, CHANGED, CHANGED | BROKEN))
 
     def test_is_the_recorded_one(self):
         done = self.compare(describe(self.folder))

@@ -162,14 +162,17 @@ class SameBits(Cached):
             self.assertEqual(self.endings(), [".mesh"], setting)
 
     def test_what_another_run_left_does_not_decide(self):
-        """Where reducing does not pay `auto` does not take a basis that `always` has made."""
-        wide = [*PLAIN, "mesh.set.nx=80", "time.until.U=1e-4"]
-        none, _ = self.run_scene(*wide, cache="")
-        _, made = self.run_scene(*wide, "reduction.use=always")
-        cached, report = self.run_scene(*wide)
-        self.assertFalse(report["model"]["from_cache"])
-        self.assertNotEqual(report["model"]["reduced_dofs"], made["model"]["reduced_dofs"])
-        self.assert_same_history(none, cached)
+        """A short run on 40 x 40 cells: the same bits without a cache, with an empty one, with its own basis and with what a
+        longer run under another load has left."""
+        wide = [*PLAIN, "mesh.set.nx=40", "mesh.set.nz=40", "time.until.U=5e-4"]
+        none, plain = self.run_scene(*wide, cache="")
+        others = self.folder / "others"
+        self.run_scene(*wide, "time.until.U=1e-3", "load.pressure=0.004", "reduction.use=always", cache=others)
+        for again, cache in ((False, None), (True, None), (True, others)):
+            cached, report = self.run_scene(*wide, cache=cache)
+            self.assertEqual(report["model"]["from_cache"], again)
+            self.assertEqual(report["model"]["reduced_dofs"], plain["model"]["reduced_dofs"])
+            self.assert_same_history(none, cached)
 
     def test_moving_start(self):
         """It moves the interface: the same bits from the cache."""
@@ -230,82 +233,25 @@ class SameBits(Cached):
         self.assertEqual(len(self.files()), count)
 
 
-class Choice(Cached):
-    """What `auto` chooses: of 40 x 40 cells a run to before the first sliding is stepped on the full
-    mesh, one with slidings is reduced."""
-    BRIEF, LONG = "time.until.U=0.0005", "time.until.U=0.005"
-    MESH = ["mesh.set.nx=40", "mesh.set.nz=40", "output.figures=[]", *PLAIN]
-
-    def is_reduced(self, *words, **where):
-        folder, report = self.run_scene(*words, settings=self.MESH, **where)
-        model = report["model"]
-        self.assertGreater(model["expected_s"]["reduction"], 0)   # whatever the cache holds
-        return folder, model["reduced_dofs"] < model["full_dofs"]
-
-    def call(self, command, file, folder, *words):
-        done = subprocess.run([BIN / "amontons", command, file, "-o", folder, "--quiet", *words],
-                              env=dict(os.environ, AMONTONS_CACHE=str(self.cache)),
-                              capture_output=True, text=True, timeout=60)
-        self.assertEqual(done.returncode, 0, done.stderr)
-
-    def test_length_of_the_run(self):
-        """And a run that is gone on with stays what it was."""
-        folder, reduced = self.is_reduced(self.BRIEF)
-        self.assertFalse(reduced)
-        self.assertEqual(self.endings(), [".mesh"])
-        self.call("run", SCENE, folder, "--extend", "U=0.003", "--set", *self.MESH)
-        extended = json.loads((folder / "run.json").read_text())["model"]
-        self.assertEqual(extended["reduced_dofs"], extended["full_dofs"])
-        self.assertTrue(self.is_reduced(self.LONG)[1])
-        # What auto itself has left counts: the basis is there.
-        again, reduced = self.is_reduced(self.BRIEF)
-        self.assertTrue(reduced)
-        # And the full one of before goes on as such, basis or not.
-        self.call("run", SCENE, folder, "--extend", "U=0.0031", "--set", *self.MESH)
-        extended = json.loads((folder / "run.json").read_text())["model"]
-        self.assertEqual(extended["reduced_dofs"], extended["full_dofs"])
-
-    def forecast(self, *words):
+class DryRun(Cached):
+    def say(self, *words):
         done = subprocess.run([BIN / "amontons", "run", SCENE, "--dry-run", "-o", self.folder / "dry",
-                               "--set", *self.MESH, *words], capture_output=True, text=True,
+                               "--set", *SHORT, *PLAIN, *words], capture_output=True, text=True,
                               env=dict(os.environ, AMONTONS_CACHE=str(self.cache)), timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertFalse((self.folder / "dry").exists())
-        seconds = {name: float(re.search(rf"{name} +([\d.]+)", done.stdout)[1])
-                   for name in ("about", "mesh", "reduction", "steps")}
-        parts = seconds["mesh"] + seconds["reduction"] + seconds["steps"]
-        self.assertAlmostEqual(seconds["about"], parts, delta=0.02 + 0.05 * parts)
-        return done.stdout, seconds
+        return done.stdout
 
     def test_dry_run(self):
-        """It says what would be chosen, makes nothing but the mesh, and knows what the cache holds."""
-        said, brief = self.forecast(self.BRIEF)
-        self.assertIn("1600 elements, 41 contact nodes, 3362 unknowns", said)
-        self.assertIn("none: stepped on the full mesh", said)
-        self.assertEqual(brief["reduction"], 0)
-        _, longer = self.forecast(self.LONG)
+        """It says how large the run is, makes nothing but the mesh, and knows what the cache holds."""
+        said = self.say()
+        self.assertIn("64 elements, 9 contact nodes, 162 unknowns", said)
+        self.assertIn("reduced before stepping; the reduction is not in the cache", said)
+        self.assertRegex(said, r"about [0-9.e-]+ GB of memory")
         self.assertEqual(self.endings(), [".mesh"])
-        self.assertGreater(longer["reduction"], 0)
-        self.is_reduced(self.LONG)
-        said, held = self.forecast(self.LONG)
-        self.assertIn("in the cache", said)
-        self.assertEqual((held["reduction"], held["steps"]), (0, longer["steps"]))
-
-    def test_sweep(self):
-        """Eight points of one block are reduced, each of eight blocks is not."""
-        head = f"scene: {SCENE}\nset: {{{self.BRIEF.replace('=', ': ')}, mesh.set.nx: 40, mesh.set.nz: 40}}\n"
-        varied = {"one": "load.pressure: {linear: [0.003, 0.0031], points: 8}",
-                  "each": "material.poisson: {linear: [0.3, 0.31], points: 2}"}
-        for name, vary in varied.items():
-            study = self.folder / f"{name}.yaml"
-            study.write_text(f"{head}vary:\n  {vary}\nrecord: [reduced_dofs]\n")
-            self.call("sweep", study, self.folder / name, "-j", "1")
-            models = [json.loads(path.read_text())["model"]
-                      for path in (self.folder / name / "points").glob("*/run.json")]
-            self.assertEqual(len(models), 8 if name == "one" else 2)
-            for model in models:
-                self.assertEqual(model["reduced_dofs"] < model["full_dofs"], name == "one")
-                self.assertEqual(model["expected_s"]["runs"], 8 if name == "one" else 1)
+        self.run_scene(*PLAIN)
+        self.assertIn("reduced before stepping; the reduction is in the cache", self.say())
+        self.assertIn("not reduced: steps are those of the whole mesh", self.say("reduction.use=never"))
 
 
 class Refused(Cached):
@@ -317,15 +263,32 @@ class Refused(Cached):
         return done.stderr
 
     def test_numbers_too_far_apart(self):
-        """Where rounding leaves nothing of a reduction: the key whose number it is, and what goes without."""
+        """Where rounding leaves nothing of a reduction `always` names the key whose number it is, and what goes without."""
         for settings, words in (
                 (["material.poisson=0.4999999999", "material.plane=strain"], ["material.poisson, as set: stiffness of volume over that of shear in plane strain is 5e+09"]),
                 (["mesh.set.height=1e6", "rod.height=5e5", "rod.width=1e6"], ["mesh.set, as set: one side of the block over the other is 1e+06"]),
                 (["material.eta2=1e12"], ["material.eta2", "one viscosity over the other is 1e+12"])):
-            said = self.refused(*settings)
+            said = self.refused(*settings, "reduction.use=always")
             self.assertNotIn("warning", said)   # of a run that has no answer
-            for word in ["fig1.yaml", "reduction.use: never", "while reducing the bulk", *words]:
+            for word in ["fig1.yaml", "reduction.use: auto steps on the whole mesh", "while reducing the bulk", *words]:
                 self.assertIn(word, said)
+
+    def test_not_reduced_where_numbers_are_too_far_apart(self):
+        """What `never` does, said so; the cache has nothing of it."""
+        far = [*PLAIN, "material.eta2=1e12", "time.until.U=1e-3"]
+        never, _ = self.run_scene(*far, "reduction.use=never", cache="")
+        for _ in range(2):
+            folder, report = self.run_scene(*far)
+            self.assertIn("the block is not reduced, steps are those of the whole mesh: one viscosity over the other is 1e+12",
+                          "".join(report["warnings"]))
+            self.assertEqual(report["model"]["reduced_dofs"], report["model"]["full_dofs"])
+            self.assert_same_history(never, folder)
+        self.assertEqual(self.endings(), [".mesh"])
+
+    def test_what_cannot_be_reduced(self):
+        for setting, words in (("time.scheme=explicit", "explicit steps"), ("material.eta1=0", "without viscosity"),
+                               ("start.state=undeformed", "a start")):
+            self.assertIn(words, self.refused(setting, "reduction.use=always"))
 
     def test_limit(self):
         said = self.refused(AMONTONS_CACHE_LIMIT="abc")

@@ -52,12 +52,48 @@ class Help(unittest.TestCase):
                                       rf"meshes and example scenes: {re.escape(str(SOURCE))}\n$")
 
     def test_kernels(self):
-        """What this processor can run, whatever OpenBLAS is told by a name that does not exist; a choice stays."""
+        """What OpenBLAS takes, whatever it is told by a name that does not exist; a choice stays."""
         said = {name: amontons("--version", OPENBLAS_CORETYPE=name).stdout.splitlines()[2]
-                for name in ("", "none", "Prescott")}
-        self.assertEqual(said["none"], said[""])
-        self.assertNotIn("Prescott", said[""])
+                for name in ("none", "Prescott")}
+        self.assertNotIn("Prescott", said["none"])
         self.assertRegex(said["Prescott"], r"Prescott kernels, as OPENBLAS_CORETYPE asks; this processor could run \w+$")
+
+    def unknown(self, *words, **environment):
+        """The program with an OpenBLAS that does not know the processor; its standard output."""
+        plain = {name: value for name, value in os.environ.items() if name != "OPENBLAS_CORETYPE"}
+        preloaded = ":".join(filter(None, (os.environ.get("LD_PRELOAD"), str(PROGRAM.parents[1] / "tests/unknown_processor.so"))))
+        done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=60, env=plain | {"LD_PRELOAD": preloaded} | environment)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_a_processor_that_openblas_does_not_know(self):
+        """The program chooses kernels and executes itself, once; not against a choice, not for ever."""
+        best = re.search(r"could run (\w+)$", amontons("--version", OPENBLAS_CORETYPE="Prescott").stdout, re.M)[1]
+        self.assertIn(f"OpenBLAS's {best} kernels\n", self.unknown("--version"))
+        self.assertIn("OpenBLAS's Nehalem kernels, as", self.unknown("--version", OPENBLAS_CORETYPE="Nehalem"))
+        self.assertIn("OpenBLAS's Prescott kernels, as", self.unknown("--version", UNKNOWN_ALWAYS="yes"))
+        self.assertIn(f"OpenBLAS's {best} kernels\n", self.unknown("--version", AMONTONS_AGAIN="1"))   # of another process
+
+    def test_what_it_sets_is_not_inherited(self):
+        """A job that it submits runs on another processor."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            for name in ("sbatch", "scancel", "squeue", "scontrol"):
+                (folder / name).write_text(f"#!/bin/sh\nenv > {folder}/inherited\n[ $1 = --version ]\n")
+                (folder / name).chmod(0o755)
+            (folder / "study.yaml").write_text(f"scene: {FIG1}\nvary: {{load.pressure: [0.002, 0.006]}}\nrecord: [mu_max]\n")
+            with self.assertRaises(AssertionError):   # it refuses the array
+                self.unknown("sweep", folder / "study.yaml", "--slurm", "-o", folder / "points", PATH=f"{folder}:{os.environ['PATH']}",
+                             OMP_NUM_THREADS="3")
+            inherited = (folder / "inherited").read_text()
+        for name in ("OPENBLAS_CORETYPE", "AMONTONS_AGAIN"):
+            self.assertNotIn(name, inherited)
+        self.assertIn("OMP_NUM_THREADS=3\n", inherited)
+
+    def test_variables_of_openmp(self):
+        """libgomp, which the program does not use, has nothing to say."""
+        done = amontons("info", "keys", OMP_NUM_THREADS="0")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_main_help_names_every_command(self):
         for words in (["--help"], ["help"], ["-h"]):
@@ -173,19 +209,30 @@ class Misuse(InFolder):
         scene = self.scene(FIG1.read_text().replace("../../meshes/block.geo", "a.geo"))
         touch = f'SystemCall "touch {self.folder}/ran";'
         inner.write_text(touch)
+        process = f'Field[1] = ExternalProcess; Field[1].CommandLine = "touch {self.folder}/ran; cat"; Background Field = 1;'
         for text in (touch, f"s = '\"'; {touch} t = '\"';", f'NonBlocking{touch}', 'Include "inner.geo";',
-                     'Merge "inner.geo";', 'Include Str("inner", ".geo");', f'Printf("x") > "{self.folder}/ran";',
-                     f'Print "{self.folder}/ran";', f'General.LogFileName = "{self.folder}/ran";'):
+                     'Merge "inner.geo";', 'Include Str("inner", ".geo");', process):
             with self.subTest(text):
                 geo.write_text(block + text + "\n")
                 for command in (["info", geo], ["static", scene],
                                 ["run", scene, "-q", "--overwrite", *COARSE, *PLAIN]):
                     self.assert_refused(command, ".geo:", "--trust")
                 self.assertFalse((self.folder / "ran").exists())
+        for text in (f'Printf("x") > "{self.folder}/ran";', f'Print "{self.folder}/ran";', f'Save "{self.folder}/ran";',
+                     f'General.LogFileName = "{self.folder}/ran";', f"// {touch}", "General.Terminal = 1;", "Exit;"):
+            with self.subTest(text):
+                geo.write_text(block + text + "\n")
+                self.assertIn("1600 Q4", self.informed(geo))
+                self.assertFalse((self.folder / "ran").exists())
+        subprocess.run(["gmsh", "-2", SOURCE / "meshes/block.geo", "-o", self.folder / "a.msh"], capture_output=True, check=True)
+        for options in ("a.geo.opt", "a.msh.opt"):      # gmsh would read them
+            (self.folder / options).write_text(touch)
         geo.write_text(block)
-        (self.folder / "a.geo.opt").write_text(touch)
-        self.assert_refused(["info", geo], "a.geo.opt:1: `SystemCall`")
-        (self.folder / "a.geo.opt").unlink()
+        self.informed(geo)
+        self.informed(self.folder / "a.msh")
+        self.assertFalse((self.folder / "ran").exists())
+        for options in ("a.geo.opt", "a.msh.opt"):
+            (self.folder / options).unlink()
         mesh = self.folder / "a.msh"
         mesh.write_text(f"// \n{touch}\n/*\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$EndElements\n*/\n")
         self.assert_refused(["info", mesh], "does not begin with $MeshFormat")
@@ -194,6 +241,45 @@ class Misuse(InFolder):
         done = amontons("info", geo, "--trust", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "ran").exists())
+
+    def informed(self, path, *words):
+        """What info says of a mesh: the block, and nothing before it."""
+        cache = self.folder / "cache"
+        shutil.rmtree(cache, ignore_errors=True)    # so that gmsh reads it
+        done = amontons("info", path, *words, cwd=self.folder, AMONTONS_CACHE=str(cache))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith("mesh "), done.stdout)
+        return done.stdout
+
+    def test_a_geo_that_meshes_itself(self):
+        """Its own mesh is kept, with all that it did to it; options for writing a mesh count."""
+        corners = "".join(f"Point({k}) = {{{x}, {y}, 0, 10}};\n" for k, (x, y) in enumerate(((0, 0), (100, 0), (100, 50), (0, 50)), 1))
+        block = corners + """Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4};
+            Plane Surface(1) = {1}; Physical Curve("contact") = {1}; Physical Curve("top") = {3}; Physical Curve("rod") = {4};
+            Physical Surface("body") = {1};\n"""
+        geo = self.folder / "a.geo"
+        for text, wanted in (("", r"\b(\d+) T3\n  x from 0 to 100,"), ("Mesh 2; SetOrder 2;", r"\d+ T6\n"), ("Mesh 2; SetOrder 2; Exit;", r"\d+ T6\n"),
+                             ("Mesh 2; RecombineMesh;", r"\d+ Q4\b"), ("Mesh.ScalingFactor = 0.001;", r"x from 0 to 0.1,"),
+                             ("Mesh 1; Mesh.ScalingFactor = 0.001;", r"x from 0 to 0.1,"), ("Mesh.SaveAll = 1;", r"\d+ T3\n")):
+            with self.subTest(text):
+                geo.write_text(block + text + "\n")
+                self.assertRegex(self.informed(geo), wanted)
+        counts = {}
+        for text in ("", "Mesh 2; RefineMesh;"):
+            geo.write_text(block + text + "\n")
+            counts[text] = int(re.search(r"(\d+) T3", self.informed(geo))[1])
+        self.assertEqual(counts["Mesh 2; RefineMesh;"], 4 * counts[""])
+
+    def test_what_gmsh_says(self):
+        """An error after which there is a mesh is a warning; one in the script has its file and line."""
+        geo, box = self.folder / "a.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, .6, .4};\n"
+        groups = 'Physical Surface("contact") = {5}; Physical Surface("rod") = {1}; Physical Surface("top") = {6}; Physical Volume("b") = {1};\n'
+        geo.write_text(box + groups + "Mesh.MeshSizeMax = .3;\nMesh.OptimizeNetgen = 1;\n")
+        if "gmsh made it" in self.informed(geo):    # where its gmsh has no Netgen
+            self.assertIn("Netgen", self.informed(geo))
+        (self.folder / "b.geo").write_text("x = 1;\ny = nowhere(;\nnowhere = 2;\n")
+        geo.write_text(box + 'Include "b.geo";\n' + groups)
+        self.assert_refused(["info", geo], "b.geo:2: ", "syntax error")
 
     def test_files_of_no_known_kind(self):
         self.assert_refused(["info", "none"], "none: No such file")
@@ -299,7 +385,7 @@ class Run(InFolder):
         info = amontons("info", result)
         self.assertEqual((info.returncode, info.stderr), (0, ""))
         for name in ("mu_M", "mu_hold", "mu_max"):
-            self.assertRegex(info.stdout, rf"\n  {name} +\S+ \(on this mesh {run['results'][name]:.6g}\b")
+            self.assertRegex(info.stdout, rf"\n  {name} +\S+, one mesh[^(]+ \(on this mesh {run['results'][name]:.6g}\b")
         self.assertEqual(info.stdout.count("\n  bulk sliding "),
                          sum(e["kind"].startswith("leading") for e in run["results"]["events"]))
 
@@ -327,18 +413,6 @@ class Run(InFolder):
         done = amontons(*scene, "--overwrite", cwd=self.folder, **none)
         self.assertEqual(done.returncode, 1)
         self.assertIn("amontons_hdf5.so", done.stderr)
-
-    def test_regions_of_openmp_make_no_teams(self):
-        """The loader says whose function CHOLMOD calls: the program's, not libgomp's."""
-        done = amontons("run", FIG1, *COARSE, "time.until.t=1", "reduction.cache=false", *PLAIN,
-                        "-o", self.folder / "out", LD_DEBUG="bindings", LD_DEBUG_OUTPUT=str(self.folder / "loader"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        said = [line for file in self.folder.glob("loader*") for line in file.read_text().splitlines()
-                if "GOMP_parallel'" in line and re.search(r"file \S*libcholmod", line)]
-        if not said:
-            self.skipTest("CHOLMOD without GNU's OpenMP")
-        for line in said:
-            self.assertRegex(line, r" to \S*/amontons \[0\]")
 
     def test_quiet(self):
         done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "--quiet", "-o",
@@ -438,17 +512,6 @@ class Run(InFolder):
         self.assertEqual(ended[1], 1)   # the block is reduced in two threads
         if root:
             self.assertEqual(ended[6], 0)
-
-    def test_libraries_start_no_threads(self):
-        """On many processors too: the loader says whom OpenBLAS asks for their number."""
-        done = amontons("--version", LD_DEBUG="bindings", LD_DEBUG_OUTPUT=str(self.folder / "loader"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        said = [line for file in self.folder.glob("loader*") for line in file.read_text().splitlines()
-                if "openblas_num_threads_env'" in line]
-        if not said:
-            self.skipTest("OpenBLAS without threads of its own")
-        for line in said:
-            self.assertRegex(line, r" to \S*/amontons \[0\]")
 
     def test_ignored_children(self):
         """Whoever starts it may ignore SIGCHLD: an sbatch that fails has failed all the same."""

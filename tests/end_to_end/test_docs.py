@@ -99,6 +99,28 @@ class Text(unittest.TestCase):
                     if anchor:
                         self.assertIn(anchor, anchors(goal))
 
+    def test_the_cookbook_counts_its_studies(self):
+        words = ("ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen")
+        count = words[len(re.findall(r"^## \d+\. ", (SOURCE / "docs/cookbook.md").read_text(), re.M)) - 10]
+        for page, says in (("docs/cookbook.md", "# Cookbook: {} studies"), ("docs/tutorial.md", "[{} studies](cookbook.md)"),
+                           ("README.md", "| {} studies to copy")):
+            self.assertIn(says.format(count), (SOURCE / page).read_text())
+
+    def test_rows_stand_once(self):
+        """Within a table no row has the same words as another."""
+        for page in DOCS:
+            rows = {}
+            for number, line in enumerate(page.read_text().splitlines(), 1):
+                if not line.startswith("|"):
+                    rows = {}
+                elif not set(line) <= set("|- "):
+                    self.assertNotIn(line, rows, f"{page.name}:{number}")
+                    rows[line] = number
+
+    def test_costs_stand_once(self):
+        costs = re.findall(r"^set\((cost_\w+) ", (SOURCE / "tests/CMakeLists.txt").read_text(), re.M)
+        self.assertEqual(len(costs), len(set(costs)))
+
     def test_every_page_is_linked(self):
         linked = re.findall(r"\]\((docs/[\w.]+)\)", (SOURCE / "README.md").read_text())
         self.assertEqual(set(linked), {f"docs/{page.name}" for page in DOCS})

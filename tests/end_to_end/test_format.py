@@ -40,15 +40,17 @@ def faults(path):
 # What no file of the library does, and the one place that may.
 HABITS = [
     ("prints or ends the program",   # there: a forked child
-     r"src/cli/|src/study/sweep/computing/pool\.c|src/base/apart\.c",
+     r"src/cli/|src/study/sweep/computing/pool\.c|src/base/child_process\.c",
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("changes what is the process's",
-     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(apart|decimal_point)\.c|src/io/mesh/mesh_file_module\.c",
+     r"src/cli/|src/study/sweep/computing/(pool|element)\.c|src/base/(child_process|decimal_point)\.c|src/io/mesh/mesh_file_module\.c",
      # there: processes and a thread of their own; what gmsh changes is put back
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
-    ("allocates by itself", r"src/base/memory\.c",
+    ("allocates by itself", r"src/base/(memory|system)\.c|src/cli/main\.c",   # main.c: before the library is there
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
-    ("opens a file by itself", r"src/io/files/open_file\.c",   # HDF5, libav, VTK and Cairo get what is open already
+    # HDF5, libav, VTK and Cairo get what is open already; shut_in only names O_CREAT, to forbid it; the .geo's included
+    # files and the mesh are opened for reading alone, in the child that gmsh reads in
+    ("opens a file by itself", r"src/io/files/open_file\.c|src/base/shut_in\.c|src/io/mesh/(geo_script|mesh_file_module)\.c",
      r'(?<![>.])\b(fopen|freopen|creat|mkstemp|mkostemp|open|openat)\((?!"/dev/null"|"/proc/|[^;]*O_DIRECTORY)'
      r"|\b(avio_open2?|cairo_surface_write_to_png|cairo_(pdf|svg)_surface_create)\(|\bstd::[io]?fstream|\bO_CREAT\b"),
     ("keeps state in a function", None, r"(?m)^[ \t]+static (?!const )[^(]*?[;=]"),

@@ -13,7 +13,7 @@ SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents
 COMPILE = ["cc", "-std=c17", "-D_GNU_SOURCE", "-Wall", "-Wextra", "-Wshadow", "-Wconversion",
            "-Wstrict-prototypes", "-Werror", "-fsyntax-only", "-x", "c", "-"]
 HDF5_FLAGS = subprocess.run(["pkg-config", "--cflags", "hdf5-serial"], capture_output=True,
-                            text=True).stdout.split()   # for io/hdf5/array_disk.h
+                            text=True).stdout.split()   # for io/hdf5/hdf5_library.h
 CHOLMOD_FLAGS = ["-I/usr/include/suitesparse"]   # for algebra/sparse_analysis.h: it has no .pc file
 
 

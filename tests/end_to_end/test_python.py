@@ -2,6 +2,7 @@
 """The Python module against the program: the same numbers, to the bit; its structs against the compiler's; views without
 copies; errors with file, line and key; Ctrl-C; pictures and tables."""
 import csv
+import copy
 import ctypes
 import gc
 import importlib.util
@@ -171,6 +172,25 @@ class Run(InFolder):
                 call()
         self.assertEqual([path.name for path in self.folder.iterdir()], ["run"])
 
+    def test_odd_calls(self):
+        """Each crashed, or took None for a name."""
+        simulation = amontons.Simulation(FIG1, SMALL)
+        result = self.folder / "nothing"
+        for call in (lambda: amontons.film(result, "x.mp4", of=5), lambda: amontons.film(result, "x.mp4", stop=5), lambda: amontons.film(result, None),
+                     lambda: amontons.render(None), lambda: amontons.render(result, "force"), lambda: amontons.render(result, at=5),
+                     lambda: amontons.run(None), lambda: amontons.run(FIG1, SMALL, 5), lambda: amontons.open_result(None),
+                     lambda: amontons.info(None), lambda: amontons.static(FIG1, SMALL, 5), lambda: amontons.sweep(5),
+                     lambda: amontons.render_plot("a.yaml", None), lambda: copy.copy(simulation), lambda: copy.deepcopy(simulation)):
+            with self.assertRaises(TypeError):
+                call()
+        self.assertEqual(amontons.run(FIG1, SMALL, os.fsencode(self.folder / "bytes")).folder, self.folder / "bytes")
+        simulation.advance()
+        simulation.__del__()
+        for call in (lambda: list(simulation), simulation.advance, simulation.save, simulation.finish, lambda: simulation.position,
+                     lambda: simulation.set_pressure(1.0)):
+            with self.assertRaisesRegex(ValueError, "closed"):
+                call()
+
     def test_what_a_callback_raises_comes_through(self):
         def give_up(step):
             if step.U > 1e-3:
@@ -335,7 +355,7 @@ class Commands(InFolder):
         return done.stdout
 
     def test_forecast(self):
-        """Numbers of the mesh and the choice as in the run that follows; seconds as the program prints them."""
+        """Numbers of the mesh as in the run that follows."""
         expected = amontons.forecast(FIG1, SMALL)
         model = amontons.run(FIG1, SMALL).report["model"]
         self.assertEqual((expected.contact_nodes, expected.unknowns), (model["contact_nodes"], model["full_dofs"]))
@@ -343,8 +363,8 @@ class Commands(InFolder):
             word for key, value in SMALL.items()
             for word in ("--set", f"{key}={'none' if value is None else json.dumps(value)}")])
         self.assertIn(f"{expected.elements} elements, {expected.contact_nodes} contact nodes", said)
-        self.assertRegex(said, rf"steps +{expected.steps:.2f} s   some {expected.stages:.0f} stages")
-        self.assertIn("On the full mesh" if expected.reduced else "Reduced", said)
+        self.assertTrue(expected.reduced)
+        self.assertIn("reduced before stepping", said)
         with self.assertRaisesRegex(amontons.InputError, "pressure"):
             amontons.forecast(FIG1, {"load.pressure": "much"})
 
@@ -415,19 +435,19 @@ class Commands(InFolder):
         self.assertIn(amontons.version(), self.program("--version"))
 
     def test_kernels_beside_numpy(self):
-        """numpy came first, on a processor that OpenBLAS did not know: it is one library, which follows the processor now."""
+        """numpy came first, with kernels of its choice: it is one library, and what a host has chosen stays."""
         script = (f"import os; import numpy; del os.environ['OPENBLAS_CORETYPE']; import sys; sys.path.insert(0, {str(MODULE)!r}); "
                   "a = numpy.arange(4e4).reshape(200, 200) % 7; before = a @ a; import amontons; "
                   "print(amontons.kernels(), (a @ a == before).all())")   # whole numbers are not rounded
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=self.folder,
                               env=os.environ | {"OPENBLAS_CORETYPE": "Prescott"})
-        self.assertRegex(done.stdout, r"^(?!Prescott)\w+ True\n$")
+        self.assertRegex(done.stdout, r"^Prescott True\n$")
 
     def test_pictures(self):
         result = amontons.run(FIG1, SMALL, self.folder / "run")
         self.assertEqual([path.name for path in amontons.render(result, ["force"])], ["force.png"])
         made = amontons.film(result, self.folder / "frames", seconds=0.2, rate=10, width=640, height=360, end="U=0.001")
-        self.assertEqual(sorted(path.name for path in made.iterdir()), ["frame-0001.png", "frame-0002.png"])
+        self.assertEqual(sorted(path.name for path in made.iterdir()), ["amontons.files", "frame-0001.png", "frame-0002.png"])
         with self.assertRaisesRegex(amontons.InputError, ".mp4, .webm or .gif"):
             amontons.film(result, self.folder / "film.avi")
         if not has("matplotlib"):

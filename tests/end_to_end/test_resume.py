@@ -147,7 +147,7 @@ class Resume(OwnCache):
         self.assertEqual((self.folder / "sweep" / "sweep.csv").read_text(), table)
         self.assertEqual([json.loads((point / "run.json").read_text())["resumed"] for point in (first, second)], [1, 0])
         (first / "run.json").unlink()
-        lock = open(self.folder / "sweep" / "lock", "w")      # of points that die a moment after their sweep
+        lock = open(self.folder / "sweep" / "amontons.lock", "w")      # of points that die a moment after their sweep
         fcntl.flock(lock, fcntl.LOCK_EX)
         threading.Timer(0.2, lock.close).start()
         subprocess.run([*words, "--fresh"], check=True, env=self.environment)

@@ -235,7 +235,7 @@ class Sweep(unittest.TestCase):
         self.sweep(out="pool")
         self.assertEqual(self.table("pool"), self.table())
         left = {path.name for path in self.folder.glob("out/**/*")} - {path.name for path in self.folder.glob("out/slurm/*")}
-        self.assertEqual(left, {"lock", "reports", "slurm", "sweep.csv", "sweep.h5", "ranking.csv"})
+        self.assertEqual(left, {"amontons.files", "reports", "slurm", "sweep.csv", "sweep.h5", "ranking.csv"})
         self.assertEqual(list((self.folder / "out/slurm").glob("share-*")), [])
 
     def test_killed_with_shares(self):

@@ -153,7 +153,7 @@ class Space(OwnCache):
         self.assertTrue((self.folder / "result/figures/accuracy.png").exists())
 
     def test_forecast(self):
-        """Time and memory are told before, and what does not fit is refused before anything is factored."""
+        """Memory is told before, and what does not fit is refused before anything is factored."""
         path = self.folder / "scene.yaml"
         path.write_text(SCENE)
         words = [PROGRAM, "run", path, "--dry-run", "--set", "mesh.set.nx=30", "mesh.set.ny=30"]

@@ -154,7 +154,7 @@ class Answers(InFolder):
         self.assertEqual(report["slidings_before"], 1)
         again = stability("--quiet", "-o", self.folder / "deep/er")
         self.assertEqual(again.returncode, 2)
-        self.assertIn("holds an earlier result (stability.json)", again.stderr)
+        self.assertIn("holds an earlier result (stability.h5)", again.stderr)
         over = stability("--quiet", "-o", self.folder / "deep/er", "--overwrite")
         self.assertEqual(over.returncode, 0, over.stderr)
 

@@ -292,7 +292,7 @@ class Sweep(unittest.TestCase):
         self.assertIn("5 points: 5 computed", self.sweep(study=study, status=1).stdout)
         self.assertEqual(self.without_times("out"), wanted)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
-                         ["lock", "reports", "sweep.csv", "sweep.h5"])
+                         ["amontons.files", "reports", "sweep.csv", "sweep.h5"])
         self.assertIn("5 points: 0 computed", self.sweep(study=study, status=1).stdout)
         lines = reports.read_bytes().splitlines(True)
         reports.write_bytes(b"".join(lines[:2]) + lines[2][:200])
@@ -376,6 +376,21 @@ class Sweep(unittest.TestCase):
         self.assertEqual(self.call(*draw, "{x: mu_M, y: = 2 * l_c, name: later}").returncode, 0)
         drawn = json.loads((figures / "later.json").read_text())["series"][0]
         self.assertEqual(sorted(drawn["y"]), sorted(2 * float(row["l_c"]) for row in rows))
+        # A label, or a formula, keeps the errors; of a formula they are what the columns' own do to it.
+        drawn = {}
+        for name, y in ("plain", "mu_M"), ("named", "held at last = mu_M"), ("twice", "= 2 * mu_M"):
+            self.assertEqual(self.call(*draw, f"{{x: load.pressure, y: {y}, name: {name}, panels: rod.kind, series: mesh.set.length}}").returncode, 0)
+            drawn[name] = json.loads((figures / f"{name}.json").read_text())
+        self.assertEqual(drawn["named"]["y"]["label"], "held at last")
+        for one, of_name, of_two in zip(*(drawn[name]["panels"][0]["series"] for name in ("plain", "named", "twice"))):
+            if "error" not in one:
+                continue
+            self.assertTrue(any(one["error"]))
+            for mine, named, doubled in zip(one["error"], of_name["error"], of_two["error"]):
+                self.assertEqual(mine is None, named is None)
+                if mine is not None:
+                    self.assertAlmostEqual(named, mine, delta=1e-9)
+                    self.assertAlmostEqual(doubled, 2 * mine, delta=1e-9)
         for words, said in ("{x: mu_M, y: load.presure}", "did you mean `load.pressure`"), \
                            ("{x: load.pressure, y: mesh.set.length, color: mu_M}", "name the key in which they differ"), \
                            ("{x: mu_M}", "`y` must be given"), ("{x: mu_M, y: = l_c +}", "the formula ends"), \
@@ -545,7 +560,7 @@ class Sweep(unittest.TestCase):
     def test_one_sweep_a_folder(self):
         import fcntl
         (self.folder / "out").mkdir()
-        with open(self.folder / "out/lock", "w") as lock:
+        with open(self.folder / "out/amontons.lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             done = self.sweep(status=1)
         self.assertIn("another sweep is running", done.stderr)

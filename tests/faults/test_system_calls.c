@@ -122,7 +122,7 @@ static bool report(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result}, 1, page, false, err);
+    return amontons_report((const char *const[]){result}, 1, page, true, err);
 }
 
 static bool draw_sweep(Error *err)
@@ -137,7 +137,8 @@ static bool look_at_mesh(Error *err)
     char path[4 * PLACE_SIZE], picture[PLACE_SIZE + 20];
     snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
     snprintf(picture, sizeof picture, "%s/mesh.svg", place);
-    InfoOptions options = {.overrides = settings, .override_count = 3, .picture = picture};
+    InfoOptions options = {
+        .overrides = settings, .override_count = 3, .picture = picture, .overwrite = true};
     return amontons_info(path, &options, nowhere, err);
 }
 
@@ -172,7 +173,8 @@ static bool film(Error *err)
 {
     char path[PLACE_SIZE + 20];
     snprintf(path, sizeof path, "%s/film.mp4", place);
-    FilmRequest request = {.path = path, .seconds = 0.1, .width = 640, .height = 360};
+    FilmRequest request = {
+        .path = path, .seconds = 0.1, .width = 640, .height = 360, .overwrite = true};
     return amontons_film(result, &request, err);
 }
 
@@ -180,7 +182,7 @@ static bool compare(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result, result}, 2, page, false, err);
+    return amontons_report((const char *const[]){result, result}, 2, page, true, err);
 }
 
 // --- and how it may end -------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is looked for in a .geo before gmsh sees it. It lies in a folder of its own, so that what it
 // includes is not another open file of the fuzzer.
-#include "io/mesh/geo_commands.h"
+#include "io/mesh/geo_script.h"
 #include "io/mesh/geo_parameters.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -28,9 +28,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int64_t before = memory_counters().live;
     Error err = {0};
     GeoParameters known = {0};
+    GeoScript script = {0};
     write_script(data, size);
-    if (geo_commands_refuse(path, true, &err)) geo_parameters_read(path, &known, &err);
+    if (geo_script_read(path, &script, &err)) geo_parameters_read(path, &known, &err);
+    for (int32_t line = 1; script.text && line < 100; line += 7) {
+        const char *file = NULL;
+        int32_t file_line = 0;
+        geo_script_place(&script, line, &file, &file_line);
+    }
     geo_parameters_destroy(&known);
+    geo_script_destroy(&script);
     fuzz_check_freed(before);
     return 0;
 }

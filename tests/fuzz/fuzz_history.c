@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A history that is a whole HDF5 file but not one of ours: arrays of other types, shapes and
 // lengths, or missing, from letters as in fuzz_mesh. (What damaged bytes do inside HDF5 is another
-// question, to which a process of its own is the answer: base/apart.)
+// question, to which a process of its own is the answer: base/child_process.)
 #include "io/hdf5/result_file.h"
 #include "render/view/result_view.h"
 #include "run/info/info.h"

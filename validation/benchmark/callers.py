@@ -206,8 +206,8 @@ def main():
              "less than two of them differ by. A call that does next to nothing (8 x 8 cells, into a folder) takes\n"
              f"{from_c:.2f} ms from C; Python adds {added:.2f} ms.\n\n"
              f"A process that reduces a block anew, to its first step, processor time:\n\n{markdown_table(COLD_HEAD, cold)}\n\n"
-             "Of Python 0.1 s are its own start. From C and Python libgomp calls the kernel for each of CHOLMOD's regions, which\n"
-             "the program does without (`src/cli/main.c`), and the host's allocator gives memory back between points.\n")
+             "Of Python 0.1 s are its own start. libgomp calls the kernel for each of CHOLMOD's regions, three or so in each step of a factor; up to version 0.2 the\n"
+             "program did without that, and kept memory between points. Since then its times are those of C.\n")
     print(text)
     if options.output:
         options.output.write_text(text)

@@ -99,9 +99,9 @@ def main():
                 ("map of 1e5 points, scattered", 2, ("scattered", "--plot", MAP))]:
             times, ratios = [], []
             for _ in range(options.repeats):
-                times.append(processor_time([options.program, "render", folder / words[0], *words[1:]]))
+                times.append(processor_time([options.program, "render", folder / words[0], *words[1:], "--overwrite"]))
                 if options.before:
-                    ratios.append(times[-1] / processor_time([options.before, "render", folder / words[0], *words[1:]]))
+                    ratios.append(times[-1] / processor_time([options.before, "render", folder / words[0], *words[1:], "--overwrite"]))
             ratio = f"{statistics.median(ratios):.2f}" if ratios else ""
             rows.append([name, f"{min(times):.3f}", f"{statistics.median(times):.3f}", limit or "", ratio])
             missed = missed or (limit is not None and min(times) > limit)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What tries.py does to the program, described in lists: each function yields tries of one group. A
 try has a folder of its own with scene.yaml, block.geo and block.msh of `stock`."""
+import os
 import random
 import re
 import shutil
@@ -172,8 +173,20 @@ def meshes(stock):
         yield Try("mesh", name, ["info", "bad.msh"], {"bad.msh": text}, says="bad.msh")
 
 
+FIELD = 'Field[1] = ExternalProcess; Field[1].CommandLine = "rm own.txt; cat"; Background Field = 1; Point(1) = {0, 0, 0};\n'
 GEOMETRIES = {
-    "commands": 'SystemCall "touch own.txt";\n', "writes": 'Printf("x") > "own.txt";\n',
+    "commands": 'SystemCall "rm own.txt";\n', "a command by a field": FIELD, "a command behind a comment": '// "\n' + FIELD,
+    "a command behind a quote": "s = '\"'; SystemCall \"rm own.txt\"; t = '\"';\n",
+    "a command behind what is skipped": 'If(0)\n s = "EndIf SystemCall"; t = " own.txt ";\nEndIf\n',
+    "a command by a name": 'S2N["SystemCall"] "rm own.txt";\n', "a command of its own": 'Foo = 1; Foo "rm own.txt";\n',
+    "a client": 'OnelabRun("x", "rm own.txt");\n', "prints": 'Print "own.txt";\n', "saves": 'Save "own.txt";\n',
+    "a log": 'General.LogFileName = "own.txt";\nError("x");\n', "a plug-in that writes":
+    'Plugin(AnalyseMeshQuality).Run; Plugin(Distance).FileName = "own.txt"; Plugin(Distance).Run;\n',
+    "a folder": 'CreateDir "own.txt";\n', "sleeps": "Sleep 100000;\n", "asks": 'x = GetValue("how many?", 3);\n',
+    "a shape that is a terminal": 'Merge "/dev/tty.step";\nMerge "/dev/zero";\n',
+    "many threads": "General.NumThreads = 1000; Mesh.MaxNumThreads2D = 1000; Mesh.MaxNumThreads3D = 1000;\nMesh 2;\n",
+    "a script that is a mesh": 'Merge "own.msh";\n',
+ "writes": 'Printf("x") > "own.txt";\n',
     "merges": 'Merge "own.txt";\n', "includes itself": 'Include "bad.geo";\n',
     "an error": "Point(1) = {0, 0,\n", "no surface": "Point(1) = {0, 0, 0};\n",
     "Exit": "Exit;\n", "Abort": "Abort;\n", "Error": 'Error("no");\n', "calls itself":
@@ -244,6 +257,130 @@ def plots(stock):
         yield Try("plot", name, ["render", "plot.yaml"], {"plot.yaml": text}, says="plot.yaml")
 
 
+# Every file that is read: the words that read it, what stands in it, and whether it is a text. One that is missing
+# here is one that nobody tried.
+FIT = """title: Fit
+scene: scene.yaml
+search: {material.eta1: {log: [0.5, 2]}}
+fit: {measured: measured.csv, designs: 3}
+"""
+READ = {
+    "scene.yaml": (RUN, SCENE, True),
+    "block.geo": (["info", "block.geo"], ROOT / "meshes/block.geo", True),
+    "block.msh": (["info", "block.msh"], square(), False),
+    "study.yaml": (["sweep", "study.yaml", "-o", "sweep"], STUDY, True),
+    "fit.yaml": (["fit", "fit.yaml", "-o", "fit"], FIT, True),
+    "measured.csv": (["fit", "fit.yaml", "-o", "fit"], "load.pressure,mu_M,mu_M_error\n0.003,0.3,0.01\n", True),
+    "plot.yaml": (["render", "plot.yaml"], PLOT, True),
+    "profile.csv": ([*RUN, "--set", "contact.profile=profile.csv"], "x,gap\n0,0\n1,0\n", True),
+    "law.csv": ([*RUN, "--set", "friction={law: table, table: law.csv}"], "v,mu\n0,0.3\n1,0.1\n", True),
+    "law.so": ([*RUN, "--set", "friction={law: plugin, plugin: law.so}", "--trust"], "no library", False),
+    "compared.csv": (["render", "out", "--figure", "force", "--compare", "compared.csv"], "U,F_T/F_N\n0,0\n1e-4,0.1\n", True),
+    "out/run.json": (["info", "out"], "run.json", True),
+    "out/history.h5": (["render", "out", "--figure", "force"], "history.h5", False),
+    "out/history.h5.part": (["info", "out"], None, False),
+    "out/checkpoint.bin": (["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"], "checkpoint.bin", False),
+    "out/fields.pvd": (["film", "out", "-o", "film.mp4", "--of", "velocity"], None, True),
+}
+IN_ITS_PLACE = {"a pipe": "mkfifo", "a folder": "mkdir", "a link to a device": "ln -s /dev/zero",
+                "a link to itself": "ln -s itself"}
+RESULT = ("run.json", "history.h5", "checkpoint.bin")
+
+
+def readers(stock):
+    """Something else in the place of each file that is read, and a zero byte in each text."""
+    whole = {f"out/{name}": stock.result / name for name in RESULT if (stock.result / name).exists()}
+    for name, (words, content, is_text) in READ.items():
+        files = {"fit.yaml": FIT, "measured.csv": READ["measured.csv"][1]} if "fit" in words else {}
+        files |= whole if "out" in words and "run" not in words[:1] else {}
+        files |= whole if "checkpoint" in name else {}
+        if name.endswith(".part"):
+            files.pop("out/history.h5", None)
+        if content is not None and not name.startswith("out/"):
+            files[name] = content
+        for what, make in IN_ITS_PLACE.items():
+            if "itself" in make:
+                make = f"ln -s {Path(name).name}"
+            optional = name in ("out/run.json", "out/history.h5.part", "out/fields.pvd") and "itself" in what
+            may = (DONE, REFUSED, FAILED) if optional else (REFUSED, FAILED)
+            yield Try("readers", f"{name} is {what}", words, files, may=may,
+                      says="" if ".part" in name else Path(name).name,
+                      shell=f'mkdir -p out; rm -rf {name}; {make} {name}; exec "$@"')
+        if is_text and content is not None:
+            text = (stock.result / content).read_text() if name.startswith("out/") else \
+                content.read_text() if isinstance(content, Path) else content
+            for at in (0, len(text) // 2, len(text)):
+                bad = text[:at].encode() + b"\0" + text[at:].encode()
+                yield Try("readers", f"{name} with a zero byte at {at}", words, files | {name: bad},
+                          may=(REFUSED, FAILED), says=name)
+
+
+def others(file, pipe):
+    """[(name, change of an open HDF5 file)]: arrays in other files, links by name, numbers that cannot be."""
+    import h5py
+    import numpy
+
+    def replace(make):
+        def change(file):
+            rows = file["series/mu"].shape[0]
+            del file["series/mu"]
+            make(file, rows)
+        return change
+
+    def virtual(file, rows):
+        layout = h5py.VirtualLayout(shape=(rows,), dtype="f8")
+        layout[:] = h5py.VirtualSource(pipe, "x", shape=(rows,))
+        file.create_virtual_dataset("series/mu", layout)
+
+    yield "array in another file", replace(
+        lambda f, n: f.create_dataset("series/mu", (n,), "f8", external=[(pipe, 0, 8 * n)]))
+    yield "virtual array", replace(virtual)
+    yield "link out", replace(lambda f, n: f.__setitem__("series/mu", h5py.ExternalLink(pipe, "/x")))
+    yield "link by name", replace(lambda f, n: f.__setitem__("series/mu", h5py.SoftLink("/series/time")))
+    yield "group that is a link out", lambda f: (f.move("pads", "was"),
+                                                 f.__setitem__("pads", h5py.ExternalLink(pipe, "/x")))
+    names = []
+    file.visititems(lambda name, item: names.append(name) if hasattr(item, "shape") else None)
+    for name in names:
+        for value in (-1, 2, 2000000000, 1e300, -1e300, numpy.inf, numpy.nan):
+            kind = file[name].dtype
+            if kind.kind in "iu" and not (numpy.isfinite(value) and
+                                          numpy.iinfo(kind).min <= value <= numpy.iinfo(kind).max):
+                continue
+            yield f"{name} has {value}", lambda f, name=name, value=value: (
+                f[name].size and f[name].__setitem__((0,) * f[name].ndim, value))
+    for name in file.attrs:
+        if not isinstance(file.attrs[name], str):
+            for value in (-1, 0, 1e300, numpy.inf, numpy.nan):
+                yield f"attribute {name} is {value}", lambda f, name=name, value=value: (
+                    f.attrs.__setitem__(name, float(value)))
+
+
+def histories(stock):
+    """A stranger's history: nothing outside of it is read, written or waited for, and no number makes a loop."""
+    import h5py
+    pipe = str(stock.scratch / "pipe")
+    if not os.path.exists(pipe):
+        os.mkfifo(pipe)
+    with h5py.File(stock.result / "history.h5") as whole:
+        changes = list(others(whole, pipe))
+    for number, (name, change) in enumerate(changes):
+        made = stock.scratch / f"history{number}.h5"
+        shutil.copy(stock.result / "history.h5", made)
+        with h5py.File(made, "r+") as file:
+            change(file)
+        files = {"out/history.h5": made} | {f"out/{beside}": stock.result / beside
+                                            for beside in ("run.json", "checkpoint.bin")}
+        leads = number < 5
+        asked = {"info": ["info", "out"], "report": ["report", "out", "-o", "page.html"], "render": ["render", "out"]}
+        if leads:
+            asked["extend"] = ["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"]
+        for what, words in asked.items():
+            # A page is written without what cannot be read, and says so.
+            may = (REFUSED, FAILED) if leads and what != "report" else (DONE, REFUSED, FAILED)
+            yield Try("histories", f"{what}, {name}", words, files, may=may)
+
+
 # Around the program; "$@" is it. The answer, where there is one, is that of an undisturbed run.
 AROUND = {
     **{f"streams closed: {streams}": f'"$@" {streams}' for streams in
@@ -290,8 +427,25 @@ def surroundings(stock):
                   keeps=("own.txt", "scene.yaml", "block.geo"))
 
 
+LIST = "amontons.files"   # of a folder of ours: src/io/files/own_list.h
+EMPTY_LIST = "# Files that amontons wrote here; --overwrite removes these alone.\n"
+FIELDS = ["--set", "output.figures=[force]", "output.fields=states"]
+# Every file that a command writes into a folder of results, and the command.
+WRITTEN = {name: [*RUN, *FIELDS] for name in ("run.json", "history.h5", "checkpoint.bin", "fields.pvd", "fields/bulk_000000.vtu",
+                                              "fields/interface_000000.vtp", "figures/force.png")}
+WRITTEN |= {name: ["static", "scene.yaml", "-o", "out", "-q"] for name in ("static.json", "static.h5", "static.vtu")}
+WRITTEN |= {name: ["model1d", "scene.yaml", "-o", "out", "-q"] for name in ("model1d.json", "model1d.h5")}
+WRITTEN |= {name: ["stability", "scene.yaml", "-o", "out", "-q"] for name in ("stability.json", "stability.h5")}
+WRITTEN |= {name: ["sweep", "study.yaml", "-o", "out", "-q"] for name in ("sweep.csv", "sweep.h5")}
+# And every file with a name that is given, or follows from one.
+NAMED = {"mine.mp4": ["film", "out", "-o", "mine.mp4", "--seconds", "0.1", "-q"], "out.gif": ["film", "out", "-o", "out.gif", "--seconds", "0.1", "-q"],
+         "mine.html": ["report", "out", "-o", "mine.html"], "out/report.html": ["report", "out"], "comparison.html": ["report", "out", "out"],
+         "mesh.png": ["info", "block.msh", "--picture", "mesh.png"], "plot.png": ["render", "plot.yaml"],
+         "out/figures/force.png": ["render", "out", "--figure", "force"], "out/figures/force.csv": ["render", "out", "--figure", "force"]}
+
+
 def own_files(stock):
-    """What stands in the result folder and is not ours stays, whatever becomes of the run."""
+    """What stands in the result folder and is not in its list stays, whatever becomes of the run."""
     own = {"out/figures/mine.png": "mine", "out/fields/mine.vtu": "mine", "out/mine.txt": "mine",
            "out/history.h5.bak": "mine"}
     for name, words in {"a good scene": RUN, "with --overwrite": RUN + ["--overwrite"],
@@ -300,23 +454,37 @@ def own_files(stock):
                         "figures anew": RUN + ["--overwrite", "--set", "output.figures=[force]"],
                         "a bad mesh": RUN + ["--overwrite", "--set", "mesh.file=none.geo"],
                         "fields anew": RUN + ["--overwrite", "--set", "output.fields=states"]}.items():
-        yield Try("own files", name, words, own, keeps=tuple(own))
+        yield Try("own files", name, words, own | {f"out/{LIST}": EMPTY_LIST}, keeps=tuple(own))
+        yield Try("own files", f"{name}, no list", words, own, may=(REFUSED,), keeps=tuple(own))
         linked = {"else/mine.png": "mine"}
         yield Try("own files", f"{name}, figures linked", words, linked, keeps=tuple(linked),
                   shell='mkdir -p out; ln -s ../else out/figures; exec "$@"')
-    for name in ("figures/force.png", "fields/bulk_000000.vtu", "figures/accuracy.json", "report.html", "static.json",
-                 "checkpoint.bin", "fields.pvd", "history.h5"):
-        named = {f"out/{name}": "mine"}
-        for where, beside in (("", {}), (" beside a result", {"out/run.json": stock.result / "run.json"})):
-            yield Try("own files", f"named as ours: {name}{where}", RUN + ["--overwrite"], named | beside,
-                      may=(REFUSED,), says=name, keeps=tuple(named))
+    for name, words in WRITTEN.items():
+        for place in (name, f"{name}.part"):
+            if place == "checkpoint.bin.part" or (place.endswith(".part") and "/" in place):   # told when it is written
+                continue
+            mine = {f"out/{place}": "a series of mine, amontons run \"status\": \"done\""} | ({"study.yaml": STUDY} if "sweep" in words else {})
+            again = words + (["--overwrite"] if "sweep" not in words else [])
+            for how, beside in (("", {}), (" in a folder of ours", {f"out/{LIST}": EMPTY_LIST})):
+                yield Try("own files", f"{words[0]} over {place}{how}", again, mine | beside, may=(REFUSED,), says=name.split("/")[0],
+                          keeps=(f"out/{place}",))
+    strange = {"mine.txt": "mine", "out/.mine": "mine", "behind/mine.txt": "mine"}
+    paths = "../mine.txt\n.mine\ninner/mine.txt\ninner/../../mine.txt\n/etc/hostname\nfigures/../../mine.txt\n"
+    yield Try("own files", "a list that leads out of its folder", RUN + ["--overwrite"], strange | {f"out/{LIST}": EMPTY_LIST + paths},
+              keeps=tuple(strange), shell='ln -s ../behind out/inner; exec "$@"')
+    yield Try("own files", "a list that is a link", RUN + ["--overwrite"], {"mine.txt": "mine"}, may=(REFUSED, FAILED), keeps=("mine.txt",),
+              shell=f'mkdir out; ln -s ../mine.txt out/{LIST}; exec "$@"')
 
 
-def own_tables(stock):
-    """A sweep writes its tables where these are its own."""
-    for name in ("sweep.csv", "sweep.h5", "ranking.csv"):
-        yield Try("own files", f"a sweep over somebody's {name}", ["sweep", "study.yaml", "-q", "-o", "out"],
-                  {"study.yaml": STUDY, f"out/{name}": "mine"}, may=(REFUSED,), says=name, keeps=(f"out/{name}",))
+def named_files(stock):
+    """A file that is named, or named by default outside of what the list has, gives way to --overwrite alone."""
+    result = {f"out/{path.relative_to(stock.result)}": path for path in stock.result.rglob("*") if path.is_file()} | {"plot.yaml": PLOT}
+    for name, words in NAMED.items():
+        files = result | {name: "mine"}
+        yield Try("own files", f"{words[0]} over {name}", words, files, may=(REFUSED,), says=name.split("/")[-1], keeps=(name,))
+        part = result | {f"{name}.part": "mine"}
+        yield Try("own files", f"{words[0]} over {name}.part", words, part, may=(REFUSED,), says=f"{name.split('/')[-1]}.part",
+                  keeps=(f"{name}.part",))
 
 
 def signals(stock):
@@ -344,8 +512,8 @@ def command_lines(stock):
     yield Try("words", "bytes that are no UTF-8", ["run", b"\xff\xfe.yaml", "--set", b"title=\xff"])
 
 
-GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, own_tables, signals,
-          command_lines]
+GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, named_files, signals,
+          command_lines, readers, histories]
 
 
 def put(folder, files):

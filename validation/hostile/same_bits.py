@@ -15,6 +15,7 @@ import argparse
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -33,6 +34,8 @@ SCENE = cases.SCENE.replace("U: 0.0008", "U: 0.006")   # with slidings, which mu
 RUN = ["run", "scene.yaml", "-o", "out", "--quiet"]
 LOCALES = {"de_DE.UTF-8": "de_DE", "tr_TR.UTF-8": "tr_TR"}
 KERNELS = ["Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen", "SkylakeX"]
+# Where OpenBLAS does not know the processor the program chooses its kernels, a host does it by the variable.
+KERNELS_TAKEN = re.search(r"OpenBLAS's (\w+) kernels", subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout)[1]
 SHIFTED = ROOT / "build/tests/shifted_memory.so"   # built by ./amontons test
 
 
@@ -79,7 +82,8 @@ class Place:
         return folder
 
     def run_python(self, env):
-        """The same by the library, in a process that is not the program."""
+        """The same by the library, in a process that is not the program: with the kernels that the program takes by itself."""
+        env = {"OPENBLAS_CORETYPE": KERNELS_TAKEN} | self.env | env
         words = ["-c", "import amontons; amontons.run('scene.yaml', folder='out')"]
         return self.run(words, env={"PYTHONPATH": str(PROGRAM.parents[1] / "python")} | env, program="/usr/bin/python3")
 
@@ -147,6 +151,9 @@ def memory_cases(place):
             env={"LD_PRELOAD": str(SHIFTED), "MEMORY_SHIFT": shift, "LONGER": "x" * int(shift)})
     for what in ("cold", "warm"):
         yield f"{what} cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
+    others = {"AMONTONS_CACHE": str(place.scratch / "others")}
+    place.run(RUN + ["--set", "load.pressure=0.005", "time.until.U=0.001", "reduction.use=always"], env=others)
+    yield "cache that another run has left", place.run(env=others)
 
 
 def sweep_cases(place):

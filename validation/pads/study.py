@@ -73,7 +73,7 @@ class Point:
 
     def branches(self):
         """mu and the number of pads that slide, of each branch of drops."""
-        return ", ".join(f"{b['mu']:.3f} ({b['pads']})" for b in self.results["drops"]["branches"])
+        return ", ".join(f"{b['mu']:.3f} ({b['pads_slid']})" for b in self.results["drops"]["branches"])
 
 
 def read_points(folder):

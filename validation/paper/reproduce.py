@@ -92,7 +92,7 @@ class Place:
     def draw(self, name, plot):
         path = self.figures / f"{name}.yaml"
         path.write_text(json.dumps(without_nan(plot), indent=1, ensure_ascii=False))
-        if self.call("render", path, "--title", "none") == 0:
+        if self.call("render", path, "--title", "none", "--overwrite") == 0:
             self.pictures.append(name)
 
 

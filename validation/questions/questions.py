@@ -134,7 +134,7 @@ class Study:
         path = self.folder / "figures" / f"{name}.yaml"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(content, indent=1, ensure_ascii=False), encoding="utf-8")
-        assert self.call("render", path, "--dpi", "254") == 0
+        assert self.call("render", path, "--dpi", "254", "--overwrite") == 0
         (HERE / f"{name}.png").write_bytes(path.with_suffix(".png").read_bytes())
 
 

@@ -7,7 +7,7 @@
 Six hundred scenes (problems.py) are asked for 1, 2 or 3 % with `--to`, within a minute each; references come from plain runs
 on finer meshes at three pressures (judge.py), until their own error is below a third of the bar, or --limit is used up. Each
 problem is a file of FOLDER (default results/strangers), written after every run: the same command goes on where it was
-stopped. Cheap ones first, by what --dry-run says. Leaves table.md and table.csv in FOLDER. The first 500 are for tuning; of
+stopped. Small meshes first. Leaves table.md and table.csv in FOLDER. The first 500 are for tuning; of
 the others only counts are told, unless --show-judging is given. Exit status 1: an acceptance number is not met.
 
 A new program is judged in a new folder; --references FOLDER (or a .jsonl) takes the runs of references from an earlier one,
@@ -16,6 +16,7 @@ import argparse
 import concurrent.futures
 import csv
 import json
+import re
 import os
 import statistics
 import subprocess
@@ -48,7 +49,7 @@ class Kept:
 
     def __init__(self, folder, one, earlier=None):
         self.path, self.digest = folder / f"{one.number:03d}.json", problems.digest([one])
-        self.data = {"number": one.number, "problem": self.digest, "asked": None, "longer": 1, "runs": [], "forecast": None}
+        self.data = {"number": one.number, "problem": self.digest, "asked": None, "longer": 1, "runs": [], "unknowns": None}
         if self.path.exists() and (data := json.loads(self.path.read_text()))["problem"] == self.digest:
             self.data = data
         elif earlier and earlier["problem"] == self.digest:
@@ -72,12 +73,11 @@ def earlier_of(place):
 
 # --- computing ----------------------------------------------------------------------------------
 
-def forecast(scene):
-    """Seconds that --dry-run says the scene would take on its own mesh; None: refused."""
+def size(scene):
+    """Unknowns of the scene's own mesh, as --dry-run says; None: refused, and why."""
     done = subprocess.run([PROGRAM, "run", scene, "--dry-run"], capture_output=True, text=True)
-    words = done.stdout.partition("about ")[2].split()
-    return (float(words[0]) * {"s": 1, "min": 60, "h": 3600}.get(words[1], 1), "") if done.returncode == 0 and len(words) > 1 \
-        else (None, done.stderr.strip())
+    found = re.search(r"(\d+) unknowns", done.stdout)
+    return (int(found[1]), "") if done.returncode == 0 and found else (None, done.stderr.strip())
 
 
 def ask(one, scene):
@@ -122,7 +122,7 @@ def reference_run(one, scene, place, longer, limit):
     return row | judge.reading(report, end) | {
         "program": {name: report["results"][name] for name in ("mu_M_is", *judge.ANSWERS)}, "nodes": report["model"]["contact_nodes"],
         "steps": report["steps"]["accepted"], "slip_cells": report["results"].get("slip_cells"),
-        "solve": report["timing_s"]["solve"], "expected": report["model"]["expected_s"], "warnings": report["warnings"]}
+        "solve": report["timing_s"]["solve"], "warnings": report["warnings"]}
 
 
 def enough(asked, runs):
@@ -246,9 +246,9 @@ def check(chosen, folder):
     """Whether the program takes every scene; no answer is computed."""
     bad = 0
     for one in chosen:
-        seconds, said = forecast(one.write(folder / "scenes"))
-        bad += seconds is None
-        if seconds is None:
+        unknowns, said = size(one.write(folder / "scenes"))
+        bad += unknowns is None
+        if unknowns is None:
             print(f"{one.number} {one.shape}: {said}")
     print(f"{len(chosen) - bad} of {len(chosen)} scenes are accepted by `amontons run --dry-run`")
     return bad
@@ -261,7 +261,7 @@ def chosen_of(options):
 
 
 def work(todo, options):
-    """Computes, and forecasts by what problems took so far; before the first by what the median one takes."""
+    """Computes, and tells how long it may go on by what problems took so far; before the first by what the median one takes."""
     print(f"{len(todo)} problems to compute or complete, perhaps {minutes(USUAL * len(todo) / options.jobs)} on free cores", flush=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         began = time.monotonic()
@@ -306,11 +306,11 @@ def main():
     pairs = [(one, Kept(options.output, one, earlier.get(one.number))) for one in chosen]
     if not options.table:
         for one, kept in pairs:
-            if kept.data["forecast"] is None:
-                kept.data["forecast"] = forecast(one.write(options.output / "scenes"))[0]
+            if kept.data.get("unknowns") is None:
+                kept.data["unknowns"] = size(one.write(options.output / "scenes"))[0]
                 kept.save()
         todo = [pair for pair in pairs if not finished(pair[1], options)]
-        work(sorted(todo, key=lambda pair: pair[1].data["forecast"] or 0), options)
+        work(sorted(todo, key=lambda pair: pair[1].data["unknowns"] or 0), options)
     known = [pair for pair in pairs if pair[1].data["asked"]]
     if options.pack:
         options.pack.write_text("".join(json.dumps(kept.data) + "\n" for _, kept in known))

@@ -35,7 +35,7 @@ typedef struct CacheFolder {
 } CacheFolder;
 
 // $AMONTONS_CACHE, else $XDG_CACHE_HOME/amontons, else ~/.cache/amontons. false: there is no cache
-// ($AMONTONS_CACHE is empty).
+// ($AMONTONS_CACHE is empty, or none of the three is set).
 bool cache_folder_path(char path[PATH_MAX]);
 
 // $AMONTONS_CACHE_LIMIT ("500M", "10G"), else 2 GB. ERROR_INPUT: it is no number of bytes.

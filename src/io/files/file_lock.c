@@ -48,15 +48,25 @@ static void hold_signals(sigset_t *before)
     pthread_sigmask(SIG_SETMASK, &all, before);
 }
 
-// 0, or why the file could not be opened or locked; `held` only where it still has its name.
-static int try_once(FileLock *lock, const char *path)
+LockTry file_lock_try(int descriptor)
+{
+    while (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+        if (errno != EINTR) return errno == EWOULDBLOCK ? LOCK_BUSY : LOCK_NONE;
+    return LOCK_OURS;
+}
+
+// `held` only where the file still has its name. false: it could not be opened.
+static bool try_once(FileLock *lock, const char *path)
 {
     sigset_t before;
     char why[OPEN_WHY_SIZE];
     hold_signals(&before);
-    lock->descriptor = open_to_write(path, OPEN_PART, why);
-    int cause = lock->descriptor < 0 || flock(lock->descriptor, LOCK_EX | LOCK_NB) != 0 ? errno : 0;
-    lock->held = cause == 0 && file_is_named(path, lock->descriptor);
+    lock->descriptor = open_to_write(path, OPEN_KEPT, why);
+    int cause = errno;
+    LockTry got = lock->descriptor >= 0 ? file_lock_try(lock->descriptor) : LOCK_NONE;
+    lock->busy = got == LOCK_BUSY;
+    lock->alone = got == LOCK_OURS;
+    lock->held = lock->descriptor >= 0 && !lock->busy && file_is_named(path, lock->descriptor);
     if (lock->held) {
         lock->owner = getpid();
         exchange_held(NULL, lock);
@@ -64,7 +74,8 @@ static int try_once(FileLock *lock, const char *path)
         close(lock->descriptor);
     }
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    return cause;
+    errno = cause;
+    return lock->descriptor >= 0;
 }
 
 // Tried again and again, as flock itself cannot wait for a limited time.
@@ -74,14 +85,21 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
     *lock = (FileLock){0};
     if (snprintf(lock->path, sizeof lock->path, "%s", path) >= (int)sizeof lock->path) return false;
     for (;;) {
-        int cause = try_once(lock, path);
-        lock->busy = cause == EWOULDBLOCK;
+        if (!try_once(lock, path)) return false;
         if (lock->held) return true;
-        if (lock->descriptor < 0) return false;
-        if (cause == 0 || cause == EINTR) continue;
-        if (!lock->busy || clock_seconds() >= until) return false;
+        if (!lock->busy) continue;   // its holder removed the file meanwhile
+        if (clock_seconds() >= until) return false;
         nanosleep(&PAUSE, NULL);
     }
+}
+
+static atomic_bool warned;   // also by a sweep, for its points, which are processes of its own
+
+const char *file_lock_warning(const FileLock *lock)
+{
+    if (!lock->held || lock->alone || atomic_exchange(&warned, true)) return NULL;
+    return "the file system of the result's folder has no locks: nothing keeps a second "
+           "computation out of it meanwhile";
 }
 
 void file_lock_release(FileLock *lock)

@@ -2,10 +2,10 @@
 // One process at a time at some work, by a lock on a file that exists only meanwhile. The lock is
 // flock's: it belongs to the open file and ends with the process, however that ends, so that
 // nothing has to be cleared up after a kill. Called by io/cache/store and
-// run/result/result_folder; part_file shares file_is_named.
+// run/result/result_folder; part_file shares file_lock_try and file_is_named.
 //
-//   take -> (the work) -> release     take also gives up: after its limit, where the folder cannot
-//                                     be written to, or on a file system without locks
+//   take -> (the work) -> release     take also gives up: after its limit, or where the folder
+//                                     cannot be written to
 #ifndef AMONTONS_IO_FILES_FILE_LOCK_H
 #define AMONTONS_IO_FILES_FILE_LOCK_H
 
@@ -13,8 +13,16 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
+typedef enum LockTry { LOCK_OURS, LOCK_BUSY, LOCK_NONE } LockTry;
+
+// Locks the open file without waiting. LOCK_BUSY: another process holds it. LOCK_NONE: the file
+// system has no locks (Lustre without `-o flock`, NFS without lockd, ...): the work goes on
+// without.
+LockTry file_lock_try(int descriptor);
+
 typedef struct FileLock {
     bool held;   // false: zeroed, given up or released
+    bool alone;   // false: the file system has no locks, and others may hold it, too
     bool busy;   // given up, as another process held it to the end
     int descriptor;   // valid while held
     pid_t owner;   // the process that took it: one that it forked has a copy, not the lock
@@ -22,8 +30,10 @@ typedef struct FileLock {
 } FileLock;
 
 // Waits until no other process holds the lock of the file `path`, at most `seconds`; true: it is
-// ours. false is no error: the caller then works without a lock.
+// ours (alone). false is no error: errno tells why, and `busy`; the caller may work without a lock.
 bool file_lock_take(FileLock *lock, const char *path, double seconds);
+// The warning that belongs to a lock that is held and not alone, once in a process; else NULL.
+const char *file_lock_warning(const FileLock *lock);
 void file_lock_release(FileLock *lock);   // removes the file; fine when not held
 
 // Removes the files of all locks that this process holds: it is about to end. A signal handler may

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Linux gives the sticky bit of a file no meaning, keeps it, and sets it in the call that makes the
-// file: with it a part of ours is told from somebody's film.mp4.part, however early its writer was
-// killed. A file system without such bits (FAT) forgets it: what was left there is then refused.
 #include "io/files/open_file.h"
+
+#include "base/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/magic.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 // What is no file, in words.
@@ -34,8 +31,7 @@ static const char *kind_of(const struct stat *status)
 // A pipe without a name in any folder: its other end is open.
 static bool is_of_shell(const char *path, const struct stat *status)
 {
-    struct statfs system;
-    return S_ISFIFO(status->st_mode) && statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+    return system_is_shell_pipe(path, status->st_mode);
 }
 
 bool open_check(const char *path, Error *err)
@@ -89,13 +85,10 @@ bool open_is_there(const char *path)
 }
 
 // What speaks against writing into the open file, or NULL.
-static const char *objection(const struct stat *status, OpenAs as)
+static const char *objection(const struct stat *status)
 {
     if (!S_ISREG(status->st_mode)) return kind_of(status);
-    if (status->st_nlink > 1) return "a file with a second name (a hard link)";
-    if (as == OPEN_PART && status->st_size > 0 && !(status->st_mode & S_ISVTX))
-        return "there, and nothing says that amontons left it";
-    return NULL;
+    return status->st_nlink > 1 ? "a file with a second name (a hard link)" : NULL;
 }
 
 static int refuse(const char *path, const char *what, char why[OPEN_WHY_SIZE])
@@ -106,7 +99,7 @@ static int refuse(const char *path, const char *what, char why[OPEN_WHY_SIZE])
 }
 
 // One that is there. O_NONBLOCK: a pipe is not waited for.
-static int open_there(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
+static int open_there(const char *path, char why[OPEN_WHY_SIZE])
 {
     struct stat status;
     int file = open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -120,36 +113,25 @@ static int open_there(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
         errno = cause;
         return -1;
     }
-    const char *against = fstat(file, &status) == 0 ? objection(&status, as)
-                                                    : "not to be looked at";
-    if (!against) {
-        if (as != OPEN_KEPT) fchmod(file, (status.st_mode & 0777) | S_ISVTX);
-        return file;
-    }
+    const char *against = fstat(file, &status) == 0 ? objection(&status) : "not to be looked at";
+    if (!against) return file;
     close(file);
     return refuse(path, against, why);
 }
 
 int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
 {
-    mode_t mode = as == OPEN_PART ? 0666 | S_ISVTX : 0666;
     for (int turn = 0;; turn++) {   // what was there may go meanwhile
         int file = -1;
         if (as != OPEN_THERE) {
-            file = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+            file = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
             if (file >= 0) return file;
             if (errno != EEXIST) {
                 snprintf(why, OPEN_WHY_SIZE, "%s", strerror(errno));
                 return -1;
             }
         }
-        file = open_there(path, as, why);
+        file = open_there(path, why);
         if (file >= 0 || errno != ENOENT || as == OPEN_THERE || turn > 9) return file;
     }
-}
-
-void open_part_is_whole(int descriptor)
-{
-    struct stat status;
-    if (fstat(descriptor, &status) == 0) fchmod(descriptor, status.st_mode & 0777);
 }

@@ -19,9 +19,8 @@ FILE *open_stream(const char *path, Error *err);   // the same; NULL and an erro
 bool open_check(const char *path, Error *err);
 
 typedef enum OpenAs {
-    OPEN_PART,   // made here, or one that we left: it has the sticky bit, or is empty
-    OPEN_KEPT,   // made here, or there already: a file that is added to, or only locked
-    OPEN_THERE,   // there already, a part from now on
+    OPEN_KEPT,   // made here, or there already; whose that is, io/files/own_list says
+    OPEN_THERE,   // there already
 } OpenAs;
 
 enum { OPEN_WHY_SIZE = 400 };
@@ -29,8 +28,6 @@ enum { OPEN_WHY_SIZE = 400 };
 // A descriptor for reading and writing; what is there is not emptied. -1: errno, and `why` in
 // words. Links are not followed, and a file with a second name (a hard link) is refused.
 int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE]);
-
-void open_part_is_whole(int descriptor);   // the mark of a part goes
 
 // Whether `path` is there, be it a link that leads nowhere.
 bool open_is_there(const char *path);

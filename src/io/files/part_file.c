@@ -7,12 +7,12 @@
 #include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/open_file.h"
-#include "io/files/own_mark.h"
+#include "io/files/own_list.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/file.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -39,8 +39,7 @@ static bool open_part(PartFile *file, const char *path, OpenAs as, double wait, 
         file->descriptor = open_to_write(file->part, as, why);
         if (file->descriptor < 0) return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, why);
         file->open = true;
-        // Not every file system can lock; only a lock that another process holds is an error.
-        if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        if (file_lock_try(file->descriptor) == LOCK_BUSY) {
             part_file_leave(file);
             if (clock_seconds() < until && nanosleep(&PAUSE, NULL) == 0) continue;
             file->taken = true;
@@ -62,15 +61,26 @@ static bool name_part(PartFile *file, const char *path, Error *err)
     return true;
 }
 
-static bool create_part(PartFile *file, const char *path, double wait, Error *err)
+static bool refuse_taken(const char *path, Error *err)
 {
-    if (!open_part(file, path, OPEN_PART, wait, err)) return false;
-    if (ftruncate(file->descriptor, 0) != 0) {
-        int cause = errno;
-        part_file_leave(file);
-        return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
-    }
-    return true;
+    return REFUSE(err,
+                  "%s is there already: name another file or folder, say --overwrite, or move it "
+                  "away",
+                  path);
+}
+
+// Where `may_go` is false, a part with something in it stays as it is.
+static bool create_part(PartFile *file, const char *path, bool may_go, double wait, Error *err)
+{
+    struct stat status = {0};
+    TRY(open_part(file, path, OPEN_KEPT, wait, err));
+    if (!may_go && fstat(file->descriptor, &status) == 0 && status.st_size > 0)
+        TRY(refuse_taken(file->part, err));
+    if (ftruncate(file->descriptor, 0) != 0)
+        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+cleanup:
+    if (!error_is_clean(err)) part_file_leave(file);
+    return error_is_clean(err);
 }
 
 bool part_file_create(PartFile *file, const char *path, Error *err)
@@ -78,16 +88,32 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
     return part_file_replace(file, path, false, err);
 }
 
-bool part_file_replace(PartFile *file, const char *path, bool any, Error *err)
+// An empty file, as mktemp makes them, holds nothing of anybody's.
+static bool holds_something(const char *path)
 {
-    return name_part(file, path, err) && (any || own_mark_check(path, err)) &&
-           create_part(file, path, LOCK_WAIT, err);
+    struct stat status;
+    return lstat(path, &status) == 0 && !(S_ISREG(status.st_mode) && status.st_size == 0);
+}
+
+// Listed as soon as the part is known to be ours: before anything is written into it.
+bool part_file_replace(PartFile *file, const char *path, bool overwrite, Error *err)
+{
+    TRY(name_part(file, path, err));
+    bool there = holds_something(path), listed = false;
+    if (there || open_is_there(file->part)) TRY(own_list_has(path, &listed, err));
+    if (there && !listed && !overwrite) TRY(refuse_taken(path, err));
+    TRY(create_part(file, path, listed || overwrite, LOCK_WAIT, err));
+    if (!listed && !own_list_add(path, err)) {
+        error_context(err, "cannot write %s", path);
+        part_file_discard(file);
+    }
+cleanup:
+    return error_is_clean(err);
 }
 
 bool part_file_try(PartFile *file, const char *path, Error *err)
 {
-    return name_part(file, path, err) && own_mark_check(path, err) &&
-           create_part(file, path, 0, err);
+    return name_part(file, path, err) && create_part(file, path, true, 0, err);
 }
 
 bool part_file_reopen(PartFile *file, const char *path, Error *err)
@@ -108,6 +134,26 @@ bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
     return true;
 }
 
+bool part_file_begin_next(const PartFile *file, PartFile *next, Error *err)
+{
+    return part_file_replace(next, file->part, true, err);
+}
+
+// The lock of the new one is held before the other's is given up.
+bool part_file_take_next(PartFile *file, PartFile *next, Error *err)
+{
+    int cause = transfer_sync(next->descriptor);
+    if (cause)
+        return FAULT(err, ERROR_FILE, "cannot write %s to disk: %s", file->part, strerror(cause));
+    if (rename(next->part, file->part) != 0)
+        return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", next->part, file->part,
+                     strerror(errno));
+    close(file->descriptor);
+    file->descriptor = next->descriptor;
+    next->open = false;
+    return true;
+}
+
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
 {
     int cause = transfer_write(file->descriptor, bytes, size, -1);
@@ -124,15 +170,14 @@ bool part_file_commit(PartFile *file, Error *err)
     if (rename(file->part, file->path) != 0)
         return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
                      strerror(errno));
-    open_part_is_whole(file->descriptor);   // behind: until then another writer sees a part
     part_file_leave(file);   // there is no part any more: this only closes
     return true;
 }
 
-bool part_file_put(const char *path, const void *bytes, int64_t size, Error *err)
+bool part_file_put(const char *path, bool overwrite, const void *bytes, int64_t size, Error *err)
 {
     PartFile file = {0};
-    TRY(part_file_create(&file, path, err));
+    TRY(part_file_replace(&file, path, overwrite, err));
     TRY(part_file_write(&file, bytes, size, err));
     TRY(part_file_commit(&file, err));
 cleanup:

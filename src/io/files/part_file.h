@@ -24,23 +24,32 @@ typedef struct PartFile {
 // `path`.part into `part`, of PATH_MAX + 8 bytes; false when `path` is empty or too long.
 bool part_file_name(const char *path, char *part);
 
-// Opens an empty `path`.part and locks it against other writers; what a killed process left there
-// is overwritten, and its lock waited for, for a second. ERROR_FILE names the path and the cause,
-// here and below: also a link, a pipe or somebody's file in the part's place (io/files/open_file).
-// ERROR_INPUT: `path` is there and is not ours (io/files/own_mark).
+// Opens an empty `path`.part and locks it against other writers. What is there of either name is
+// written over where it is empty, or the folder's list has `path` (io/files/own_list), which is
+// added to it; else it is somebody's: ERROR_INPUT. The lock of a killed process is waited for, for
+// a second.
+// ERROR_FILE names the path and the cause, here and below: also a link, a pipe or a folder in the
+// part's place (io/files/open_file).
 bool part_file_create(PartFile *file, const char *path, Error *err);
-bool part_file_replace(PartFile *file, const char *path, bool any, Error *err);   // any: of anybody
-bool part_file_try(PartFile *file, const char *path, Error *err);   // the same without waiting
+// overwrite: what is there is written over, whoever wrote it.
+bool part_file_replace(PartFile *file, const char *path, bool overwrite, Error *err);
+// In the cache, where names are ours: whatever is there is written over, and no lock is waited for.
+bool part_file_try(PartFile *file, const char *path, Error *err);
 // Opens what there is of `path` to be gone on with: its .part, or the finished file, which is
 // called .part again until it is committed. ERROR_FILE where there is neither.
 bool part_file_reopen(PartFile *file, const char *path, Error *err);
 // Opens `path`, or `path`.part where that is not finished, for reading, without a lock, whoever
 // writes it; to leave.
 bool part_file_look(PartFile *file, const char *path, bool finished, Error *err);
+// What goes on being written is replaced as a whole, so that a killed process leaves one or the
+// other: `next` is a new `path`.part.part, empty, which takes the place of `path`.part when it has
+// been filled and put on the disk. A `next` that did not is to be discarded.
+bool part_file_begin_next(const PartFile *file, PartFile *next, Error *err);
+bool part_file_take_next(PartFile *file, PartFile *next, Error *err);
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);
 
 // All of the above: a small file at once.
-bool part_file_put(const char *path, const void *bytes, int64_t size, Error *err);
+bool part_file_put(const char *path, bool overwrite, const void *bytes, int64_t size, Error *err);
 
 // Onto the disk (fsync), then under the final name. A failure leaves it open, to discard or leave.
 bool part_file_commit(PartFile *file, Error *err);

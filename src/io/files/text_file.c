@@ -36,7 +36,7 @@ static bool read_stream(FILE *stream, const char *path, int32_t size_max, char *
     return check_size(path, *size, size_max, err);
 }
 
-bool text_file_read(const char *path, int32_t size_max, char **bytes, int32_t *size, Error *err)
+bool text_file_bytes(const char *path, int32_t size_max, char **bytes, int32_t *size, Error *err)
 {
     *bytes = NULL;
     *size = 0;
@@ -55,4 +55,17 @@ cleanup:
         *bytes = NULL;
     }
     return error_is_clean(err);
+}
+
+// C's texts end with a zero byte: what stands behind one would go unseen.
+bool text_file_read(const char *path, int32_t size_max, char **bytes, int32_t *size, Error *err)
+{
+    int32_t line = 1;
+    if (!text_file_bytes(path, size_max, bytes, size, err)) return false;
+    const char *zero = memchr(*bytes, 0, (size_t)*size);
+    if (!zero) return true;
+    for (const char *at = *bytes; at < zero; at++) line += *at == '\n';
+    memory_free(*bytes);
+    *bytes = NULL;
+    return REFUSE(err, "%s: a zero byte in line %d: this is no text", path, line);
 }

@@ -2,6 +2,7 @@
 #include "io/hdf5/array_attribute.h"
 
 #include <stdio.h>
+#include <string.h>
 
 // stored, given: types in the file and of `value`.
 static herr_t write_one(hid_t object, const char *name, hid_t stored, hid_t given,
@@ -59,4 +60,37 @@ herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t 
     H5Tclose(type);
     H5Aclose(attribute);
     return status;
+}
+
+typedef struct Copy {
+    hid_t to;
+    const char *left_out;
+} Copy;
+
+static herr_t copy_one(hid_t from, const char *name, const H5A_info_t *info, void *self)
+{
+    const Copy *copy = self;
+    char *text = NULL;
+    double number = 0;
+    (void)info;
+    if (strcmp(name, copy->left_out) == 0) return 0;
+    hid_t attribute = H5Aopen(from, name, H5P_DEFAULT);
+    if (attribute < 0) return -1;
+    hid_t type = H5Aget_type(attribute);
+    bool is_text = H5Tis_variable_str(type) > 0;
+    herr_t status = is_text ? H5Aread(attribute, type, &text)
+                            : attribute_read_number(from, name, &number);
+    if (status >= 0)
+        status = is_text ? attribute_write_text(copy->to, name, text ? text : "")
+                         : attribute_write_number(copy->to, name, number);
+    if (text) H5free_memory(text);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return status;
+}
+
+herr_t attribute_copy_all(hid_t from, hid_t to, const char *left_out)
+{
+    Copy copy = {to, left_out};
+    return H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, copy_one, &copy);
 }

@@ -16,4 +16,7 @@ herr_t attribute_read_number(hid_t object, const char *name, double *value);
 // Cut to `size`. A text of fixed length is none of ours.
 herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t size);
 
+// Numbers and texts of one object to another, but that called `left_out`.
+herr_t attribute_copy_all(hid_t from, hid_t to, const char *left_out);
+
 #endif

@@ -4,9 +4,10 @@
 // in a module (io/hdf5/array_file_module), opened with the first file; ERROR_LIBRARY where it
 // cannot be had.
 //
-// A file being written is called `path`.part; array_file_close renames it. What a killed run leaves
-// is the .part file, readable up to the last array_file_flush. After a write that fails
-// (ERROR_FILE: full disk, quota) every later call on the file fails likewise.
+// A file being written is in memory; array_file_flush puts all of it on the disk, as `path`.part,
+// and array_file_close renames that. What a killed run leaves is the .part file, readable as of the
+// last flush; of a long file with earlier parts beside it, .part.1, .part.2, ..., which readers of
+// this file put together. A flush that fails (ERROR_FILE: full disk, quota) leaves the one before.
 #ifndef AMONTONS_IO_HDF5_ARRAY_FILE_H
 #define AMONTONS_IO_HDF5_ARRAY_FILE_H
 
@@ -40,8 +41,9 @@ bool array_file_append(ArrayFile *file, const char *name, const double *values, 
 // A series with all its rows. stride: doubles from one row to the next; 0: they stand without gaps.
 bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *values,
                       int32_t stride, int64_t rows, Error *err);
-bool array_file_flush(ArrayFile *file, Error *err);   // a reader finds all that was appended so far
-bool array_file_sync(ArrayFile *file, Error *err);   // and also after a power cut
+// A reader finds all that was appended so far, also after a kill or a power cut. It takes at most
+// as long as 8 MB need to reach the disk; where nothing has changed since, no time.
+bool array_file_flush(ArrayFile *file, Error *err);
 // Of the series only the first `rows` rows stay. ERROR_FILE: it has fewer, or there is none.
 bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err);
 // The array or attribute `name`, where there is one; no series that was appended to.

@@ -1,114 +1,182 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A killed run leaves a readable file, because between two flushes nothing changes that a reader
-// looks at:
-//   * the tables that say where the chunks are stay in HDF5's cache (evictions are off);
-//   * a chunk that is written again, as the last one of a series is, goes to a fresh place, for
-//     space is handed out once (array_disk) and not managed (H5F_FSPACE_STRATEGY_NONE);
-//   * what H5Fflush writes over, the tables, comes into the file through a journal, all or nothing.
-// HDF5's own way, SWMR, allows no new arrays or attributes while writing, and marks a killed
-// writer's file so that ordinary readers refuse it.
+// A file that is being written is one in memory. array_file_flush puts its bytes on the disk beside
+// the file that is there, and replaces that by renaming: a kill, a full disk or a power cut leaves
+// the one or the other, each whole, which any program can read. Where the file has grown
+// beyond PART_BYTES it is put aside as a part, which is not written again, and a new one goes on
+// (io/hdf5/array_parts); the end joins them. HDF5's own way, SWMR, allows no new arrays or
+// attributes while writing, takes twice the time, marks a killed writer's file so that ordinary
+// readers refuse it, and has HDF5 write to a disk that may be full, on which it crashes.
 #include "io/hdf5/array_file_module.h"
 
 #include "base/memory.h"
+#include "base/transfer.h"
+#include "io/files/file_lock.h"
 #include "io/files/part_file.h"
 #include "io/hdf5/array_attribute.h"
-#include "io/hdf5/array_disk.h"
-#include "io/hdf5/array_series.h"
-
-#include <hdf5.h>
+#include "io/hdf5/array_parts.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#define FIRST_PART ".part.1"
 enum { FIRST_SERIES = 16 };   // room for series before the list grows
+// Written at each flush at most; the files of most runs are smaller.
+enum { PART_BYTES = 8 << 20 };
 
 struct ArrayFile {
     const ArrayFileModule *module;   // stands first
     char path[PATH_MAX + 8];   // what is read, or what a written file will be called
-    hid_t id;   // 0: not open
+    hid_t id;   // of the file in memory, or of the one that is read; 0: not open
+    ArrayParts parts;   // of which `id` is the last
     bool writing;   // created here: what follows is in use
+    bool changed;   // since the last flush
+    int64_t flushed;   // bytes of the last flush
+    bool broken;   // HDF5 failed to write: it is not to be closed
     PartFile part;
-    ArrayDisk disk;   // under HDF5, over `part`
-    hid_t driver;   // that makes HDF5 use `disk`; 0: none
     int32_t series_count, series_capacity;
     SeriesWriter *series;   // [series_capacity]; owned
 };
 
-// Whether the file can be written, and all written so far has reached the disk.
-static bool check_writable(const ArrayFile *file, Error *err)
+// Before a call that changes the file.
+static bool may_change(ArrayFile *file, Error *err)
 {
     if (!file->writing) return FAULT(err, ERROR_LIBRARY, "%s is open for reading only", file->path);
-    return array_disk_check(&file->disk, 0, "", err);
+    if (file->broken) return FAULT(err, ERROR_LIBRARY, "%s could not be written", file->part.part);
+    file->changed = true;
+    return true;
 }
 
-// First our own buffers, then HDF5's.
-static bool write_all(ArrayFile *file, Error *err)
+// The end of a call of HDF5's that writes `what`.
+static bool wrote(ArrayFile *file, herr_t status, const char *what, Error *err)
 {
-    if (!check_writable(file, err)) return false;
-    for (int32_t s = 0; s < file->series_count; s++)
-        if (!series_hand_over(&file->series[s], &file->disk, err)) return false;
-    herr_t status = H5Fflush(file->id, H5F_SCOPE_LOCAL);
-    return array_disk_check(&file->disk, status, "what was appended", err);
+    file->broken |= status < 0;
+    return hdf5_wrote(status, file->part.part, what, err);
 }
 
+// --- onto the disk ------------------------------------------------------------------------------
+
+static bool hand_over_all(ArrayFile *file, Error *err)
+{
+    for (int32_t s = 0; s < file->series_count; s++)
+        if (!series_hand_over(&file->series[s], file->part.part, err)) {
+            file->broken = true;
+            return false;
+        }
+    return true;
+}
+
+// A new file in memory goes on after `from`, and takes the place of file->id.
+static bool begin_part(ArrayFile *file, hid_t from, Error *err)
+{
+    const char *path = file->part.part;
+    hid_t next = hdf5_memory_create(path, err);
+    file->broken = true;   // should it end half done
+    if (next < 0 || !array_parts_begin(from, next, true, path, err)) return false;
+    for (int32_t s = 0; s < file->series_count; s++)
+        if (!series_move(&file->series[s], next, path, err)) return false;
+    file->broken = false;
+    if (file->id > 0) H5Fclose(file->id);
+    file->id = file->parts.last = next;
+    file->parts.count++;
+    return true;
+}
+
+// The bytes become a part of their own.
+static bool put_aside(ArrayFile *file, const void *bytes, int64_t size, Error *err)
+{
+    char name[PATH_MAX + 24];
+    PartFile aside = {0};
+    snprintf(name, sizeof name, "%s.%d", file->part.part, (int)file->parts.count + 1);
+    TRY(part_file_replace(&aside, name, true, err));
+    TRY(part_file_write(&aside, bytes, size, err));
+    TRY(part_file_commit(&aside, err));
+    TRY(begin_part(file, file->id, err));
+cleanup:
+    part_file_discard(&aside);
+    return error_is_clean(err);
+}
+
+// `next` becomes the last part. What was a part without a number gets one first: a kill between the
+// two leaves that one alone (FIRST_PART).
+static bool take_next(ArrayFile *file, PartFile *next, Error *err)
+{
+    char aside[PATH_MAX + 24];
+    const char *last = file->part.part;
+    bool moved = file->parts.unnamed;
+    snprintf(aside, sizeof aside, "%s.%d", last, (int)file->parts.count);
+    if (moved && rename(last, aside) != 0)
+        return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", last, aside, strerror(errno));
+    file->parts.unnamed = false;
+    if (part_file_take_next(&file->part, next, err)) return true;
+    if (moved) file->parts.unnamed = rename(aside, last) == 0;
+    return false;
+}
+
+static bool put_bytes(ArrayFile *file, const void *bytes, int64_t size, Error *err)
+{
+    PartFile next = {0};
+    TRY(part_file_begin_next(&file->part, &next, err));
+    TRY(part_file_write(&next, bytes, size, err));
+    TRY(take_next(file, &next, err));
+cleanup:
+    part_file_discard(&next);
+    return error_is_clean(err);
+}
+
+// Somebody may have removed or cut the last part, which is written again; earlier ones are lost.
+static bool look_after_parts(ArrayFile *file, Error *err)
+{
+    char name[PATH_MAX + 24];
+    struct stat status;
+    if (!file_is_named(file->part.part, file->part.descriptor) ||
+        fstat(file->part.descriptor, &status) != 0 || status.st_size != file->flushed)
+        file->changed = true;
+    for (int32_t number = 1; number <= file->parts.count; number++) {
+        array_part_name(&file->parts, number, name);
+        if (lstat(name, &status) != 0 || !S_ISREG(status.st_mode))
+            return FAULT(err, ERROR_FILE,
+                         "%s is gone, and with it the rows of the history that it held", name);
+    }
+    return true;
+}
+
+// Two turns where the file has become too large.
 static bool hdf5_flush(ArrayFile *file, Error *err)
 {
-    return !file->writing || (write_all(file, err) && array_disk_settle(&file->disk, err));
-}
-
-static bool hdf5_sync(ArrayFile *file, Error *err)
-{
-    return hdf5_flush(file, err) && array_disk_sync(&file->disk, err);
+    if (!file->writing) return true;
+    if (!look_after_parts(file, err)) return false;
+    if (!file->changed) return true;
+    if (!may_change(file, err) || !hand_over_all(file, err)) return false;
+    while (file->changed) {
+        int64_t size = 0;
+        void *bytes = hdf5_memory_bytes(file->id, file->part.part, &size, err);
+        if (!bytes) {
+            file->broken = err->code == ERROR_LIBRARY;
+            return false;
+        }
+        bool aside = size > PART_BYTES;
+        bool done = aside ? put_aside(file, bytes, size, err) : put_bytes(file, bytes, size, err);
+        H5free_memory(bytes);
+        if (!done) return false;
+        file->flushed = size;
+        file->changed = aside;
+    }
+    return true;
 }
 
 // --- opening and closing ------------------------------------------------------------------------
 
-// The metadata cache may write only when told to. It then grows with the file, by some kilobytes a
-// thousand chunks.
-static herr_t keep_metadata_until_flush(hid_t access)
-{
-    H5AC_cache_config_t cache = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
-    if (H5Pget_mdc_config(access, &cache) < 0) return -1;
-    cache.evictions_enabled = false;
-    cache.incr_mode = H5C_incr__off;
-    cache.flash_incr_mode = H5C_flash_incr__off;
-    cache.decr_mode = H5C_decr__off;
-    return H5Pset_mdc_config(access, &cache);
-}
-
-// The HDF5 file over the part that is open already: an empty one, or what is in it.
-static bool begin_hdf5(ArrayFile *file, bool anew, Error *err)
-{
-    char cause[HDF5_CAUSE_SIZE];
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    TRY(array_disk_open(&file->disk, &file->part, anew, err));
-    if (!array_disk_use(&file->disk, access, &file->driver) ||
-        keep_metadata_until_flush(access) < 0 ||
-        H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_NONE, false, 1) < 0)
-        FAIL(err, ERROR_LIBRARY, "cannot prepare HDF5 for %s: %s", file->path, hdf5_cause(cause));
-    file->id = anew ? H5Fcreate(file->part.part, H5F_ACC_TRUNC, creation, access)
-                    : H5Fopen(file->part.part, H5F_ACC_RDWR, access);
-    if (file->id < 0 && !anew)
-        FAIL(err, ERROR_FILE, "cannot go on with %s, not a whole HDF5 file: %s", file->part.part,
-             hdf5_cause(cause));
-    TRY(array_disk_check(&file->disk, file->id < 0 ? -1 : 0, "the header", err));
-cleanup:
-    H5Pclose(access);
-    H5Pclose(creation);
-    return error_is_clean(err);
-}
-
-// A .part still there is left. HDF5 is closed before its driver, and that before the descriptor.
+// A .part still there is left. What HDF5 could not write is left open (io/hdf5/hdf5_library).
 static void destroy(ArrayFile *file)
 {
     if (!file) return;
+    if (file->broken)
+        for (int32_t s = 0; s < file->series_count; s++) file->series[s].dataset = 0;
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
-    if (file->id > 0) H5Fclose(file->id);
-    if (file->driver > 0) H5FDunregister(file->driver);
-    array_disk_close(&file->disk);
+    if (file->id > 0 && !file->broken) H5Fclose(file->id);
     part_file_leave(&file->part);
     memory_free_all(file->series, file);
 }
@@ -116,110 +184,154 @@ static void destroy(ArrayFile *file)
 static ArrayFile *new_file(Error *err)
 {
     ArrayFile *file = NEW_ARRAY(ArrayFile, 1, err);
-    if (!file) return NULL;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   // HDF5 prints its error stack otherwise
-    file->module = amontons_array_file_module();
+    if (file) file->module = amontons_array_file_module();
     return file;
 }
 
-// For writing. A second writer of the path is refused by part_file as long as this one is open.
-static ArrayFile *begin_writing(const char *path, bool anew, Error *err)
+// A second writer of the path is refused by part_file as long as this one is open.
+static ArrayFile *hdf5_create(const char *path, Error *err)
 {
+    ArrayFile *file = new_file(err);
+    if (!file) return NULL;
+    file->writing = file->changed = true;
+    file->series_capacity = FIRST_SERIES;
+    TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
+    TRY(part_file_create(&file->part, path, err));
+    snprintf(file->path, sizeof file->path, "%s", path);
+    TRY((file->id = hdf5_memory_create(file->part.part, err)) > 0);
+    file->parts = (ArrayParts){.path = file->part.part, .last = file->id};
+    return file;
+cleanup:
+    part_file_discard(&file->part);
+    destroy(file);
+    return NULL;
+}
+
+// The file that is there is read into the memory.
+static bool load(ArrayFile *file, int64_t size, Error *err)
+{
+    char *bytes = memory_bytes(size, err);
+    if (!bytes) return false;
+    if (transfer_read(file->part.descriptor, bytes, size, 0) != size)
+        error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s: %s", file->part.part,
+                  strerror(errno ? errno : EIO));
+    else
+        file->id = hdf5_memory_open(file->part.part, bytes, size, err);
+    memory_free(bytes);
+    return file->id > 0 && array_parts_count(file->id, file->part.part, &file->parts.count, err);
+}
+
+// A file of any length, as the end joins them, stays where it is and becomes a part.
+static bool follow(ArrayFile *file, Error *err)
+{
+    hid_t before = hdf5_disk_open(file->part.part, err);
+    if (before < 0) return false;
+    bool done = array_parts_count(before, file->part.part, &file->parts.count, err) &&
+                begin_part(file, before, err);
+    file->parts.unnamed = done;
+    H5Fclose(before);
+    return done;
+}
+
+// A file that was killed while it became a part is what it was.
+static void take_back_first_part(const char *path)
+{
+    char first[PATH_MAX + 24], part[PATH_MAX + 24];
+    snprintf(part, sizeof part, "%.*s.part", PATH_MAX, path);
+    snprintf(first, sizeof first, "%.*s" FIRST_PART, PATH_MAX, path);
+    if (access(path, F_OK) != 0 && access(part, F_OK) != 0) rename(first, part);
+}
+
+// Nothing is written before the first flush; a finished file is called .part again.
+static ArrayFile *hdf5_reopen(const char *path, Error *err)
+{
+    struct stat status;
     ArrayFile *file = new_file(err);
     if (!file) return NULL;
     file->writing = true;
     file->series_capacity = FIRST_SERIES;
     TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
-    TRY(anew ? part_file_create(&file->part, path, err) : part_file_reopen(&file->part, path, err));
+    take_back_first_part(path);
+    TRY(part_file_reopen(&file->part, path, err));
     snprintf(file->path, sizeof file->path, "%s", path);
-    TRY(begin_hdf5(file, anew, err));
+    file->parts = (ArrayParts){.path = file->part.part};
+    if (fstat(file->part.descriptor, &status) != 0)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", file->part.part, strerror(errno));
+    file->flushed = status.st_size;
+    TRY(status.st_size > PART_BYTES ? follow(file, err) : load(file, status.st_size, err));
+    file->parts.last = file->id;
     return file;
 cleanup:
-    if (anew) part_file_discard(&file->part);
     destroy(file);
     return NULL;
 }
 
-static ArrayFile *hdf5_create(const char *path, Error *err)
-{
-    return begin_writing(path, true, err);
-}
-
-static ArrayFile *hdf5_reopen(const char *path, Error *err)
-{
-    return begin_writing(path, false, err);
-}
-
-// `path` or, where only that stands, `path`.part; into file->path.
+// `path` or, where only that stands, `path`.part or FIRST_PART; into file->path.
 static bool choose_existing(ArrayFile *file, const char *path, Error *err)
 {
+    static const char *const ends[] = {"", ".part", FIRST_PART};
     char part[PATH_MAX + 8];
     if (!part_file_name(path, part))
         return FAULT(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"",
                      path);
-    snprintf(file->path, sizeof file->path, "%s", path);
-    if (access(path, F_OK) == 0) return true;
-    int cause = errno;
-    if (access(part, F_OK) != 0)
-        return FAULT(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path,
-                     strerror(cause));
-    snprintf(file->path, sizeof file->path, "%s", part);
-    return error_is_clean(err);
+    int cause = 0;
+    for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+        snprintf(file->path, sizeof file->path, "%s%s", path, ends[k]);
+        if (access(file->path, F_OK) == 0) return true;
+        if (k == 0) cause = errno;
+    }
+    return FAULT(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
 }
 
-// By our driver; a file that has not got its name yet through the journal that its writer left.
-static bool use_disk(ArrayFile *file, const char *path, hid_t access, Error *err)
-{
-    char cause[HDF5_CAUSE_SIZE];
-    bool finished = strcmp(file->path, path) == 0;
-    if (!part_file_look(&file->part, path, finished, err)) return false;
-    if (!array_disk_look(&file->disk, &file->part, finished, err)) return false;
-    if (!array_disk_use(&file->disk, access, &file->driver))
-        return FAULT(err, ERROR_LIBRARY, "cannot read %s: %s", file->path, hdf5_cause(cause));
-    return true;
-}
-
-// Without a lock, so that the file of a running simulation can be read as of its last flush.
 static ArrayFile *hdf5_open(const char *path, Error *err)
 {
-    char cause[HDF5_CAUSE_SIZE];
-    hid_t properties = 0;
     ArrayFile *file = new_file(err);
     if (!file) return NULL;
     TRY(choose_existing(file, path, err));
-    if (access(file->path, R_OK) != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s: %s", file->path, strerror(errno));
-    properties = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(properties, false, true);
-    TRY(use_disk(file, path, properties, err));
-    file->id = H5Fopen(file->path, H5F_ACC_RDONLY, properties);
-    if (file->id < 0)
-        FAIL(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", file->path,
-             hdf5_cause(cause));
+    TRY((file->id = hdf5_disk_open(file->path, err)) > 0);
+    file->parts = (ArrayParts){.path = file->path, .last = file->id};
+    TRY(array_parts_count(file->id, file->path, &file->parts.count, err));
+    return file;
 cleanup:
-    if (properties > 0) H5Pclose(properties);
-    if (error_is_clean(err)) return file;
     destroy(file);
     return NULL;
 }
 
-// HDF5 writes once more when it closes.
-static bool end_writing(ArrayFile *file, Error *err)
+// All parts into one file, which takes the place of the last. Where HDF5 cannot write it, it is
+// left open (io/hdf5/hdf5_library).
+static bool join_parts(ArrayFile *file, Error *err)
 {
-    if (!write_all(file, err)) return false;
-    for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
-    herr_t status = H5Fclose(file->id);
-    file->id = 0;
-    return array_disk_check(&file->disk, status, "the end", err) &&
-           array_disk_end(&file->disk, err);
+    PartFile next = {0};
+    TRY(part_file_begin_next(&file->part, &next, err));
+    hid_t whole = hdf5_disk_create(next.part, err);
+    if (whole < 0 || !array_parts_join(&file->parts, whole, err)) {
+        error_context(err, "the parts of %s cannot be joined", file->path);
+        goto cleanup;
+    }
+    TRY(wrote(file, H5Fclose(whole), "the end", err));
+    TRY(part_file_take_next(&file->part, &next, err));
+cleanup:
+    part_file_discard(&next);
+    return error_is_clean(err);
+}
+
+static void remove_parts(const ArrayFile *file)
+{
+    char name[PATH_MAX + 24];
+    for (int32_t number = file->parts.count; number > 0; number--) {
+        array_part_name(&file->parts, number, name);
+        unlink(name);
+    }
 }
 
 // Where one of these fails the name is not given.
 static bool hdf5_close(ArrayFile *file, Error *err)
 {
     if (!file->writing) goto cleanup;
-    TRY(end_writing(file, err));
+    TRY(hdf5_flush(file, err));
+    TRY(file->parts.count == 0 || join_parts(file, err));
     TRY(part_file_commit(&file->part, err));
+    remove_parts(file);
 cleanup:
     destroy(file);
     return error_is_clean(err);
@@ -229,7 +341,7 @@ cleanup:
 static void hdf5_abandon(ArrayFile *file)
 {
     Error ignored = {0};
-    end_writing(file, &ignored);
+    hdf5_flush(file, &ignored);
     destroy(file);
 }
 
@@ -238,16 +350,14 @@ static void hdf5_abandon(ArrayFile *file)
 // They stand in the root of the file.
 static bool hdf5_set_number(ArrayFile *file, const char *name, double value, Error *err)
 {
-    if (!check_writable(file, err)) return false;
-    herr_t status = attribute_write_number(file->id, name, value);
-    return array_disk_check(&file->disk, status, name, err);
+    return may_change(file, err) &&
+           wrote(file, attribute_write_number(file->id, name, value), name, err);
 }
 
 static bool hdf5_set_text(ArrayFile *file, const char *name, const char *value, Error *err)
 {
-    if (!check_writable(file, err)) return false;
-    herr_t status = attribute_write_text(file->id, name, value);
-    return array_disk_check(&file->disk, status, name, err);
+    return may_change(file, err) &&
+           wrote(file, attribute_write_text(file->id, name, value), name, err);
 }
 
 static bool hdf5_get_number(ArrayFile *file, const char *name, double *value, Error *err)
@@ -296,7 +406,7 @@ static bool hdf5_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t
                              Error *err)
 {
     SeriesWriter added = {0};
-    TRY(check_writable(file, err));
+    TRY(may_change(file, err));
     if (find_series(file, series->name))
         FAIL(err, ERROR_LIBRARY, "%s holds %s already", file->path, series->name);
     TRY(grow_series_list(file, err));
@@ -304,7 +414,7 @@ static bool hdf5_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t
     herr_t status = attribute_write_text(added.dataset, "unit", series->unit);
     if (status >= 0)
         status = attribute_write_text(added.dataset, "description", series->description);
-    TRY(array_disk_check(&file->disk, status, series->name, err));
+    TRY(wrote(file, status, series->name, err));
     file->series[file->series_count++] = added;
     added = (SeriesWriter){0};   // the list owns it now
 cleanup:
@@ -316,17 +426,19 @@ static bool hdf5_append(ArrayFile *file, const char *name, const double *values,
                         Error *err)
 {
     SeriesWriter *series = find_series(file, name);
-    if (!check_writable(file, err)) return false;
+    if (!may_change(file, err)) return false;
     if (!series)
         return FAULT(err, ERROR_LIBRARY, "%s has no series %s to append to", file->path, name);
-    return series_append(series, &file->disk, values, rows, err);
+    if (series_append(series, file->part.part, values, rows, err)) return true;
+    file->broken = true;
+    return false;
 }
 
 // A series of a reopened file is opened when it is first cut.
 static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
 {
     SeriesWriter opened = {0}, *series = find_series(file, name);
-    TRY(check_writable(file, err));
+    TRY(may_change(file, err));
     if (!series) {
         TRY(grow_series_list(file, err));
         TRY(series_open(&opened, file->id, name, err));
@@ -334,7 +446,7 @@ static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err
         *series = opened;
         opened = (SeriesWriter){0};   // the list owns it now
     }
-    TRY(series_cut(series, &file->disk, rows, err));
+    TRY(series_cut(series, file->part.part, rows, err));
 cleanup:
     series_destroy(&opened);
     return error_is_clean(err);
@@ -344,40 +456,22 @@ cleanup:
 static bool hdf5_remove(ArrayFile *file, const char *name, Error *err)
 {
     herr_t status = 0;
-    if (!check_writable(file, err)) return false;
+    if (!may_change(file, err)) return false;
     if (H5Aexists(file->id, name) > 0) status = H5Adelete(file->id, name);
     if (hdf5_has(file, name)) status = H5Ldelete(file->id, name, H5P_DEFAULT);
-    return array_disk_check(&file->disk, status, name, err);
+    return wrote(file, status, name, err);
 }
 
 // --- reading ------------------------------------------------------------------------------------
 
-// *values: [*rows * *width], the caller's; memory_free.
+// A file being written can be read, too.
 static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
-    char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
-    hid_t dataset = -1;
-    int32_t components = 1;
     *values = NULL;
-    *rows = 0;
-    *width = 0;
-    TRY(hdf5_flush(file, err));   // a file being written can be read, too
-    if (!hdf5_has(file, name)) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
-    dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
-    if (dataset < 0)
-        FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
-    if (!series_shape(dataset, rows, width, &components, why))
-        FAIL(err, ERROR_FILE, "%s: %s %s", file->path, name, why);
-    TRY((*values = memory_bytes(*rows * *width * (int64_t)sizeof(double), err)));
-    if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
-        FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));
-cleanup:
-    if (dataset >= 0) H5Dclose(dataset);
-    if (error_is_clean(err)) return true;
-    memory_free(*values);   // half read
-    *values = NULL;
-    return false;
+    *rows = *width = 0;
+    return hand_over_all(file, err) &&
+           array_parts_read(&file->parts, name, values, rows, width, err);
 }
 
 // --- the module's one entry ---------------------------------------------------------------------

@@ -18,7 +18,6 @@ typedef struct ArrayFile ArrayFile;   // begins with a pointer to its module's t
       (ArrayFile * file, const char *name, const double *values, int64_t rows, Error *err),        \
       (file, name, values, rows, err))                                                             \
     X(flush, (ArrayFile * file, Error * err), (file, err))                                         \
-    X(sync, (ArrayFile * file, Error * err), (file, err))                                          \
     X(cut, (ArrayFile * file, const char *name, int64_t rows, Error *err),                         \
       (file, name, rows, err))                                                                     \
     X(remove, (ArrayFile * file, const char *name, Error *err), (file, name, err))                 \

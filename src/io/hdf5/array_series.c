@@ -4,6 +4,7 @@
 #include "io/hdf5/array_series.h"
 
 #include "base/memory.h"
+#include "io/hdf5/array_attribute.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@ enum {
     CACHE_SLOTS = 11,   // of HDF5's table of cached chunks; a prime, as it wants
     DEFLATE_LEVEL = 2   // 4 saves 4 % of the size and costs 20 % more time
 };
+static const double ROWS_MAX = 9007199254740992;   // 2^53: so far a double counts
 
 // Bytes of a value, and its HDF5 types: in the file little-endian, whatever the machine, in the
 // buffer the machine's own; HDF5 converts on the way.
@@ -144,39 +146,69 @@ static bool read_layout(SeriesWriter *writer)
            writer->width > 0;
 }
 
+int64_t series_first_row(hid_t dataset)
+{
+    double first = 0;
+    if (H5Aexists(dataset, SERIES_FIRST_ROW) <= 0) return 0;
+    if (attribute_read_number(dataset, SERIES_FIRST_ROW, &first) < 0) return -1;
+    return first >= 0 && first <= ROWS_MAX ? (int64_t)first : -1;
+}
+
+// With a cache of a chunk, which is CHUNK_BYTES at most, or a row. The id, or a negative number.
+static hid_t open_dataset(hid_t id, const char *name)
+{
+    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(cache, CACHE_SLOTS, CHUNK_BYTES, 1.0);
+    hid_t dataset = H5Lexists(id, name, H5P_DEFAULT) > 0 ? H5Dopen2(id, name, cache) : -1;
+    H5Pclose(cache);
+    return dataset;
+}
+
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
     *writer = (SeriesWriter){0};
-    TRY((writer->name = memory_text(name, err)));
-    // Chunks are CHUNK_BYTES at most, or a row.
-    H5Pset_chunk_cache(cache, CACHE_SLOTS, CHUNK_BYTES, 1.0);
-    writer->dataset = H5Lexists(id, name, H5P_DEFAULT) > 0 ? H5Dopen2(id, name, cache) : -1;
+    if (!(writer->name = memory_text(name, err))) return false;
+    writer->dataset = open_dataset(id, name);
     if (writer->dataset < 0)
-        FAIL(err, ERROR_FILE, "the file has no %s: %s", name, hdf5_cause(cause));
-    if (!read_layout(writer)) FAIL(err, ERROR_FILE, "%s is not as it was written", name);
+        return FAULT(err, ERROR_FILE, "the file has no %s: %s", name, hdf5_cause(cause));
+    writer->first = series_first_row(writer->dataset);
+    if (!read_layout(writer) || writer->first < 0)
+        return FAULT(err, ERROR_FILE, "%s is not as it was written", name);
     writer->chunk_rows = chunk_rows(writer->type, writer->width);
-    TRY((writer->buffer =
-             memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err)));
-cleanup:
-    H5Pclose(cache);
-    return error_is_clean(err);
+    writer->buffer =
+        memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err);
+    return writer->buffer != NULL;
+}
+
+bool series_move(SeriesWriter *writer, hid_t id, const char *path, Error *err)
+{
+    hid_t dataset = open_dataset(id, writer->name);
+    if (!hdf5_wrote(dataset < 0 ? -1 : 0, path, writer->name, err)) return false;
+    H5Dclose(writer->dataset);
+    writer->dataset = dataset;
+    writer->first = series_first_row(dataset);
+    writer->row_count = 0;
+    return true;
 }
 
 // Buffered rows may be among those that go.
-bool series_cut(SeriesWriter *writer, const ArrayDisk *disk, int64_t rows, Error *err)
+bool series_cut(SeriesWriter *writer, const char *path, int64_t rows, Error *err)
 {
     hsize_t shape[ARRAY_RANK_MAX];
-    shape_of(writer, (hsize_t)rows, shape);
-    if (!series_hand_over(writer, disk, err)) return false;
-    if (writer->row_count < rows)
+    if (!series_hand_over(writer, path, err)) return false;
+    int64_t before = writer->first, count = before + writer->row_count;
+    if (count < rows)
         return FAULT(err, ERROR_FILE, "%s has %lld rows, %lld are to be kept", writer->name,
-                     (long long)writer->row_count, (long long)rows);
-    herr_t status = writer->row_count > rows ? H5Dset_extent(writer->dataset, shape) : 0;
-    if (!array_disk_check(disk, status, writer->name, err)) return false;
-    writer->row_count = rows;
-    return true;
+                     (long long)count, (long long)rows);
+    if (count == rows) return true;
+    writer->first = rows < before ? rows : before;
+    shape_of(writer, (hsize_t)(rows - writer->first), shape);
+    herr_t status = H5Dset_extent(writer->dataset, shape);
+    if (status >= 0 && writer->first < before)
+        status = attribute_write_number(writer->dataset, SERIES_FIRST_ROW, (double)writer->first);
+    writer->row_count = rows - writer->first;
+    return hdf5_wrote(status, path, writer->name, err);
 }
 
 void series_destroy(SeriesWriter *writer)
@@ -186,7 +218,7 @@ void series_destroy(SeriesWriter *writer)
     *writer = (SeriesWriter){0};
 }
 
-bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
+bool series_hand_over(SeriesWriter *writer, const char *path, Error *err)
 {
     if (writer->buffered == 0) return true;
     // The dataset grows by the rows, which are the hyperslab that is written:
@@ -205,7 +237,7 @@ bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
                           writer->buffer);
     if (to >= 0) H5Sclose(to);
     H5Sclose(from);
-    if (!array_disk_check(disk, to < 0 ? -1 : status, writer->name, err)) return false;
+    if (!hdf5_wrote(to < 0 ? -1 : status, path, writer->name, err)) return false;
     writer->row_count += writer->buffered;
     writer->buffered = 0;
     return true;
@@ -241,7 +273,7 @@ static void convert(SeriesWriter *writer, int64_t first, const double *values, i
 }
 
 // In whole chunks: one that is not full would be compressed again with every row.
-bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *values, int64_t rows,
+bool series_append(SeriesWriter *writer, const char *path, const double *values, int64_t rows,
                    Error *err)
 {
     while (rows > 0) {
@@ -252,7 +284,7 @@ bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *va
         writer->buffered += taken;
         values += taken * writer->width;
         rows -= taken;
-        if (taken == room && !series_hand_over(writer, disk, err)) return false;
+        if (taken == room && !series_hand_over(writer, path, err)) return false;
     }
     return true;
 }

@@ -258,6 +258,39 @@ ArrayFile *result_file_open(const char *folder, Error *err)
     return file;
 }
 
+// Numbers of a file may be anybody's. None is infinite or beyond this, whose square is one, too.
+static const double NUMBER_MAX = 1e100;
+
+static bool check_numbers(const char *name, const double *values, int64_t count, Error *err)
+{
+    for (int64_t k = 0; k < count; k++)
+        if (fabs(values[k]) > NUMBER_MAX)
+            return FAULT(err, ERROR_FILE, "%s holds %g, beyond all measure: the file is damaged",
+                         name, values[k]);
+    return true;
+}
+
+// What counts, numbers or chooses is whole and in its range, as it becomes an index.
+static bool check_whole(const char *name, const double *values, int64_t count, double low,
+                        double high, Error *err)
+{
+    for (int64_t k = 0; k < count; k++)
+        if (!(values[k] >= low && values[k] <= high && values[k] == floor(values[k])))
+            return FAULT(err, ERROR_FILE,
+                         "%s holds %g, and not a whole number from %g to %g: the file is damaged",
+                         name, values[k], low, high);
+    return true;
+}
+
+// An array whose numbers were refused is freed.
+static bool keep(bool good, double **values)
+{
+    if (good) return true;
+    memory_free(*values);
+    *values = NULL;
+    return false;
+}
+
 // A fixed array: as `array_file_read`, its rows as a count; missing: none.
 static bool read_column(ArrayFile *file, const char *name, double **values, int32_t *count,
                         Error *err)
@@ -273,7 +306,7 @@ static bool read_column(ArrayFile *file, const char *name, double **values, int3
                       width);
     }
     *count = (int32_t)rows;
-    return true;
+    return keep(check_numbers(name, *values, rows, err), values);
 }
 
 bool result_file_has_faces(ArrayFile *file)
@@ -286,6 +319,20 @@ bool result_file_remembers(ArrayFile *file)
     return array_file_has(file, series_rows[SERIES_STATE].name);
 }
 
+// Points of faces: contact nodes, behind them corners; -1: none.
+static bool check_points(ArrayFile *file, const double *points, int64_t count, Error *err)
+{
+    double *nodes = NULL, *corners = NULL;
+    int32_t node_count = 0, corner_count = 0, two = 0;
+    TRY(result_file_read_nodes(file, NODES_X, &nodes, &node_count, err));
+    TRY(result_file_read_faces(file, FACES_CORNERS, &corners, &corner_count, &two, err));
+    TRY(check_whole(faces_rows[FACES_NODES].name, points, count, -1,
+                    (double)node_count + corner_count - 1, err));
+cleanup:
+    memory_free_all(nodes, corners);
+    return error_is_clean(err);
+}
+
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
                             int32_t *width, Error *err)
 {
@@ -294,22 +341,36 @@ bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values,
     *values = NULL;
     if (!array_file_has(file, faces_rows[faces].name)) return true;
     if (!array_file_read(file, faces_rows[faces].name, values, &count, width, err)) return false;
-    if (count > INT32_MAX) return FAULT(err, ERROR_FILE, "%s is too long", faces_rows[faces].name);
+    bool good = check_numbers(faces_rows[faces].name, *values, count * *width, err);
+    if (good && count > INT32_MAX)
+        good = FAULT(err, ERROR_FILE, "%s is too long", faces_rows[faces].name);
+    if (good && faces == FACES_NODES) good = check_points(file, *values, count * *width, err);
     *rows = (int32_t)count;
-    return true;
+    return keep(good, values);
 }
 
 // length: who reads several takes the shortest.
 bool result_file_read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,
                              int32_t *width, Error *err)
 {
-    return array_file_read(file, series_rows[series].name, values, rows, width, err);
+    const char *name = series_rows[series].name;
+    if (!array_file_read(file, name, values, rows, width, err)) return false;
+    int64_t count = *rows * *width;
+    bool good = check_numbers(name, *values, count, err);
+    if (good && series == SERIES_STATUS) good = check_whole(name, *values, count, 0, 3, err);
+    if (good && series == SERIES_CERTIFIED) good = check_whole(name, *values, count, 0, 1, err);
+    return keep(good, values);
 }
 
 bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values, int32_t *count,
                             Error *err)
 {
-    return read_column(file, nodes_rows[nodes].name, values, count, err);
+    const char *name = nodes_rows[nodes].name;
+    if (!read_column(file, name, values, count, err)) return false;
+    bool good = true;
+    if (nodes == NODES_PAD) good = check_whole(name, *values, *count, 0, *count - 1, err);
+    if (nodes == NODES_LINE) good = check_whole(name, *values, *count, 0, 1, err);
+    return keep(good, values);
 }
 
 bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes)
@@ -321,8 +382,14 @@ bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes)
 bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
                             Error *err)
 {
-    if (array_file_has(file, table_rows[table].name))
-        return read_column(file, table_rows[table].name, values, count, err);
+    const char *name = table_rows[table].name;
+    if (array_file_has(file, name)) {
+        if (!read_column(file, name, values, count, err)) return false;
+        bool good = true;
+        if (table == EVENTS_KIND) good = check_whole(name, *values, *count, 0, 3, err);
+        if (table == PEAKS_COUNTS) good = check_whole(name, *values, *count, 0, 1, err);
+        return keep(good, values);
+    }
     *count = 0;
     *values = NEW_ARRAY(double, 0, err);
     return *values != NULL;
@@ -342,13 +409,13 @@ bool result_file_read_tables(ArrayFile *file, const ResultTable *tables, int32_t
     return true;
 }
 
-// NaN: the file does not have it, as an older one may not.
+// NaN: the file does not have it, as an older one may not; or it cannot be.
 double result_file_number(ArrayFile *file, ResultNumber number)
 {
     Error absent = {0};
     double value = NAN;
     array_file_get_number(file, number_rows[number].name, &value, &absent);
-    return value;
+    return fabs(value) <= NUMBER_MAX ? value : (double)NAN;
 }
 
 bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)

@@ -78,7 +78,8 @@ typedef enum ResultColumns {
     X(PEAKS_U, "peaks/U", "length", "rod displacement at each peak of mu before bulk sliding")     \
     X(PEAKS_MU, "peaks/mu", "1", "mu at the peak")                                                 \
     X(PEAKS_COUNTS, "peaks/counts", "1", "1: counts for mu_M, 0: before load drops had settled")   \
-    X(EVENTS_KIND, "events/kind", "1", "0 quasi-static, 1 bounded rapid, 2 leading rapid")         \
+    X(EVENTS_KIND, "events/kind", "1",                                                             \
+      "0 quasi-static, 1 bounded rapid, 2 leading rapid, 3 slight rapid")                          \
     X(EVENTS_U_START, "events/U_start", "length", "rod displacement when it starts")               \
     X(EVENTS_U_STOP, "events/U_stop", "length", "rod displacement when it stops")                  \
     X(EVENTS_T_START, "events/t_start", "time", "when it starts")                                  \
@@ -107,6 +108,8 @@ typedef enum ResultColumns {
     X(NUMBER_C_LONGITUDINAL, "speed_longitudinal", "velocity", "c_L")                              \
     X(NUMBER_C_SHEAR, "speed_shear", "velocity", "c_S")                                            \
     X(NUMBER_C_RAYLEIGH, "speed_rayleigh", "velocity", "c_R")                                      \
+    X(NUMBER_WAVE_DAMPING, "wave_damping", "1",                                                    \
+      "of the longest wave of the block, over critical damping; above 1 no wave runs")             \
     X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
       "lowest z of the strip that the rod pushes; absent: none")                                   \
     X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \

@@ -51,12 +51,11 @@ static void archive_group(MeshGroup *group, const MeshFile *mesh, Archive *archi
 {
     archive_text(archive, group->name, sizeof group->name);
     archive_index(archive, &group->dimension, 0, mesh->dim + 1);
-    archive_index(archive, &group->number, 0, INT32_MAX);
+    archive_integer(archive, &group->number);
     archive_length(archive, &group->face_count);
     archive_index(archive, &group->nodes_per_face, 0, FACE_NODES_MAX + 1);
     archive_length(archive, &group->node_count);
     archive_length(archive, &group->element_count);
-    archive_flag(archive, &group->blurred);
     archive_new_indices(archive, &group->face_nodes,
                         (int64_t)group->face_count * group->nodes_per_face, mesh->dim == 2 ? 0 : -1,
                         mesh->node_count);
@@ -79,6 +78,7 @@ void mesh_archive(void *self, Archive *archive)
     mesh->groups = archive_new(archive, mesh->groups, mesh->group_count, sizeof *mesh->groups);
     if (!mesh->groups) mesh->group_count = 0;
     for (int32_t k = 0; k < mesh->group_count; k++) archive_group(&mesh->groups[k], mesh, archive);
+    archive_text(archive, mesh->warning, sizeof mesh->warning);
 }
 
 bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)

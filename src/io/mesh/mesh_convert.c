@@ -23,6 +23,9 @@
 // rotation in a CAD program.
 static const double PLANE_TOLERANCE = 1e-9;
 
+// Largest number of a node or an element: what base/archive takes as a count.
+static const int64_t NUMBER_MAX = INT64_C(1) << 53;
+
 // A raw node.
 typedef struct Node {
     int64_t number;   // its tag
@@ -252,9 +255,9 @@ static int32_t find_element(const MeshFile *mesh, int64_t number)
 }
 
 // The elements of a region, by the entities that it is made of: copies of an element are on the
-// same entity as the one that was kept. body: [mesh->element_count] as they were picked.
-static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const RawElements *body,
-                                 const MeshFile *mesh, MeshGroup *group, Error *err)
+// same entity as the one that was kept.
+static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const MeshFile *mesh,
+                                 MeshGroup *group, Error *err)
 {
     int32_t most = 0;
     for (int32_t k = 0; k < raw->block_count; k++)
@@ -265,10 +268,7 @@ static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const
         for (int64_t i = 0; raw_group_holds(from, block) && i < block->count; i++) {
             int32_t e = find_element(mesh, block->number[i]);
             if (e < 0) continue;
-            const RawElement *item = &body->items[e];
             group->elements[group->element_count++] = e;
-            if (raw->version > 0 && raw->version < 4 && item->copies < item->groups)
-                group->blurred = true;
         }
     }
     qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), order_int32);
@@ -293,8 +293,6 @@ static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable 
              path, from->number, from->dimension, code);
     if (from->dimension >= raw_dimension(raw)) goto cleanup;
     TRY(raw_pick_group(raw, path, from, group->name, &elements, err));
-    if (raw->version > 0 && raw->version < 4)
-        TRY(raw_check_copies(path, group->name, &elements, err));
     if (from->dimension == raw_dimension(raw) - 1)
         TRY(store_group_faces(path, &elements, table, group, err));
     TRY(store_group_nodes(&elements, table, group, err));
@@ -303,26 +301,44 @@ cleanup:
     return error_is_clean(err);
 }
 
-// All groups. Each name is there once, whatever the dimension.
+// All groups. Among those of one dimension each name is there once.
 static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
-                           const RawElements *body, MeshFile *mesh, Error *err)
+                           MeshFile *mesh, Error *err)
 {
     if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) return false;
     for (int32_t k = 0; k < raw->group_count; k++) {
         MeshGroup *group = &mesh->groups[mesh->group_count++];
         if (!convert_group(raw, path, table, &raw->groups[k], group, err)) return false;
         if (group->dimension == mesh->dim &&
-            !store_group_elements(raw, &raw->groups[k], body, mesh, group, err))
+            !store_group_elements(raw, &raw->groups[k], mesh, group, err))
             return false;
         for (const MeshGroup *other = mesh->groups; other < group; other++)
-            if (strcmp(other->name, group->name) == 0)
+            if (other->dimension == group->dimension && strcmp(other->name, group->name) == 0)
                 return REFUSE(err,
-                              "%s: the physical name '%s' is used twice: by group %d of dimension "
-                              "%d and by group %d of dimension %d",
-                              path, group->name, other->number, other->dimension, group->number,
-                              group->dimension);
+                              "%s: the physical name '%s' is used twice: by groups %d and %d of "
+                              "dimension %d",
+                              path, group->name, other->number, group->number, group->dimension);
     }
     qsort(mesh->groups, (size_t)mesh->group_count, sizeof *mesh->groups, compare_groups);
+    return true;
+}
+
+// gmsh reads numbers of format 2.2 into ints, where larger ones run over, and takes negative ones
+// as they are; messages name nodes and elements by them.
+static bool check_numbers(const MeshRaw *raw, const char *path, Error *err)
+{
+    static const char *const how =
+        "numbers are from 1 to 2147483647 in format 2.2 (gmsh and meshio renumber a mesh that they "
+        "save again)";
+    for (int64_t i = 0; i < raw->node_count; i++)
+        if (raw->node_number[i] < 1 || raw->node_number[i] > NUMBER_MAX)
+            return REFUSE(err, "%s: a node has the number %lld as gmsh reads it; %s", path,
+                          (long long)raw->node_number[i], how);
+    for (int32_t k = 0; k < raw->block_count; k++)
+        for (int64_t i = 0; i < raw->blocks[k].count; i++)
+            if (raw->blocks[k].number[i] < 1 || raw->blocks[k].number[i] > NUMBER_MAX)
+                return REFUSE(err, "%s: an element has the number %lld as gmsh reads it; %s", path,
+                              (long long)raw->blocks[k].number[i], how);
     return true;
 }
 
@@ -331,6 +347,7 @@ bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Erro
     RawElements body = {0};
     NodeTable table = {0};
     *mesh = (MeshFile){.dim = raw_dimension(raw)};
+    TRY(check_numbers(raw, path, err));
     TRY(raw_pick_body(raw, mesh->dim, path, &body, err));
     TRY(table_build(raw, path, &table, err));
     TRY(mark_elements(&body, path, &table, err));
@@ -338,7 +355,7 @@ bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Erro
     mark_boundaries(raw, mesh->dim, &table);
     TRY(number_nodes(raw, path, &table, mesh, err));
     TRY(store_elements(&body, &table, mesh, err));
-    TRY(convert_groups(raw, path, &table, &body, mesh, err));
+    TRY(convert_groups(raw, path, &table, mesh, err));
 cleanup:
     memory_free_all(table.node, body.items);
     return error_is_clean(err);

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
 
@@ -36,6 +37,45 @@ void mesh_file_destroy(MeshFile *mesh)
     *mesh = (MeshFile){0};
 }
 
+// --- which files are meshes ---------------------------------------------------------------------
+
+static bool is_one_of(const char *ending, const char *const *endings)
+{
+    while (*endings && strcasecmp(ending, *endings) != 0) endings++;
+    return *endings != NULL;
+}
+
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return dot ? dot : "";
+}
+
+MeshFormat mesh_file_format(const char *path)
+{
+    static const char *const meshes[] = {".msh", ".msh2", ".msh4", NULL};
+    static const char *const scripts[] = {".geo", ".geo_unrolled", NULL};
+    const char *ending = ending_of(path);
+    return is_one_of(ending, meshes)    ? MESH_MSH
+           : is_one_of(ending, scripts) ? MESH_SCRIPT
+                                        : MESH_NO_FORMAT;
+}
+
+const char *mesh_format_advice(const char *path)
+{
+    static const char *const parts[] = {".step", ".stp", NULL};
+    static const char *const meshes[] = {".vtk",  ".vtu", ".med", ".inp", ".unv",  ".bdf", ".nas",
+                                         ".mesh", ".exo", ".e",   ".xml", ".xdmf", ".stl", NULL};
+    return is_one_of(ending_of(path), parts)
+               ? "; a STEP file is meshed by meshes/step3d.geo: mesh: {file: meshes/step3d.geo, "
+                 "set: {file: /absolute/path/of/it}}"
+           : is_one_of(ending_of(path), meshes)
+               ? "; gmsh and meshio make a .msh of most other formats (gmsh FILE -save -format "
+                 "msh22 -o FILE.msh; meshio convert FILE FILE.msh)"
+               : "";
+}
+
 // --- groups -------------------------------------------------------------------------------------
 
 // "'body' (surface), 'contact' (curve)" or "none".
@@ -49,11 +89,14 @@ static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
                                    mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
 }
 
-// By name; NULL: none. Names are unique: mesh_raw_convert sees to it.
-static const MeshGroup *find_group(const MeshFile *mesh, const char *name)
+// The group of this name and dimension (-1: of any); NULL: none. gmsh counts groups by dimension,
+// so those of different dimension may have the same name.
+static const MeshGroup *find_group(const MeshFile *mesh, const char *name, int32_t dimension)
 {
     for (int32_t k = 0; k < mesh->group_count; k++)
-        if (strcmp(mesh->groups[k].name, name) == 0) return &mesh->groups[k];
+        if ((dimension < 0 || mesh->groups[k].dimension == dimension) &&
+            strcmp(mesh->groups[k].name, name) == 0)
+            return &mesh->groups[k];
     return NULL;
 }
 
@@ -62,12 +105,12 @@ const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const c
                                  int32_t dimension, Error *err)
 {
     static const char *const words[] = {"point", "curve", "surface", "volume"};
-    const MeshGroup *group = find_group(mesh, name);
+    const MeshGroup *group = find_group(mesh, name, dimension);
     const char **names = NULL;
     char list[LIST_SIZE], hint[GROUP_NAME_SIZE + 32] = "";
-    if (group && group->dimension == dimension) return group;
+    if (group) return group;
     list_groups(mesh, list);
-    if (group)
+    if ((group = find_group(mesh, name, -1)))
         FAIL(err, ERROR_INPUT, "%s: group '%s' is a %s, wanted is a %s; the groups are: %s", path,
              name, words[group->dimension & 3], words[dimension & 3], list);
     if (!(names = NEW_ARRAY(const char *, mesh->group_count, err))) goto cleanup;

@@ -31,7 +31,7 @@ typedef enum ElementKind {
 #undef X
 } ElementKind;
 
-enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3 };
+enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 27, DIM_MAX = 3, MESH_WARNING_SIZE = 300 };
 
 // x to z in as many numbers as the mesh has dimensions: (x, z) in the plane, (x, y, z) in space.
 typedef double MeshPlace[DIM_MAX];
@@ -39,7 +39,8 @@ typedef double MeshPlace[DIM_MAX];
 // One physical group: of points (dimension 0), curves (1), surfaces (2) or volumes (3). Of the
 // mesh's own dimension it is a region, of one less a piece of boundary, made of faces.
 typedef struct MeshGroup {
-    char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal
+    char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal;
+    // groups of different dimension may share name and number
     int32_t dimension;   // 0 to 3
     int32_t number;   // gmsh's physical tag
     int32_t face_count;   // 0 unless it is a piece of boundary
@@ -49,8 +50,6 @@ typedef struct MeshGroup {
     int32_t *nodes;   // [node_count] ascending, each once; empty for regions; owned
     int32_t element_count;   // 0 unless it is a region
     int32_t *elements;   // [element_count] of the mesh, ascending; owned
-    bool blurred;   // a region of a file of format 2.2 that shares its entity's number with another
-    // group: which of the two an element belongs to is not known
 } MeshGroup;
 
 // Made by gmsh now, or before (io/mesh/mesh_cache); or of files that it says itself, so that it is
@@ -71,7 +70,15 @@ typedef struct MeshFile {
     int32_t *element_nodes;   // [first_node[element_count]] node indices; owned
     int32_t group_count;
     MeshGroup *groups;   // [group_count] by dimension, then by number; owned
+    char warning[MESH_WARNING_SIZE];   // an error of gmsh after which it made a mesh; empty: none
 } MeshFile;
+
+// What the end of a file's name says, in capitals too; gmsh's own endings are .msh2, .msh4 and
+// .geo_unrolled.
+typedef enum MeshFormat { MESH_NO_FORMAT, MESH_MSH, MESH_SCRIPT } MeshFormat;
+MeshFormat mesh_file_format(const char *path);
+// How another program's file becomes a mesh: the end of a message, empty where nothing is known.
+const char *mesh_format_advice(const char *path);
 
 // A value for one name of a .geo: `DefineConstant[ nx = 80 ]` takes what is given here instead.
 typedef struct MeshParameter {
@@ -84,16 +91,19 @@ typedef struct MeshParameter {
 // not declare it itself, gmsh halves all edges, so that it must be a power of two.
 //
 // Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed with `parameters`: where it has
-// a volume in 3D, else in 2D. Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh,
-// no elements, an element kind that is not in ELEMENT_KINDS, a parameter the .geo does not know, a
-// name used twice. A mesh without volumes that is not in the plane z = 0 of gmsh is refused. *mesh
-// is destroyed by the caller.
+// a volume in 3D, else in 2D. A .geo that has made such a mesh itself keeps it; Mesh.ScalingFactor
+// and Mesh.SaveAll of a .geo count as where gmsh writes a mesh. trusted: a .geo may do what gmsh
+// can (run commands, write files, open others); else what io/mesh/geo_script allows. Errors
+// (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind that is
+// not in ELEMENT_KINDS, a parameter the .geo does not know, a name that two
+// groups of one dimension have. A mesh without volumes that is not in the plane z = 0 of gmsh is
+// refused. *mesh is destroyed by the caller.
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    MeshFile *mesh, Error *err);
+                    bool trusted, MeshFile *mesh, Error *err);
 void mesh_file_destroy(MeshFile *mesh);
 
 // The group called `name`. An error (ERROR_INPUT) names `path`, lists the groups that exist with
-// their dimension, and suggests the nearest name. `dimension`: the one wanted; another is an error.
+// their dimension, and suggests the nearest name. `dimension`: the one wanted.
 const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const char *name,
                                  int32_t dimension, Error *err);
 

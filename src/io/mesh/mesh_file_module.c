@@ -5,6 +5,7 @@
 #include "io/mesh/mesh_raw.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <gmshc.h>
 #include <limits.h>
 #include <locale.h>
@@ -17,15 +18,16 @@
 
 // SCRIPT_NAME_SIZE: "/proc/self/fd/" and an int. MESH_ADAPT_QUADS: a value of Mesh.Algorithm.
 enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8, LOCALE_SIZE = 200 };
+static const char ERROR_MARK[] = "Error: ";
 // gmsh's element types.
 enum { MSH_TRI_3 = 2, MSH_QUA_4, MSH_TET_4, MSH_HEX_8, MSH_PRI_6, MSH_QUA_8 = 16 };
 
 // gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
 static const char *first_error(char **log, size_t count)
 {
-    static const char mark[] = "Error: ";
     for (size_t k = 0; k < count; k++)
-        if (strncmp(log[k], mark, sizeof mark - 1) == 0) return log[k] + sizeof mark - 1;
+        if (strncmp(log[k], ERROR_MARK, sizeof ERROR_MARK - 1) == 0)
+            return log[k] + sizeof ERROR_MARK - 1;
     return NULL;
 }
 
@@ -106,45 +108,57 @@ static void gmsh_end(void)
     gmshFinalize(&status);
 }
 
-// A script in memory that sets the parameters and includes the .geo: DefineConstant does not change
-// what has a value. (gmsh would keep -setnumber for every later session of the process.) Returns
-// its descriptor, -1 on failure; `name` becomes the name to open it by.
-static int open_script(const MeshRawRequest *request, char name[SCRIPT_NAME_SIZE], Error *err)
+// A script in memory that sets the parameters, all in its first line, and is or includes the .geo:
+// DefineConstant does not change what has a value. (gmsh would keep -setnumber for every later
+// session of the process.)
+static bool write_script(const MeshRawRequest *request, int script, Error *err)
 {
     char path[PATH_MAX];
-    int script = memfd_create("parameters.geo", MFD_CLOEXEC);
-    if (!realpath(request->path, path) || script < 0)
-        FAIL(err, ERROR_FILE, "%s: its parameters cannot be set: %s", request->path,
-             strerror(errno));
-    if (strchr(path, '"'))
-        FAIL(err, ERROR_INPUT, "%s: gmsh cannot include a file with a quote in its path", path);
     for (int32_t k = 0; k < request->parameter_count; k++) {
         const MeshParameter *parameter = &request->parameters[k];
         if (parameter->text[0])
-            dprintf(script, "%s = \"%s\";\n", parameter->name, parameter->text);
+            dprintf(script, "%s = \"%s\"; ", parameter->name, parameter->text);
         else
-            dprintf(script, "%s = %.17g;\n", parameter->name, parameter->value);
+            dprintf(script, "%s = %.17g; ", parameter->name, parameter->value);
     }
-    dprintf(script, "Include \"%s\";\n", path);
-    snprintf(name, SCRIPT_NAME_SIZE, "/proc/self/fd/%d", script);
-cleanup:
-    return script;
+    if (!request->script) {
+        if (!realpath(request->path, path))
+            return FAULT(err, ERROR_FILE, "%s: %s", request->path, strerror(errno));
+        if (strchr(path, '"'))
+            return REFUSE(err, "%s: gmsh cannot include a file with a quote in its path", path);
+        return dprintf(script, "Include \"%s\";\n", path) > 0 ||
+               FAULT(err, ERROR_FILE, "%s: its parameters cannot be set", request->path);
+    }
+    for (int32_t done = 0; done < request->script_size;) {
+        ssize_t count =
+            write(script, request->script + done, (size_t)(request->script_size - done));
+        if (count <= 0)
+            return FAULT(err, ERROR_FILE, "%s: no memory for its text: %s", request->path,
+                         strerror(errno));
+        done += (int32_t)count;
+    }
+    return true;
 }
 
-// Opens the file, through a script where there are parameters. gmsh reports some errors by status,
-// some in its log only.
-static bool gmsh_open(const MeshRawRequest *request, Error *err)
+// Opens the file, or a script in its place. A file that is not trusted is opened here and named to
+// gmsh by its descriptor: beside such a name there are no options (FILE.opt) that gmsh would run.
+static bool gmsh_open(const MeshRawRequest *request, int *status, Error *err)
 {
     char name[SCRIPT_NAME_SIZE];
-    int status = 0, script = -1;
-    if (request->parameter_count > 0) {
-        script = open_script(request, name, err);
-        TRY(error_is_clean(err));
-    }
-    gmshOpen(script >= 0 ? name : request->path, &status);
-    if (status || gmsh_complained()) fail_with_log(request, "reading it", err);
+    int file = -1;
+    const char *path = request->opened_as ? request->opened_as : request->path;
+    bool by_path = request->opened_as || (request->trusted && request->parameter_count == 0);
+    if (request->script || request->parameter_count > 0)
+        file = memfd_create("geo", MFD_CLOEXEC);
+    else if (!by_path)
+        file = open(request->path, O_RDONLY | O_CLOEXEC);
+    if (!by_path && file < 0)
+        FAIL(err, ERROR_FILE, "%s: cannot be opened: %s", request->path, strerror(errno));
+    if (request->script || request->parameter_count > 0) TRY(write_script(request, file, err));
+    snprintf(name, sizeof name, "/proc/self/fd/%d", file);
+    gmshOpen(by_path ? path : name, status);
 cleanup:
-    if (script >= 0) close(script);
+    if (file >= 0) close(file);
     return error_is_clean(err);
 }
 
@@ -156,13 +170,63 @@ static int model_dimension(void)
     return dimension == 3 ? 3 : 2;
 }
 
-// Afterwards gmsh holds a mesh.
-static bool gmsh_load(const MeshRawRequest *request, Error *err)
+static bool has_elements(int dimension, int entity)
+{
+    int *types = NULL, status = 0;
+    size_t count = 0;
+    gmshModelMeshGetElementTypes(&types, &count, dimension, entity, &status);
+    gmshFree(types);
+    return status == 0 && count > 0;
+}
+
+// True where every surface, in space every volume, has elements.
+static bool mesh_is_whole(void)
+{
+    int *pairs = NULL, status = 0, dimension = model_dimension();
+    size_t count = 0;
+    gmshModelGetEntities(&pairs, &count, dimension, &status);
+    bool whole = status == 0 && count > 0;
+    for (size_t k = 0; whole && k + 1 < count; k += 2)
+        whole = has_elements(dimension, pairs[k + 1]);
+    gmshFree(pairs);
+    return whole;
+}
+
+// gmsh has said "Error" and made its mesh nevertheless, as it does where an optimiser is not
+// compiled in: its words become a warning. An error in the script itself, which has a line, is
+// none: what stood there was not done.
+static bool only_warns(MeshRaw *raw)
+{
+    char **log = NULL;
+    size_t count = 0;
+    int status = 0;
+    gmshLoggerGet(&log, &count, &status);
+    const char *first = first_error(log, count);
+    bool in_script = false;
+    for (size_t k = 0; k < count; k++)
+        in_script = in_script || (strncmp(log[k], ERROR_MARK, sizeof ERROR_MARK - 1) == 0 &&
+                                  strstr(log[k], "', line "));
+    bool only = first && !in_script && mesh_is_whole();
+    if (only) snprintf(raw->warning, sizeof raw->warning, "%s", first);
+    for (size_t k = 0; k < count; k++) gmshFree(log[k]);
+    gmshFree(log);
+    return only;
+}
+
+// Afterwards gmsh holds a mesh. A script that has made one of the block's dimension keeps it, with
+// all that it did to it (SetOrder, RefineMesh, ...), as `gmsh - FILE` does.
+static bool gmsh_load(const MeshRawRequest *request, MeshRaw *raw, Error *err)
 {
     int status = 0;
     double algorithm = 0;
-    if (!gmsh_open(request, err)) return false;
-    if (!request->generate) return true;
+    if (!gmsh_open(request, &status, err)) return false;
+    bool is_meshed = has_elements(model_dimension(), -1);
+    // gmsh reports some errors by status, some in its log only.
+    if ((status || gmsh_complained()) && !(request->generate && is_meshed && only_warns(raw))) {
+        fail_with_log(request, "reading it", err);
+        return false;
+    }
+    if (!request->generate || is_meshed) return true;
     if (request->opened) request->opened();
     gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
     if (status == 0 && algorithm == MESH_ADAPT_QUADS)
@@ -173,7 +237,8 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
     // Meshing threads that throw would end the program: let them log, and look at the log.
     gmshOptionSetNumber("General.AbortOnError", 0, &status);
     gmshModelMeshGenerate(model_dimension(), &status);
-    if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
+    if ((status || gmsh_complained()) && !only_warns(raw))
+        fail_with_log(request, "meshing it", err);
     return error_is_clean(err);
 }
 
@@ -184,7 +249,7 @@ static bool is_linear(int type)
 
 // Halves every edge `splits` times. gmsh makes linear elements of it, which get their order back;
 // new nodes are put onto the geometry where there is one (a .geo).
-static bool gmsh_split(const MeshRawRequest *request, Error *err)
+static bool gmsh_split(const MeshRawRequest *request, const MeshRaw *raw, Error *err)
 {
     int *types = NULL, status = 0, order = 1;
     size_t count = 0;
@@ -196,7 +261,8 @@ static bool gmsh_split(const MeshRawRequest *request, Error *err)
     }
     for (int32_t k = 0; k < request->splits && status == 0; k++) gmshModelMeshRefine(&status);
     if (status == 0 && order > 1) gmshModelMeshSetOrder(order, &status);
-    if (status || gmsh_complained()) fail_with_log(request, "splitting its cells", err);
+    if (status || (gmsh_complained() && !raw->warning[0]))
+        fail_with_log(request, "splitting its cells", err);
     gmshFree(types);
     return error_is_clean(err);
 }
@@ -337,6 +403,18 @@ cleanup:
     return error_is_clean(err);
 }
 
+// What gmsh does of its options when it writes a mesh, as these numbers are taken from its memory.
+static void apply_options(MeshRaw *raw)
+{
+    double factor = 1, all = 0;
+    int status = 0;
+    gmshOptionGetNumber("Mesh.ScalingFactor", &factor, &status);
+    for (int64_t k = 0; status == 0 && factor != 1 && k < 3 * raw->node_count; k++)
+        raw->node_position[k] *= factor;
+    gmshOptionGetNumber("Mesh.SaveAll", &all, &status);
+    raw->all_elements = status == 0 && all != 0;
+}
+
 // gmsh has one session a process.
 static pthread_mutex_t session = PTHREAD_MUTEX_INITIALIZER;
 
@@ -356,11 +434,12 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     pthread_mutex_lock(&session);
     snprintf(locale, sizeof locale, "%s", setlocale(LC_NUMERIC, NULL));
     TRY(begun = gmsh_begin(err));
-    TRY(gmsh_load(request, err));
-    TRY(gmsh_split(request, err));
+    TRY(gmsh_load(request, raw, err));
+    TRY(gmsh_split(request, raw, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
     TRY(fetch_all_elements(raw, err));
     TRY(fetch_groups(request->path, raw, err));
+    if (request->generate) apply_options(raw);
 cleanup:
     if (begun) gmsh_end();
     restore_numeric_locale(locale);

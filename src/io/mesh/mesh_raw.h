@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh as gmsh's API delivers it, between the gmsh module (io/mesh/mesh_file_module) and
-// io/mesh/mesh_apart, which need not know gmsh's headers; and its conversion to a MeshFile.
+// io/mesh/mesh_child, which need not know gmsh's headers; and its conversion to a MeshFile.
 #ifndef AMONTONS_IO_MESH_MESH_RAW_H
 #define AMONTONS_IO_MESH_MESH_RAW_H
 
@@ -28,7 +28,6 @@ typedef struct RawGroup {
 } RawGroup;
 
 typedef struct MeshRaw {
-    double version;   // of the request; not the reader's to set
     int64_t node_count;
     int64_t *node_number;   // [node_count] tags; owned
     uint8_t *node_dimension;   // [node_count] of the entity the node is on; owned
@@ -37,15 +36,22 @@ typedef struct MeshRaw {
     RawBlock *blocks;   // [block_count]; owned
     int32_t group_count;
     RawGroup *groups;   // [group_count]; owned
+    bool all_elements;   // Mesh.SaveAll of a .geo: those of no physical group belong to the mesh
+    char warning[MESH_WARNING_SIZE];   // gmsh's first error, after which it made a whole mesh
 } MeshRaw;
 
 // What the module is asked for.
 typedef struct MeshRawRequest {
-    const char *path;
+    const char *path;   // of the file, for messages
+    const char *opened_as;   // what gmsh opens in its place, by `descriptor`; NULL: nothing else
+    int descriptor;   // -1: none
+    const char *script;   // [script_size] the text of the .geo (io/mesh/geo_script); NULL: gmsh
+        // reads the file
+    int32_t script_size;
+    bool trusted;   // the file may do what it wants: run commands, have options beside it
     bool generate;   // a .geo: mesh it, in 3D where it has a volume
     const MeshParameter *parameters;   // [parameter_count] all known to the .geo
     int32_t parameter_count;
-    double version;   // of the .msh format, 2.2 or 4.1; 0: a .geo
     int32_t splits;   // so many times every edge is halved afterwards
     void (*opened)(void);   // called when the file is read and meshing begins; NULL: nobody
 } MeshRawRequest;

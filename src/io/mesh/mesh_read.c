@@ -6,19 +6,22 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/text_file.h"
-#include "io/mesh/geo_commands.h"
+#include "io/mesh/geo_script.h"
 #include "io/mesh/geo_parameters.h"
-#include "io/mesh/mesh_apart.h"
+#include "io/mesh/mesh_child.h"
 #include "io/mesh/mesh_cache.h"
+#include "io/mesh/msh2_entities.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-enum { SPLITS_MAX = 6 };
+enum { SPLITS_MAX = 6, MENDED_NAME_SIZE = 40 };   // the latter: "/proc/self/fd/" and an int
 
 // --- before gmsh --------------------------------------------------------------------------------
 
@@ -33,19 +36,72 @@ static bool check_file(const char *path, Error *err)
     return true;
 }
 
-// A .msh begins as one, else gmsh would run it as a script, whatever its name ends with (so it
-// would behind a byte order mark, which text_file_read leaves out); it says its version, and has
-// the mark that ends the elements, without which it was cut off.
-static bool check_msh(const char *path, double *version, Error *err)
+// What gmsh opens in place of the file, where that has to be mended first: a file in memory.
+typedef struct MendedFile {
+    int descriptor;   // -1: none, gmsh opens the file itself
+    char name[MENDED_NAME_SIZE];   // to open it by, in this process and its children
+} MendedFile;
+
+static bool mended_write(const char *path, const char *bytes, int64_t size, MendedFile *mended,
+                         Error *err)
+{
+    mended->descriptor = memfd_create("mended.msh", MFD_CLOEXEC);
+    for (int64_t at = 0; mended->descriptor >= 0 && at < size;) {
+        ssize_t written = write(mended->descriptor, bytes + at, (size_t)(size - at));
+        if (written < 0 && errno != EINTR) {
+            close(mended->descriptor);
+            mended->descriptor = -1;
+        }
+        at += written > 0 ? written : 0;
+    }
+    if (mended->descriptor < 0)
+        return FAULT(err, ERROR_FILE, "%s: no copy of it can be made: %s", path, strerror(errno));
+    snprintf(mended->name, sizeof mended->name, "/proc/self/fd/%d", mended->descriptor);
+    return true;
+}
+
+// `dim number "name"` on each line: of two groups of one dimension with one name gmsh would give
+// the second no name.
+static bool check_names(const char *path, const char *bytes, Error *err)
+{
+    enum { NAMES_MAX = 1000 };
+    const char *begin = strstr(bytes, "$PhysicalNames"), *end = strstr(bytes, "$EndPhysicalNames");
+    const char *line[NAMES_MAX];   // from its quote
+    int dims[NAMES_MAX], numbers[NAMES_MAX], count = 0;
+    if (!begin || !end) return true;
+    while (count < NAMES_MAX && (begin = strchr(begin, '\n')) && ++begin < end) {
+        const char *quote = strchr(begin, '"');
+        if (sscanf(begin, "%d%*[ \t]%d", &dims[count], &numbers[count]) != 2 || !quote ||
+            quote > end)
+            continue;
+        size_t length = strcspn(quote + 1, "\"\n") + 2;
+        for (int k = 0; k < count; k++)
+            if (dims[k] == dims[count] && numbers[k] != numbers[count] &&
+                strncmp(line[k], quote, length) == 0)
+                return REFUSE(err,
+                              "%s: the physical name '%.*s' is used twice: by groups %d and %d of "
+                              "dimension %d",
+                              path, (int)length - 2, quote + 1, numbers[k], numbers[count],
+                              dims[k]);
+        line[count++] = quote;
+    }
+    return true;
+}
+
+// A .msh begins as one, else gmsh would run it as a script, whatever its name ends with; it says
+// its version, and has the mark that ends the elements, without which it was cut off. A byte order
+// mark before it, and numbers of entities that do not tell groups apart, are mended.
+static bool check_msh(const char *path, MendedFile *mended, Error *err)
 {
     static const char begin[] = "$MeshFormat", comments[] = "$Comments", end[] = "$EndElements";
     struct stat status;
-    char *bytes = NULL;
+    char *bytes = NULL, *told_apart = NULL;
     int32_t size = 0;
-    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
-    if (stat(path, &status) != 0 || status.st_size != size ||
-        (strncmp(bytes, begin, strlen(begin)) != 0 &&
-         strncmp(bytes, comments, strlen(comments)) != 0))
+    int64_t made = 0;
+    double version = 0;
+    TRY(text_file_bytes(path, GEO_BYTES_MAX, &bytes, &size, err));
+    if (strncmp(bytes, begin, strlen(begin)) != 0 &&
+        strncmp(bytes, comments, strlen(comments)) != 0)
         FAIL(err, ERROR_INPUT,
              "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
              path);
@@ -54,13 +110,21 @@ static bool check_msh(const char *path, double *version, Error *err)
         FAIL(err, ERROR_INPUT, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)",
              path);
     line = strchr(line, '\n');
-    if (!line || (*version = strtod(line, NULL)) <= 0)
+    if (!line || (version = strtod(line, NULL)) <= 0)
         FAIL(err, ERROR_INPUT, "%s: is truncated: no version after $MeshFormat", path);
     if (!memmem(bytes, (size_t)size, end, strlen(end)))
         FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
              path);
+    TRY(check_names(path, bytes, err));
+    bool marked = stat(path, &status) != 0 ||
+                  status.st_size != size;   // text_file_read left it out
+    if (version < 3) TRY(msh2_tell_entities_apart(bytes, size, &told_apart, &made, err));
+    if (told_apart)
+        TRY(mended_write(path, told_apart, made, mended, err));
+    else if (marked)
+        TRY(mended_write(path, bytes, size, mended, err));
 cleanup:
-    memory_free(bytes);
+    memory_free_all(bytes, told_apart);
     return error_is_clean(err);
 }
 
@@ -95,7 +159,9 @@ static bool take_refine(const char *path, Parameters *given, int32_t *splits, Er
                 "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
                 "2, 4, ... %d%s",
                 path, given->list[k].value, 1 << SPLITS_MAX,
-                text_ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
+                mesh_file_format(path) == MESH_SCRIPT
+                    ? " (unless the .geo has a parameter `refine`)"
+                    : "");
     }
     given->count = kept;
     return true;
@@ -116,42 +182,79 @@ cleanup:
     return error_is_clean(err);
 }
 
+// gmsh names a script that it was given as text by a descriptor, and the line of that text.
+static void name_the_file(const char *path, const GeoScript *script, Error *err)
+{
+    static const char given[] = "/proc/self/fd/", behind[] = "', line ";
+    char message[sizeof err->message];
+    const char *file = path;
+    int32_t line = 0, rest = 0, number = 0;
+    char *found = strstr(err->message, given);
+    if (!found || sscanf(found + strlen(given), "%d%n", &number, &rest) != 1) return;
+    char *at = found + strlen(given) + rest;
+    if (script->text && strncmp(at, behind, strlen(behind)) == 0 && found > err->message &&
+        sscanf(at + strlen(behind), "%d%n", &line, &rest) == 1) {
+        geo_script_place(script, line, &file, &line);
+        at += strlen(behind) + (size_t)rest;
+        at += strspn(at, ": ");
+        snprintf(message, sizeof message, "%.*s%s:%d: %s", (int)(found - 1 - err->message),
+                 err->message, file, line, at);
+    } else {
+        snprintf(message, sizeof message, "%.*s%s%s", (int)(found - err->message), err->message,
+                 file, at);
+    }
+    memcpy(err->message, message, sizeof message);
+}
+
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    MeshFile *mesh, Error *err)
+                    bool trusted, MeshFile *mesh, Error *err)
 {
     char key[HASH_TEXT_SIZE];
     bool found = false;
-    MeshRawRequest request = {.path = path, .generate = text_ends_with(path, ".geo")};
+    GeoScript script = {0};
+    MeshFormat format = mesh_file_format(path);
+    MeshRawRequest request = {.path = path, .generate = format == MESH_SCRIPT, .trusted = trusted};
+    MendedFile mended = {.descriptor = -1};
     Parameters given = {.count = parameter_count};
     *mesh = (MeshFile){0};
-    if (!request.generate && !text_ends_with(path, ".msh"))
-        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
+    if (format == MESH_NO_FORMAT)
+        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file%s", path,
+             mesh_format_advice(path));
     TRY((given.list = NEW_ARRAY(MeshParameter, parameter_count, err)));
     if (parameter_count > 0)
         memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
     TRY(check_file(path, err));
-    const char *trusted = getenv("AMONTONS_TRUST");
-    if (!trusted || !*trusted) TRY(geo_commands_refuse(path, request.generate, err));
+    if (request.generate && !trusted) {
+        TRY(geo_script_read(path, &script, err));
+        request.script = script.text;
+        request.script_size = script.size;
+    }
     if (request.generate)
         TRY(check_geo(path, &given, &request.splits, err));
     else
-        TRY(check_msh(path, &request.version, err) &&
-            take_refine(path, &given, &request.splits, err));
+        TRY(check_msh(path, &mended, err) && take_refine(path, &given, &request.splits, err));
     if (!request.generate && given.count > 0)
         FAIL(
             err, ERROR_INPUT,
             "%s: parameters ('%s') need a .geo; a .msh is meshed already, and knows `refine` alone",
             path, given.list[0].name);
+    if (mended.descriptor >= 0) request.opened_as = mended.name;
+    request.descriptor = mended.descriptor;
     request.parameters = given.list;
     request.parameter_count = given.count;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
     if (!found) {
-        TRY(mesh_apart_read(&request, mesh, err));
+        if (!mesh_child_read(&request, mesh, err)) {
+            name_the_file(path, &script, err);
+            goto cleanup;
+        }
         mesh_cache_store(key, mesh);
     }
     mesh->origin = found ? MESH_OF_CACHE : key[0] ? MESH_OF_GMSH : MESH_OF_OTHER_FILES;
 cleanup:
+    if (mended.descriptor >= 0) close(mended.descriptor);
     memory_free(given.list);
+    geo_script_destroy(&script);
     return error_is_clean(err);
 }

@@ -4,7 +4,6 @@
 #include "io/mesh/mesh_source.h"
 
 #include "base/memory.h"
-#include "base/text.h"
 #include "io/files/text_file.h"
 #include "io/mesh/geo_parameters.h"
 
@@ -36,7 +35,7 @@ static bool has_options(const char *path)
 
 static bool is_geo(const char *path)
 {
-    return text_ends_with(path, ".geo");
+    return mesh_file_format(path) == MESH_SCRIPT;
 }
 
 bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t parameter_count,
@@ -44,7 +43,7 @@ bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t
 {
     char *bytes = NULL;
     int32_t size = 0;
-    TRY(text_file_read(path, GEO_BYTES_MAX, &bytes, &size, err));
+    TRY(text_file_bytes(path, GEO_BYTES_MAX, &bytes, &size, err));
     *whole = !has_options(path) && (!is_geo(path) || !reaches_outside(bytes));
     hash_text(hash, is_geo(path) ? "geo" : "msh");
     hash_bytes(hash, bytes, (size_t)size);

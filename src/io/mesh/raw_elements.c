@@ -58,6 +58,7 @@ int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block)
 // Whether the file says which surfaces count.
 static bool has_region(const MeshRaw *raw, int32_t dim)
 {
+    if (raw->all_elements) return false;
     for (int32_t k = 0; k < raw->group_count; k++)
         if (raw->groups[k].dimension == dim) return true;
     return false;
@@ -81,19 +82,18 @@ static void drop_copies(RawElements *elements)
     qsort(elements->items, (size_t)elements->count, sizeof *elements->items, compare_nodes);
     for (int32_t k = 0; k < elements->count; k++) {
         const RawElement *item = &elements->items[k];
-        RawElement *last = kept > 0 ? &elements->items[kept - 1] : NULL;
+        const RawElement *last = kept > 0 ? &elements->items[kept - 1] : NULL;
         if (last && item->count == last->count &&
             memcmp(item->nodes, last->nodes, (size_t)item->count * sizeof *item->nodes) == 0)
-            last->copies++;
-        else
-            elements->items[kept++] = *item;
+            continue;
+        elements->items[kept++] = *item;
     }
     elements->count = kept;
 }
 
 // Appends the elements of one block; they go on pointing into it. INT32_MAX / ELEMENT_NODES_MAX
 // elements keep every index into element_nodes within int32_t.
-static bool append_block(RawElements *elements, const RawBlock *block, int32_t groups, Error *err)
+static bool append_block(RawElements *elements, const RawBlock *block, Error *err)
 {
     int64_t total = elements->count + block->count;
     if (total > INT32_MAX / ELEMENT_NODES_MAX)
@@ -105,9 +105,7 @@ static bool append_block(RawElements *elements, const RawBlock *block, int32_t g
             (RawElement){.number = block->number[k],
                          .nodes = block->nodes + k * block->nodes_per_element,
                          .count = block->nodes_per_element,
-                         .kind = kind_of(block),
-                         .copies = 1,
-                         .groups = groups};
+                         .kind = kind_of(block)};
     return error_is_clean(err);
 }
 
@@ -155,7 +153,7 @@ bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElement
                 path, (long long)(block->count ? block->number[0] : 0), block->type_name,
                 why_not(block->gmsh_type), allowed);
         may_repeat = may_repeat || groups > 1;
-        if (!append_block(picked, block, groups, err)) return false;
+        if (!append_block(picked, block, err)) return false;
     }
     if (picked->count == 0)
         return REFUSE(err,
@@ -165,19 +163,6 @@ bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElement
                       by_group ? "s" : "", (long long)raw->node_count, (long long)others, dim,
                       what);
     sort_elements(picked, may_repeat);
-    return true;
-}
-
-// copies: how often an element came; groups: how often it should have.
-bool raw_check_copies(const char *path, const char *name, const RawElements *elements, Error *err)
-{
-    for (int32_t k = 0; k < elements->count; k++)
-        if (elements->items[k].copies < elements->items[k].groups)
-            return REFUSE(err,
-                          "%s: group '%s' shares an elementary number with another group, so gmsh "
-                          "cannot tell whose element %lld is; give each group its own (the second "
-                          "tag of an element in format 2.2), or save as format 4.1",
-                          path, name, (long long)elements->items[k].number);
     return true;
 }
 
@@ -192,7 +177,7 @@ bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, 
         if (block->gmsh_type != GMSH_POINT && kind_of(block) < 0)
             return REFUSE(err, "%s: group '%s' has elements of a kind that is not supported, %s",
                           path, name, block->type_name);
-        if (!append_block(picked, block, raw_block_groups(raw, block), err)) return false;
+        if (!append_block(picked, block, err)) return false;
     }
     sort_elements(picked, true);
     return true;

@@ -15,8 +15,6 @@ typedef struct RawElement {
     const int64_t *nodes;   // its node tags, in the block
     int32_t count;   // of nodes
     int32_t kind;   // ElementKind; -1 for points
-    int32_t copies;   // how often the file gives it
-    int32_t groups;   // in how many physical groups its entity is
 } RawElement;
 
 typedef struct RawElements {
@@ -40,9 +38,5 @@ bool raw_pick_body(const MeshRaw *raw, int32_t dim, const char *path, RawElement
 // The points, edges or faces of a group, by ascending number; `name` for messages.
 bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
                     RawElements *picked, Error *err);
-
-// Format 2.2 says group and entity of each element; gmsh keeps the group by entity only. Where two
-// groups share an entity's number by accident, gmsh would give each the edges of both: ERROR_INPUT.
-bool raw_check_copies(const char *path, const char *name, const RawElements *elements, Error *err);
 
 #endif

@@ -48,7 +48,7 @@ double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlac
 double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                        MeshPlace *gradient);
 
-// Of an element in a space of one dimension more, a face: n |J| with n its normal, to the right of
+// Of an element in a space of one dimension more, a face: n |J| with n its normal, to the left of
 // a line, and out of a face whose nodes run counter-clockwise as seen from there.
 void shape_normal(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                   MeshPlace normal);

@@ -1,72 +1,426 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cells are cut out of the text in place: a quoted one only gets shorter.
+// The text is looked at twice: once for what separates its cells, once to cut them out, in place (a
+// quoted cell only gets shorter).
 #include "io/text/csv_reader.h"
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "io/files/text_file.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
-enum { SIZE_MAX_CSV = 1 << 30 };
+enum { SIZE_MAX_CSV = 1 << 30, NUMBER_SIZE = 64, REASON_SIZE = 400 };
 
-static const char BLANKS[] = " \t";
+static const char BLANKS[] = " \t", ENDS[] = "\r\n", COMMENTS[] = "#%";
+static const char SEPARATORS[] = "\t;,", ALL_SEPARATORS[] = "\t;, ";   // in this order
+
+// --- what separates the cells -------------------------------------------------------------------
+
+static const char *next_line(const char *line)
+{
+    line += strcspn(line, ENDS);
+    if (*line == '\r' && line[1] == '\n') line++;
+    return *line ? line + 1 : line;
+}
+
+static bool is_left_out(const char *line)
+{
+    line += strspn(line, BLANKS);
+    return !*line || strchr(ENDS, *line) || strchr(COMMENTS, *line);
+}
+
+static bool ends_line(char c)
+{
+    return !c || strchr(ENDS, c);
+}
+
+// Where the cell that begins at `at` ends. Blanks before a bracket separate nothing: x [mm].
+static const char *cell_end(const char *at, char separator)
+{
+    bool quoted = false;
+    for (; *at && (quoted || !ends_line(*at)); at++) {
+        if (*at == '"') quoted = !quoted;
+        if (quoted || (separator == ' ' ? !strchr(BLANKS, *at) : *at != separator)) continue;
+        if (separator != ' ') break;
+        const char *next = at + strspn(at, BLANKS);
+        if (*next != '(' && *next != '[') break;
+    }
+    return at;
+}
+
+static bool is_number(const char *cell, size_t length, double *value)
+{
+    char copy[NUMBER_SIZE];
+    while (length > 0 && strchr(BLANKS, *cell)) cell++, length--;
+    while (length > 0 && strchr(BLANKS, cell[length - 1])) length--;
+    if (length == 0 || length >= sizeof copy) return false;
+    memcpy(copy, cell, length);
+    copy[length] = 0;
+    char *comma = strchr(copy, ',');
+    if (comma && (strchr(copy, '.') || strchr("0123456789", comma[1]) == NULL || !comma[1] ||
+                  strchr(comma + 1, ',')))
+        return false;
+    if (comma) *comma = '.';
+    return text_number(copy, value) == (int32_t)length;
+}
+
+// How many cells a line has; *numbers: each of them is one.
+static int32_t count_cells(const char *line, char separator, bool *numbers)
+{
+    int32_t count = 0;
+    *numbers = true;
+    if (separator == ' ') line += strspn(line, BLANKS);
+    for (;;) {
+        const char *end = cell_end(line, separator);
+        double value;
+        *numbers = *numbers && is_number(line, (size_t)(end - line), &value);
+        count++;
+        if (separator == ' ') end += strspn(end, BLANKS);
+        if (ends_line(*end)) return count;
+        line = separator == ' ' ? end : end + 1;
+    }
+}
+
+// What separates the names, and the cells below them: what divides both lines into equally many, or
+// else the numbers of the second line and the names of the first. Where the first line are numbers,
+// 0,5 1,2 are two with decimal commas.
+static void find_separators(const char *text, char *names, char *cells)
+{
+    const char *first = text;
+    bool numbers;
+    while (*first && is_left_out(first)) first = next_line(first);
+    const char *second = next_line(first);
+    while (*second && is_left_out(second)) second = next_line(second);
+    int32_t by_blanks = count_cells(first, ' ', &numbers);
+    *names = *cells = by_blanks > 1 && numbers ? ' ' : ',';
+    for (const char *one = SEPARATORS; *one; one++)
+        if (count_cells(first, *one, &numbers) > 1 && numbers && (*one != ',' || *cells != ' ')) {
+            *names = *cells = *one;
+            return;
+        }
+    if (*cells == ' ' || !*second) {
+        for (const char *one = SEPARATORS; *one && *cells == ','; one++)
+            if (count_cells(first, *one, &numbers) > 1) *names = *cells = *one;
+        return;
+    }
+    for (const char *one = SEPARATORS; *one; one++) {
+        int32_t count = count_cells(first, *one, &numbers);
+        if (count < 2 || count_cells(second, *one, &numbers) != count) continue;
+        *names = *cells = *one;
+        return;
+    }
+    for (const char *one = ALL_SEPARATORS; *one; one++) {
+        int32_t count = count_cells(second, *one, &numbers);
+        bool other;
+        for (const char *above = ALL_SEPARATORS; count > 1 && numbers && *above; above++)
+            if (count_cells(first, *above, &other) == count) {
+                *names = *above;
+                *cells = *one;
+                return;
+            }
+    }
+    for (const char *one = SEPARATORS; *one; one++)   // the widths differ: by the names, and told
+        if (count_cells(first, *one, &numbers) > 1) {
+            *names = *cells = *one;
+            return;
+        }
+    if (by_blanks > 1 && count_cells(second, ',', &numbers) == 1) *names = *cells = ' ';
+}
+
+// --- cells --------------------------------------------------------------------------------------
 
 // The cell that begins at *at, with a zero byte behind it; *at becomes the beginning of the next
 // one. *ends: the row does. A quote that is never closed takes the rest of the text.
-static char *take_cell(char **at, bool *ends)
+static char *take_cell(char separator, char **at, bool *ends)
 {
-    char *cell = *at, *from = *at, *to = *at;
+    if (separator != '\t') *at += strspn(*at, BLANKS);
+    char *cell = *at, *from = *at, *to = *at, *last = *at;   // last: behind what is no blank
     bool quoted = *from == '"';
     if (quoted) ++from;
-    while (*from && (quoted || !strchr(",\r\n", *from))) {
+    while (*from) {
+        if (!quoted) {
+            if (strchr(ENDS, *from)) break;
+            if (separator == ' ' ? strchr(BLANKS, *from) != NULL : *from == separator) {
+                char *next = from + strspn(from, BLANKS);
+                if (separator != ' ' || (*next != '(' && *next != '[')) break;
+            }
+        }
         if (quoted && *from == '"' && from[1] != '"') {
             quoted = false;
+            last = to;
             ++from;
             continue;
         }
         if (quoted && *from == '"') ++from;   // doubled
+        bool blank = !quoted && strchr(BLANKS, *from);
         *to++ = *from++;
+        if (!blank) last = to;
     }
+    if (separator == ' ') from += strspn(from, BLANKS);
     if (*from == '\r' && from[1] == '\n') ++from;
-    *ends = *from != ',';
-    *at = *from ? from + 1 : from;
-    *to = 0;
+    *ends = separator == ' ' ? ends_line(*from) : *from != separator;
+    *at = *from && (separator != ' ' || *ends) ? from + 1 : from;
+    *last = 0;
     return cell;
 }
 
-static bool add_cell(CsvTable *table, int32_t *count, int32_t *room, const char *cell, Error *err)
+// Cells and where they stand, as they are read.
+typedef struct Reading {
+    CsvTable *table;
+    char *at, *line_start;
+    int32_t line;   // of the file
+    int32_t count, room, byte_room;   // cells
+    int32_t lines, line_room;   // rows
+    char names_separator;   // of the first row
+} Reading;
+
+static bool add_cell(Reading *reading, const char *cell, int32_t byte, Error *err)
 {
-    if (!memory_grow(&table->cells, *count, room, sizeof *table->cells, err)) return false;
-    table->cells[(*count)++] = cell;
+    CsvTable *table = reading->table;
+    if (!memory_grow(&table->cells, reading->count, &reading->room, sizeof *table->cells, err) ||
+        !memory_grow(&table->byte, reading->count, &reading->byte_room, sizeof *table->byte, err))
+        return false;
+    table->byte[reading->count] = byte;
+    table->cells[reading->count++] = cell;
+    return true;
+}
+
+// One row. What a program leaves at its end, a separator with nothing behind it, is no cell.
+static bool read_row(Reading *reading, Error *err)
+{
+    CsvTable *table = reading->table;
+    int32_t width = 0;
+    if (!memory_grow(&table->line, reading->lines, &reading->line_room, sizeof *table->line, err))
+        return false;
+    table->line[reading->lines++] = reading->line;
+    char *line_start = reading->line_start;
+    char separator = reading->lines == 1 ? reading->names_separator : table->separator;
+    for (bool ends = false; !ends; width++) {
+        char *from = reading->at;
+        if (separator != '\t') from += strspn(from, BLANKS);
+        const char *cell = take_cell(separator, &reading->at, &ends);
+        for (const char *c = from; c < reading->at - 1; c++)   // within a quoted cell
+            if (*c == '\n') {
+                reading->line++;
+                reading->line_start = (char *)c + 1;
+            }
+        bool first = table->columns == 0;
+        if (ends && !*cell && (first ? width > 1 : width == table->columns)) break;
+        if (!add_cell(reading, cell, (int32_t)(from - line_start) + 1, err)) return false;
+    }
+    reading->line++;
+    reading->line_start = reading->at;
+    if (table->columns == 0) table->columns = width;
+    if (width != table->columns)
+        return REFUSE(err, "%s:%d: %d cell%s, the first row has %d%s", table->path,
+                      table->line[reading->lines - 1], width, width == 1 ? "" : "s", table->columns,
+                      table->separator == ',' && width == 2 * table->columns
+                          ? "; are these decimal commas? then semicolons, tabs or blanks have to "
+                            "separate the numbers"
+                          : "");
+    return true;
+}
+
+// Are all cells of the first row numbers? Then it is none of names.
+static bool is_bare(const CsvTable *table)
+{
+    double value;
+    for (int32_t k = 0; k < table->columns; k++)
+        if (!is_number(table->cells[k], strlen(table->cells[k]), &value)) return false;
+    return true;
+}
+
+// Names out of the comment [its line, from 1] above the first row, or empty ones, before the rest.
+static bool put_names_before(Reading *reading, char *comment, int32_t line, Error *err)
+{
+    CsvTable *table = reading->table;
+    int32_t columns = table->columns;
+    for (int32_t k = 0; k < columns; k++)
+        if (!add_cell(reading, "", 1, err)) return false;
+    if (!memory_grow(&table->line, reading->lines, &reading->line_room, sizeof *table->line, err))
+        return false;
+    memmove(table->cells + columns, table->cells,
+            (size_t)(reading->count - columns) * sizeof *table->cells);
+    memmove(table->byte + columns, table->byte,
+            (size_t)(reading->count - columns) * sizeof *table->byte);
+    memmove(table->line + 1, table->line, (size_t)reading->lines++ * sizeof *table->line);
+    table->line[0] = comment ? line : table->line[1];
+    table->named = false;
+    for (int32_t k = 0; k < columns; k++) {
+        table->cells[k] = "";
+        table->byte[k] = 1;
+    }
+    if (!comment) return true;
+    char *at = comment + strspn(comment, " \t#%");
+    bool numbers = true, ends = false;
+    char separator = 0;
+    for (const char *one = ALL_SEPARATORS; *one && !separator; one++)
+        if (count_cells(at, *one, &numbers) == columns) separator = *one;
+    if (!separator) return true;
+    if (count_cells(at, separator, &numbers) != columns || numbers) return true;
+    for (int32_t k = 0; k < columns; k++) {
+        table->byte[k] = (int32_t)(at - comment) + 1;
+        table->cells[k] = take_cell(separator, &at, &ends);
+    }
+    table->named = table->named_by_comment = true;
+    return true;
+}
+
+// Points or commas, in all of the file.
+static bool find_decimal_sign(CsvTable *table, Error *err)
+{
+    int32_t first[2] = {-1, -1};   // with a point, with a comma
+    double value;
+    int32_t last = (table->rows + 1) * table->columns;
+    for (int32_t k = table->columns; k < last; k++) {
+        const char *cell = table->cells[k];
+        bool comma = strchr(cell, ',') != NULL;
+        if ((!comma && !strchr(cell, '.')) || !is_number(cell, strlen(cell), &value)) continue;
+        if (first[comma] < 0) first[comma] = k;
+        if (first[0] < 0 || first[1] < 0) continue;
+        int32_t row = k / table->columns - 1, other = first[!comma];
+        return csv_refuse(table, row, k % table->columns, err,
+                          "is `%.30s`, but line %d has `%.30s`: the decimal sign is a point or a "
+                          "comma, in all of the file",
+                          cell, table->line[other / table->columns], table->cells[other]);
+    }
+    table->decimal_comma = first[1] >= 0;
+    return true;
+}
+
+static bool is_unit(const char *text, int32_t length)
+{
+    char copy[CSV_UNIT_SIZE];
+    double one = 1;
+    if (length <= 0 || length >= CSV_UNIT_SIZE) return false;
+    snprintf(copy, sizeof copy, "%.*s", length, text);
+    return unit_to_si(copy, NULL, &one);
+}
+
+// The unit that brackets hold which are all of the text; length 0: there are none.
+static CsvUnit in_brackets(const char *bracket)
+{
+    int32_t length = (int32_t)strlen(bracket);
+    if ((*bracket != '(' && *bracket != '[') || !strchr(")]", bracket[length - 1]))
+        return (CsvUnit){bracket, 0};
+    CsvUnit unit = {bracket + 1, length - 2};
+    while (unit.length > 0 && strchr(BLANKS, *unit.text)) unit.text++, unit.length--;
+    while (unit.length > 0 && strchr(BLANKS, unit.text[unit.length - 1])) unit.length--;
+    return unit;
+}
+
+// All cells of a row [-1: of the names] are units, or empty where there is none.
+static bool is_of_units(const CsvTable *table, int32_t row)
+{
+    int32_t units = 0;
+    for (int32_t k = 0; k < table->columns; k++) {
+        const char *cell = csv_cell(table, row, k);
+        CsvUnit unit = in_brackets(cell);
+        if (unit.length == 0) unit = (CsvUnit){cell, (int32_t)strlen(cell)};
+        if (*cell && !is_unit(unit.text, unit.length)) return false;
+        units += *cell != 0;
+    }
+    return units > 0;
+}
+
+// A row of units below the names, or above them, is none of values.
+static bool take_units(CsvTable *table, Error *err)
+{
+    double value;
+    if (table->rows < 1 || !table->named || table->named_by_comment) return true;
+    bool below = is_of_units(table, 0), above = !below && is_of_units(table, -1);
+    for (int32_t k = 0; above && k < table->columns; k++)
+        above = *csv_cell(table, 0, k) &&
+                !is_number(csv_cell(table, 0, k), strlen(csv_cell(table, 0, k)), &value);
+    if (!below && !above) return true;
+    if (!(table->units = memory_array(table->columns, sizeof *table->units, err))) return false;
+    int32_t columns = table->columns, kept = above ? 1 : 0;   // rows that stay before the values
+    memcpy(table->units, table->cells + (size_t)(below ? columns : 0),
+           (size_t)columns * sizeof *table->units);
+    if (kept > 0) {
+        memcpy(table->cells, table->cells + columns, (size_t)columns * sizeof *table->cells);
+        memcpy(table->byte, table->byte + columns, (size_t)columns * sizeof *table->byte);
+        table->line[0] = table->line[1];
+    }
+    size_t rest = (size_t)(table->rows - 1) * (size_t)columns;
+    memmove(table->cells + columns, table->cells + 2 * columns, rest * sizeof *table->cells);
+    memmove(table->byte + columns, table->byte + 2 * columns, rest * sizeof *table->byte);
+    memmove(table->line + 1, table->line + 2, (size_t)(table->rows - 1) * sizeof *table->line);
+    table->rows--;
+    return true;
+}
+
+static bool names_stand_once(const CsvTable *table, Error *err)
+{
+    for (int32_t k = 0; k < table->columns; k++)
+        for (int32_t j = 0; *table->cells[k] && j < k; j++)
+            if (strcmp(table->cells[j], table->cells[k]) == 0)
+                return csv_refuse(table, -1, k, err, "stands twice, in column %d and in column %d",
+                                  j + 1, k + 1);
+    return true;
+}
+
+static bool read_table(const char *path, bool may_be_bare, CsvTable *table, Error *err)
+{
+    int32_t size = 0, comment_line = 0;
+    char *comment = NULL;
+    Reading reading = {.table = table, .line = 1};
+    *table = (CsvTable){.named = true};
+    TRY(table->path = memory_text(path, err));
+    TRY(text_file_read(path, SIZE_MAX_CSV, &table->text, &size, err));
+    if (memchr(table->text, 0, (size_t)size))
+        FAIL(err, ERROR_INPUT, "%s is no text in UTF-8: it holds zero bytes", path);
+    find_separators(table->text, &reading.names_separator, &table->separator);
+    reading.at = reading.line_start = table->text;
+    while (*reading.at) {
+        char *line = reading.at;
+        if (is_left_out(line)) {
+            if (reading.lines == 0 && strchr(COMMENTS, line[strspn(line, BLANKS)])) {
+                comment = line;
+                comment_line = reading.line;
+            }
+            reading.at = (char *)next_line(line);
+            reading.line_start = reading.at;
+            reading.line++;
+            continue;
+        }
+        TRY(read_row(&reading, err));
+    }
+    if (reading.count == 0) FAIL(err, ERROR_INPUT, "%s: no table, or one that is cut off", path);
+    if (is_bare(table)) TRY(put_names_before(&reading, comment, comment_line, err));
+    if (!table->named && !may_be_bare)
+        FAIL(err, ERROR_INPUT, "%s:%d: found numbers; the first row names the columns", path,
+             table->line[1]);
+    table->rows = reading.count / table->columns - 1;
+    TRY(take_units(table, err));
+    TRY(names_stand_once(table, err));
+    TRY(find_decimal_sign(table, err));
+cleanup:
+    if (!error_is_clean(err)) csv_destroy(table);
     return error_is_clean(err);
 }
 
 bool csv_read(const char *path, CsvTable *table, Error *err)
 {
-    int32_t size = 0, count = 0, room = 0, width = 0, line = 1;
-    *table = (CsvTable){0};
-    TRY(text_file_read(path, SIZE_MAX_CSV, &table->text, &size, err));
-    for (char *at = table->text; *at;) {
-        bool ends = false;
-        TRY(add_cell(table, &count, &room, take_cell(&at, &ends), err));
-        ++width;
-        if (!ends) continue;
-        if (table->columns == 0) table->columns = width;
-        if (width != table->columns)
-            FAIL(err, ERROR_INPUT, "%s: row %d has %d cells, the first has %d", path, line, width,
-                 table->columns);
-        width = 0;
-        ++line;
-    }
-    if (count == 0 || width > 0)
-        FAIL(err, ERROR_INPUT, "%s: no table, or one that is cut off", path);
-    table->rows = count / table->columns - 1;
-cleanup:
-    if (!error_is_clean(err)) csv_destroy(table);
-    return error_is_clean(err);
+    return read_table(path, false, table, err);
 }
+
+bool csv_read_bare(const char *path, CsvTable *table, Error *err)
+{
+    return read_table(path, true, table, err);
+}
+
+void csv_destroy(CsvTable *table)
+{
+    memory_free_all(table->cells, table->line, table->byte, table->text, table->path, table->units);
+    *table = (CsvTable){0};
+}
+
+// --- reading ------------------------------------------------------------------------------------
 
 const char *csv_name(const CsvTable *table, int32_t column)
 {
@@ -82,9 +436,29 @@ double csv_value(const CsvTable *table, int32_t row, int32_t column)
 {
     const char *cell = csv_cell(table, row, column);
     double value = NAN;
-    cell += strspn(cell, BLANKS);
-    int32_t used = text_number(cell, &value);
-    return used > 0 && !cell[(size_t)used + strspn(cell + used, BLANKS)] ? value : (double)NAN;
+    if (!table->decimal_comma && strchr(cell, ',')) return NAN;
+    return is_number(cell, strlen(cell), &value) ? value : (double)NAN;
+}
+
+bool csv_refuse(const CsvTable *table, int32_t row, int32_t column, Error *err, const char *format,
+                ...)
+{
+    char reason[REASON_SIZE];
+    va_list words;
+    va_start(words, format);
+    vsnprintf(reason, sizeof reason, format, words);
+    va_end(words);
+    const char *name = csv_name(table, column);
+    return REFUSE(err, "%s:%d:%d: %.60s%s%s", table->path, table->line[row + 1],
+                  table->byte[(int64_t)(row + 1) * table->columns + column],
+                  *name ? name : "this column", row < 0 ? " " : ": ", reason);
+}
+
+bool csv_read_number(const CsvTable *table, int32_t row, int32_t column, double *value, Error *err)
+{
+    *value = csv_value(table, row, column);
+    return isfinite(*value) || csv_refuse(table, row, column, err, "`%.40s` is no number",
+                                          csv_cell(table, row, column));
 }
 
 bool csv_check(const CsvTable *table, int32_t column, bool positive, Error *err)
@@ -92,13 +466,12 @@ bool csv_check(const CsvTable *table, int32_t column, bool positive, Error *err)
     for (int32_t row = 0; column >= 0 && row < table->rows; ++row) {
         const char *cell = csv_cell(table, row, column);
         double value = csv_value(table, row, column);
-        if (!cell[strspn(cell, BLANKS)] || (isfinite(value) && (!positive || value > 0))) continue;
-        FAIL(err, ERROR_INPUT,
-             "line %d, %s: `%.40s` is no number%s; what is not known is left empty", row + 2,
-             csv_name(table, column), cell, positive ? " above 0" : "");
+        if (!*cell || (isfinite(value) && (!positive || value > 0))) continue;
+        return csv_refuse(table, row, column, err,
+                          "`%.40s` is no number%s; what is not known is left empty", cell,
+                          positive ? " above 0" : "");
     }
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 int32_t csv_column(const CsvTable *table, const char *name)
@@ -108,8 +481,72 @@ int32_t csv_column(const CsvTable *table, const char *name)
     return -1;
 }
 
-void csv_destroy(CsvTable *table)
+// --- units --------------------------------------------------------------------------------------
+
+CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column)
 {
-    memory_free_all(table->cells, table->text);
-    *table = (CsvTable){0};
+    const char *cell = table->units ? table->units[column] : "";
+    CsvUnit unit = in_brackets(cell);
+    return unit.length > 0 ? unit : (CsvUnit){cell, (int32_t)strlen(cell)};
+}
+
+// What stands behind a name, as a unit. In brackets it is one in any case, so that a wrong one is
+// told; behind a slash, a blank, an underscore or `in` if it is known: F_T/F_N, x_error and U/L are
+// names.
+bool csv_take_unit(const char *rest, CsvUnit *unit)
+{
+    const char *at = rest + strspn(rest, BLANKS);
+    *unit = in_brackets(at);
+    if (unit->length > 0) return true;
+    if (at > rest && strncmp(at, "in", 2) == 0 && strchr(BLANKS, at[2])) at += 2;
+    if (at == rest && !strchr("/_", *at)) return false;
+    at += *at == '/' || *at == '_';
+    at += strspn(at, BLANKS);
+    *unit = in_brackets(at);   // v/(m/s)
+    if (unit->length == 0) *unit = (CsvUnit){at, (int32_t)strlen(at)};
+    return is_unit(unit->text, unit->length);
+}
+
+void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit)
+{
+    const char *name = csv_name(table, column), *end = name + strlen(name);
+    for (const char *at = name + 1; at < end; at++) {
+        if (!strchr("/ \t([", *at) || !csv_take_unit(at, unit)) continue;
+        *name_length = (int32_t)(at - name);
+        return;
+    }
+    *name_length = (int32_t)(end - name);
+    *unit = csv_unit_of_row(table, column);
+}
+
+bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err)
+{
+    size_t length = strlen(name);
+    *column = -1;
+    *unit = (CsvUnit){"", 0};
+    for (int32_t k = 0; k < table->columns; k++) {
+        const char *own = csv_name(table, k);
+        CsvUnit behind = csv_unit_of_row(table, k);
+        if (strncmp(own, name, length) != 0 ||
+            (own[length] && !csv_take_unit(own + length, &behind)))
+            continue;
+        if (*column >= 0)
+            return csv_refuse(table, -1, k, err, "is %s a second time, beside column %d, %.40s",
+                              name, *column + 1, csv_name(table, *column));
+        *column = k;
+        *unit = behind;
+    }
+    return true;
+}
+
+bool csv_to_si(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,
+               double *factor, Error *err)
+{
+    char text[CSV_UNIT_SIZE];
+    *factor = 1;
+    snprintf(text, sizeof text, "%.*s", unit.length, unit.text);
+    if (unit.length < CSV_UNIT_SIZE && unit_to_si(text, dimension, factor)) return true;
+    return csv_refuse(table, -1, column, err, "has `%s`, which is no unit%s%s%s%s", text,
+                      dimension ? " of " : "", dimension ? dimension : "",
+                      dimension ? "; allowed: " : "", dimension ? unit_examples(dimension) : "");
 }

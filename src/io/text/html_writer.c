@@ -17,10 +17,10 @@ struct HtmlWriter {
     TextWriter out;
 };
 
-HtmlWriter *html_create(const char *path, bool any, Error *err)
+HtmlWriter *html_create(const char *path, bool overwrite, Error *err)
 {
     HtmlWriter *html = NEW_ARRAY(HtmlWriter, 1, err);
-    if (html && text_writer_open(&html->out, path, any, err)) return html;
+    if (html && text_writer_open(&html->out, path, overwrite, err)) return html;
     memory_free(html);
     return NULL;
 }

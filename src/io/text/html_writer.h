@@ -11,8 +11,8 @@
 
 typedef struct HtmlWriter HtmlWriter;
 
-// The first failure is kept and reported by finish. any: also over a file that is not ours.
-HtmlWriter *html_create(const char *path, bool any, Error *err);
+// The first failure is kept and reported by finish. overwrite: as part_file_replace has it.
+HtmlWriter *html_create(const char *path, bool overwrite, Error *err);
 // Markup of our own. Only numbers and names of ours may be arguments.
 void html_markup(HtmlWriter *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void html_raw(HtmlWriter *html, const char *markup);   // as it is, of any length

@@ -13,13 +13,14 @@ typedef struct PictureOption {
     const char *name;
     OptionKind kind;
     double low, high;   // of a number
-    const char *words;   // that are allowed, with blanks between
+    const char *figures;   // that take it, with blanks between; "": all
+    const char *words;   // that are allowed, likewise
     size_t offset;   // of the member of PictureStyle: a double for a number, else a text
 } PictureOption;
 
 static const PictureOption OPTIONS[] = {
-#define X(name, kind, low, high, words, argument, meaning)                                         \
-    {#name, OPTION_##kind, low, high, words, offsetof(PictureStyle, name)},
+#define X(name, kind, low, high, figures, words, argument, meaning)                                \
+    {#name, OPTION_##kind, low, high, figures, words, offsetof(PictureStyle, name)},
     PICTURE_OPTIONS(X)
 #undef X
 };
@@ -92,6 +93,40 @@ bool picture_option_set(PictureStyle *style, const char *name, const char *value
     if (option->kind == OPTION_RANGE && !check_range(option, value, err)) return false;
     *(const char **)place = value;
     return error_is_clean(err);
+}
+
+// One option, given or not: some of the figures takes it.
+static bool is_taken(const char *name, const char *takers, const char *const *figures,
+                     int32_t count, Error *err)
+{
+    for (int32_t k = 0; k < count; ++k)
+        if (!*takers || is_among(takers, figures[k])) return true;
+    char list[NAMES_SIZE];   // with commas between
+    size_t used = 0;
+    for (const char *at = takers; *at && used + 3 < sizeof list; ++at) {
+        if (*at == ' ') list[used++] = ',';
+        list[used++] = *at;
+    }
+    list[used] = 0;
+    return REFUSE(err, "%s has no meaning for %s%s: it is an option of %s", name, figures[0],
+                  count > 1 ? " and the others that are asked for" : "", list);
+}
+
+bool picture_options_fit(const PictureStyle *style, const FieldChoice *field,
+                         const char *const *figures, int32_t count, Error *err)
+{
+    for (int32_t k = 0; k < OPTIONS_COUNT; ++k) {
+        const void *place = (const char *)style + OPTIONS[k].offset;
+        bool given = OPTIONS[k].kind == OPTION_NUMBER ? *(const double *)place > 0
+                                                      : *(const char *const *)place != NULL;
+        if (given && !is_taken(OPTIONS[k].name, OPTIONS[k].figures, figures, count, err))
+            return false;
+    }
+#define X(name, takers)                                                                            \
+    if (field && field->name && !is_taken(#name, takers, figures, count, err)) return false;
+    FIELD_OPTIONS(X)
+#undef X
+    return true;
 }
 
 void picture_style_complete(PictureStyle *style, const PictureStyle *base)

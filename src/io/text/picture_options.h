@@ -10,6 +10,11 @@
 // As amontons_picture_option.
 bool picture_option_set(PictureStyle *style, const char *name, const char *value, Error *err);
 
+// An option that none of the `figures` [count] takes is refused: it would be given for nothing.
+// `field` NULL: none. Of a plot file the figure is "plot".
+bool picture_options_fit(const PictureStyle *style, const FieldChoice *field,
+                         const char *const *figures, int32_t count, Error *err);
+
 // What `style` leaves open is as `base` has it.
 void picture_style_complete(PictureStyle *style, const PictureStyle *base);
 

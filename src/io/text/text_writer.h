@@ -17,8 +17,8 @@ typedef struct TextWriter {
     FILE *out;   // what is put here comes into the file
 } TextWriter;
 
-// any: also over a file that is not ours. *writer is zeroed, and not moved.
-bool text_writer_open(TextWriter *writer, const char *path, bool any, Error *err);
+// overwrite: as part_file_replace has it. *writer is zeroed, and not moved.
+bool text_writer_open(TextWriter *writer, const char *path, bool overwrite, Error *err);
 // fsync and rename. The part is left to text_writer_close, as after a failure.
 bool text_writer_finish(TextWriter *writer, Error *err);
 void text_writer_close(TextWriter *writer);

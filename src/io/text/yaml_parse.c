@@ -67,20 +67,22 @@ static bool add_node(YamlDocument *document, YamlKind kind, int32_t position, Ya
 // As YAML 1.2's core schema has it, without its `Null` and `NULL`.
 static bool is_null(const char *text)
 {
-    return !*text || strcmp(text, "~") == 0 || strcmp(text, "null") == 0;
+    return !*text || strcmp(text, "~") == 0 || strcmp(text, "null") == 0 ||
+           strcmp(text, "Null") == 0 || strcmp(text, "NULL") == 0;
 }
 
 // Escapes ("\uFFFE") bring characters that check_is_text does not see, and that no title or name
 // may have: pictures and pages are written at the end of a run.
-static bool check_shown(const YamlDocument *document, YamlNode node, YamlNode beside, Error *err)
+static bool check_shown(const YamlDocument *document, YamlNode node, size_t length, YamlNode beside,
+                        Error *err)
 {
     char message[160];
-    uint32_t code = 0;
+    uint32_t code = 0;   // of "\0", at which the text would end
     const YamlItem *item = &document->nodes[node];
     const char *key = beside == YAML_NO_NODE                        ? ""
                       : document->nodes[beside].kind == YAML_SCALAR ? yaml_text(document, beside)
                                                                     : yaml_key(document, beside);
-    if (text_find_unshown(item->text, &code) < 0) return true;
+    if (strlen(item->text) == length && text_find_unshown(item->text, &code) < 0) return true;
     snprintf(message, sizeof message,
              "%.60s%sthe character U+%04X, which no page or picture can show", key,
              *key ? ": " : "", code);
@@ -94,6 +96,7 @@ static bool add_scalar(Reader *reader, int32_t position, YamlNode beside, YamlNo
     YamlDocument *document = reader->document;
     struct fy_token *token = fy_event_get_token(reader->event);
     const char *text = token ? fy_token_get_text0(token) : "";
+    size_t length = token ? fy_token_get_text_length(token) : 0;
     if (!text) return FAULT(err, ERROR_MEMORY, "no memory for the texts of %s", document->name);
     enum fy_scalar_style style = token ? fy_token_scalar_style(token) : FYSS_PLAIN;
     if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
@@ -103,7 +106,7 @@ static bool add_scalar(Reader *reader, int32_t position, YamlNode beside, YamlNo
     if (!add_node(document, kind, position, node, err)) return false;
     document->nodes[*node].quoted = quoted;
     return (document->nodes[*node].text = memory_text(text, err)) &&
-           check_shown(document, *node, beside, err);
+           check_shown(document, *node, length, beside, err);
 }
 
 // YAML leaves open what a key twice means; here it is an error with both places.
@@ -148,7 +151,11 @@ static bool begin_node(Reader *reader, YamlNode beside, YamlNode *node, Error *e
     if (anchor)
         return yaml_error_at(document, token_position(anchor, position), err,
                              "anchors and aliases (& and *) are not allowed in a scene");
-    position = token_position(fy_event_get_token(reader->event), position);
+    // A value left out is where its key is. Since libfyaml 0.8 it has a token, behind the colon.
+    struct fy_token *token = fy_event_get_token(reader->event);
+    bool left_out = type == FYET_SCALAR && token && fy_token_scalar_style(token) == FYSS_PLAIN &&
+                    fy_token_get_text_length(token) == 0;
+    if (!left_out) position = token_position(token, position);
     return type == FYET_SCALAR
                ? add_scalar(reader, position, beside, node, err)
                : add_node(document, type == FYET_MAPPING_START ? YAML_MAP : YAML_LIST, position,
@@ -320,6 +327,6 @@ bool yaml_read(const char *path, YamlDocument **document, Error *err)
     *document = NULL;
     char *bytes = NULL;
     int32_t size = 0;
-    return text_file_read(path, YAML_BYTES_MAX, &bytes, &size, err) &&
+    return text_file_bytes(path, YAML_BYTES_MAX, &bytes, &size, err) &&
            parse_bytes(path, bytes, size, 0, document, err);
 }

@@ -14,7 +14,7 @@ typedef struct VideoDef {
     // A GIF's colours, [256 * 3] red, green, blue; the last one is kept for what does not change.
     // Others: not asked.
     const uint8_t *palette;
-    bool overwrite;   // also a file that is not ours
+    bool overwrite;   // as io/files/part_file has it
 } VideoDef;
 
 #endif

@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "base/transfer.h"
-#include "io/files/own_mark.h"
 #include "io/files/part_file.h"
 
 #include <libavcodec/avcodec.h>
@@ -195,7 +194,7 @@ static bool track_open(VideoFile *film, const VideoDef *def, Error *err)
     TRY(check(film, avcodec_parameters_from_context(film->track->codecpar, film->codec),
               "describes no stream", err));
     av_dict_set(&options, "movflags", "+faststart", 0);   // others do not know it
-    av_dict_set(&film->format->metadata, "comment", OWN_FILM, 0);
+    av_dict_set(&film->format->metadata, "comment", "made by amontons " AMONTONS_VERSION, 0);
     if (def->title && def->title[0]) av_dict_set(&film->format->metadata, "title", def->title, 0);
     TRY(check(film, avformat_write_header(film->format, &options), "writes no header", err));
 cleanup:
@@ -311,16 +310,6 @@ static bool film_add(VideoFile *film, const uint8_t *pixels, int32_t stride, Err
            packets_write(film, err);
 }
 
-// GIF89a, 24: a comment before the last byte; libav has none.
-static void gif_sign(VideoFile *film)
-{
-    uint8_t words[] = OWN_FILM, head[] = {'!', 0xfe, sizeof words - 1}, tail[] = {0, ';'};
-    lseek(film->part.descriptor, -1, SEEK_END);
-    bytes_write(film, head, sizeof head);
-    bytes_write(film, words, sizeof words - 1);
-    bytes_write(film, tail, sizeof tail);
-}
-
 static bool film_finish(VideoFile *film, Error *err)
 {
     if (!check(film, avcodec_send_frame(film->codec, NULL), "cannot end the film", err))
@@ -328,7 +317,6 @@ static bool film_finish(VideoFile *film, Error *err)
     if (!packets_write(film, err)) return false;
     if (!check(film, av_write_trailer(film->format), "cannot end the file", err)) return false;
     avio_flush(film->io);
-    if (strcmp(film->format->oformat->name, "gif") == 0) gif_sign(film);
     return check(film, film->io->error, "cannot end the file", err) &&
            part_file_commit(&film->part, err);
 }

@@ -6,6 +6,7 @@
 #include "base/decimal_point.h"
 #include "base/text.h"
 #include "model/model.h"
+#include "model/scene_mesh.h"
 #include "scene/keys.h"
 
 #include <errno.h>
@@ -15,11 +16,8 @@
 // The mesh that the scene names, with its parameters, and where the rod stands.
 static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
 {
-    MeshFile file = {0};
     Mesh mesh = {0};
-    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
-                       err));
-    TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    TRY(scene_mesh_read(scene, &mesh, NULL, err));
     info_write_mesh(&mesh, out);
     double middle = 0, width = 0;
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
@@ -27,7 +25,6 @@ static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE
     const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
     TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, options, err));
 cleanup:
-    mesh_file_destroy(&file);
     mesh_destroy(&mesh);
     return error_is_clean(err);
 }
@@ -39,7 +36,9 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
     Scene *scene = NULL;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
-    TRY(amontons_scene_read(path, options->overrides, options->override_count, &scene, err));
+    bool (*read)(const char *, const char *const *, int32_t, Scene **, Error *) =
+        options->trust ? amontons_scene_read_trusted : amontons_scene_read;
+    TRY(read(path, options->overrides, options->override_count, &scene, err));
     fprintf(out, "scene %s\n  %s\n\n", path, *scene->title ? scene->title : "(no title)");
     for (int32_t k = 0; k < count; k++) {
         char value[2000];
@@ -93,7 +92,7 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
                           "scenes (`amontons render` draws a result)",
                           path);
         told = info_result(path, out, err);
-    } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
+    } else if (mesh_file_format(path) != MESH_NO_FORMAT)
         told = info_mesh(path, options, out, err);
     else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
         told = info_scene(path, options, out, err);

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
+#include "fem/mesh_parts.h"
 #include "render/render.h"
 
 #include <math.h>
@@ -76,6 +77,7 @@ static void write_groups(const Mesh *mesh, FILE *out)
 void info_write_mesh(const Mesh *mesh, FILE *out)
 {
     MeshSummary summary = mesh_summarise(mesh);
+    char moved[MOVE_TEXT_SIZE];
     fprintf(out, "mesh %s\n  %d nodes, %d elements:", mesh->path, mesh->node_count,
             mesh->element_count);
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
@@ -87,7 +89,30 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
             summary.area);
     fprintf(out, "  element edges %.4g to %.4g, largest aspect ratio %.3g\n", summary.edge_min,
             summary.edge_max, summary.aspect_max);
+    if (*mesh_move_text(mesh, moved)) fprintf(out, "  %s\n", moved);
     write_groups(mesh, out);
+    if (mesh->warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", mesh->warning);
+}
+
+// Which regions each part has, and which of them to name.
+static void write_parts(const Mesh *mesh, const MeshParts *parts, FILE *out)
+{
+    char text[PART_TEXT_SIZE];
+    fprintf(out, "  %d parts that share no node; a scene is one block on a rigid floor\n",
+            parts->count);
+    for (int32_t k = 0; k < parts->count; k++)
+        fprintf(out, "    %s\n", mesh_part_text(mesh, parts, k, text));
+    fprintf(out, "    %s\n", mesh_parts_advice(mesh, parts, text));
+}
+
+// The mesh stands as in a scene that says nothing else; one without a contact as it is drawn.
+static bool stand(Mesh *mesh, Error *err)
+{
+    for (int32_t g = 0; g < mesh->group_count; g++)
+        if (mesh->groups[g].dimension == mesh->dim - 1 && mesh->groups[g].face_count > 0 &&
+            mesh_is_contact_name(mesh->groups[g].name))
+            return mesh_stand_on_floor(NULL, 0, mesh, err);
+    return true;
 }
 
 // "n=4" as a parameter of a .geo: what reads as a number is one.
@@ -110,16 +135,20 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
 {
     MeshFile file = {0};
     Mesh mesh = {0};
+    MeshParts parts = {0};
     MeshParameter *parameters = NEW_ARRAY(MeshParameter, options->override_count, err);
     if (!parameters) goto cleanup;
     for (int32_t k = 0; k < options->override_count; k++)
         TRY(read_parameter(options->overrides[k], &parameters[k], err));
-    TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
-    TRY(mesh_build(&file, path, &mesh, err));
+    TRY(mesh_file_read(path, parameters, options->override_count, options->trust, &file, err));
+    TRY(mesh_build_parts(&file, path, &mesh, &parts, err));
+    if (parts.count == 1) TRY(stand(&mesh, err));
     info_write_mesh(&mesh, out);
+    if (parts.count > 1) write_parts(&mesh, &parts, out);
     if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
 cleanup:
     mesh_file_destroy(&file);
+    mesh_parts_destroy(&parts);
     mesh_destroy(&mesh);
     memory_free(parameters);
     return error_is_clean(err);

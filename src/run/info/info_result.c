@@ -2,7 +2,7 @@
 // A result in text: run.json says how the run ended, history.h5 what happened.
 #include "run/info/info.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/text_file.h"
@@ -67,7 +67,9 @@ static bool write_estimate(const char *text, const char *path, FILE *out)
     bool has_bar = error == known_to;
     text_estimate(value, has_bar ? error : (double)NAN, known_to, words);
     fputs(words, out);
-    if (!has_bar && !isnan(value)) fprintf(out, " (on this mesh %.6g)", value);
+    if (has_bar || isnan(value)) return true;
+    text_known_to(value, known_to, words);
+    fprintf(out, ", %s (on this mesh %.6g)", words, value);
     return true;
 }
 
@@ -148,7 +150,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool write_history_apart(void *context, FILE *reply, Error *err)
+static bool write_history_in_child(void *context, FILE *reply, Error *err)
 {
     return write_history(context, reply, err);
 }
@@ -157,18 +159,18 @@ static bool write_history_apart(void *context, FILE *reply, Error *err)
 // columns of one number a state are read.
 static bool write_history_safely(const char *folder, FILE *out, Error *err)
 {
-    ApartReply reply = {0};
-    ApartWork work = {.path = folder,
+    ChildReply reply = {0};
+    ChildWork work = {.path = folder,
                       .reader = "HDF5",
                       .seconds = HISTORY_SECONDS_MAX,
                       .advice = "its history is damaged",
-                      .read = write_history_apart,
+                      .read = write_history_in_child,
                       .context = (void *)folder};
-    if (!apart_is_wanted()) return write_history(folder, out, err);
-    TRY(apart_read(&work, &reply, err));
+    if (!child_is_wanted()) return write_history(folder, out, err);
+    TRY(child_read(&work, &reply, err));
     fwrite(reply.bytes, 1, (size_t)reply.size, out);   // the caller looks at the stream's state
 cleanup:
-    apart_destroy(&reply);
+    child_destroy(&reply);
     return error_is_clean(err);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A film of a stored result, by the render module; where it is asked for, of fields that its run is
 // computed once more for.
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "base/module.h"
 #include "render/render.h"
@@ -17,7 +17,7 @@ typedef struct FilmWork {
     const FilmRequest *request;
 } FilmWork;
 
-static bool film_apart(void *context, FILE *reply, Error *err)
+static bool film_in_child(void *context, FILE *reply, Error *err)
 {
     const FilmWork *film = context;
     RenderFilmFunction render =
@@ -32,28 +32,28 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
     FilmWork film = {folder, request};
-    ApartWork work = {.path = folder,
+    ChildWork work = {.path = folder,
                       .reader = "HDF5 or VTK",
                       .seconds = FILM_SECONDS_MAX,
                       .advice = "its history is damaged",
                       .stop = request->stop,
-                      .read = film_apart,
+                      .read = film_in_child,
                       .context = &film};
     FilmFields fields = {0};
-    ApartReply reply = {0};
+    ChildReply reply = {0};
     TRY(pictures_check_folder(folder, err));
     if (request->fields) {
         TRY(film_fields_make(folder, request, &fields, err));
         film.folder = fields.folder;
     }
-    if (!request->still || !apart_is_wanted()) {
-        TRY(apart_do(&work, err));
+    if (!request->still || !child_is_wanted()) {
+        TRY(child_do(&work, err));
     } else {
-        TRY(apart_read(&work, &reply, err));
+        TRY(child_read(&work, &reply, err));
         memcpy(request->still, reply.bytes, sizeof *request->still);
     }
 cleanup:
-    apart_destroy(&reply);
+    child_destroy(&reply);
     film_fields_remove(&fields);
     return error_is_clean(err);
 }

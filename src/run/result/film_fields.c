@@ -34,14 +34,17 @@ static bool write_scene(const char *folder, const char *path, Error *err)
     TRY(text_file_read(report, INT32_MAX / 2, &text, &size, err));
     const char *scene = json_find_raw(text, "scene", &length);
     if (!scene) FAIL(err, ERROR_INPUT, "%s holds no scene to be computed again", report);
-    TRY(part_file_put(path, scene, length, err));
+    TRY(part_file_put(path, false, scene, length, err));
 cleanup:
     memory_free(text);
     return error_is_clean(err);
 }
 
-static bool read_scene(const char *path, const FilmPart *part, Scene **scene, Error *err)
+static bool read_scene(const char *path, const FilmPart *part, bool trusted, Scene **scene,
+                       Error *err)
 {
+    bool (*read)(const char *, const char *const *, int32_t, Scene **, Error *) =
+        trusted ? amontons_scene_read_trusted : amontons_scene_read;
     char window[SETTING_SIZE];
     const char *overrides[OVERRIDES] = {"output.figures=[]", "output.compare=''",
                                         "output.fields=film", "output.history=true",
@@ -50,7 +53,7 @@ static bool read_scene(const char *path, const FilmPart *part, Scene **scene, Er
     snprintf(window, sizeof window, "output.window={from_U: %.17g, to_U: %.17g}",
              fmax(part->from_U, 0), part->to_U + BEHIND * way);
     overrides[OVERRIDES - 1] = window;
-    if (!amontons_scene_read(path, overrides, OVERRIDES, scene, err)) return false;
+    if (!read(path, overrides, OVERRIDES, scene, err)) return false;
     (*scene)->output.film_step = way / (SLOW_SHARE * part->frames);
     return true;
 }
@@ -101,7 +104,7 @@ bool film_fields_make(const char *folder, const FilmRequest *request, FilmFields
     }
     snprintf(path, sizeof path, "%s.json", fields->folder);
     TRY(write_scene(folder, path, err));
-    TRY(read_scene(path, &part, &scene, err));
+    TRY(read_scene(path, &part, request->trust, &scene, err));
     TRY(amontons_run(scene, &options, &summary, err));
     TRY(check_same(folder, fields->folder, err));
 cleanup:

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which names a result of ours has in its folder; io/files/own_mark says whether a file of such a
-// name is ours. Whatever else lies there belongs to somebody. Called by run/result/result_folder.
+// Which names a result of ours has in its folder: those that must be free where no list of ours
+// (io/files/own_list) has them, and those of a result of version 0.2, which had no list. Called by
+// run/result/result_folder, run/result/pictures and page/report.
 #ifndef AMONTONS_RUN_RESULT_OWN_FILE_H
 #define AMONTONS_RUN_RESULT_OWN_FILE_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "base/error.h"
 
 #define CHECKPOINT_FILE "checkpoint.bin"   // of a run (run/checkpoint)
 
-// What proves a result, in the order in which it is to be removed; NULL: no more. Beside each there
-// may be an unfinished one, name.part, and its name.journal (io/hdf5/array_journal).
-const char *own_file_name(int32_t k);
+// Calls `found` with the path of each file in `folder`, figures/ and fields/ that has a name of
+// ours, finished or not, until it returns false. false: `found` returned it.
+typedef bool (*OwnFileFound)(const char *path, void *context, Error *err);
+bool own_file_visit(const char *folder, OwnFileFound found, void *context, Error *err);
 
-bool own_file_is_figure(const char *name);   // in figures/: force.png
-bool own_file_is_field(const char *name);   // in fields/: bulk_000012.vtu (record/field_files)
+// Lists the files of a result of version 0.2 or before; does nothing in a folder that has a list,
+// or no report of that version.
+bool own_file_adopt(const char *folder, Error *err);
 
 #endif

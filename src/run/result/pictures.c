@@ -2,11 +2,12 @@
 // Pictures of a stored result, by the render module, which is opened on first use.
 #include "run/result/pictures.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "base/module.h"
 #include "io/text/picture_options.h"
 #include "render/render.h"
+#include "run/result/own_file.h"
 
 #include <errno.h>
 #include <string.h>
@@ -41,7 +42,7 @@ typedef struct DrawRequest {
     const PictureRequest *request;
 } DrawRequest;
 
-static bool draw_apart(void *context, FILE *reply, Error *err)
+static bool draw_in_child(void *context, FILE *reply, Error *err)
 {
     const DrawRequest *draw = context;
     (void)reply;   // pictures are files
@@ -54,13 +55,14 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
     NUMBERS_HAVE_A_POINT;
     static const PictureRequest all = {0};
     DrawRequest draw = {folder, request ? request : &all};
-    ApartWork work = {.path = folder,
+    ChildWork work = {.path = folder,
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
                       .advice = "its history is damaged",
-                      .read = draw_apart,
+                      .read = draw_in_child,
                       .context = &draw};
-    return pictures_check_folder(folder, err) && apart_do(&work, err);
+    return pictures_check_folder(folder, err) && own_file_adopt(folder, err) &&
+           child_do(&work, err);
 }
 
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,

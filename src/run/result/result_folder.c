@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of an earlier result go the files that run/result/own_file names and io/files/own_mark knows to
-// be ours: those that prove a result, the numbered ones in fields/, and the figures. Where a file
-// of such a name is somebody's, a run, which would write over it, is refused. A link in the place
-// of fields/ or figures/ is not followed.
-//
-// They go in two steps: clear moves them into a folder of their own, settle removes that once the
+// Of an earlier result go the files that its list names (io/files/own_list). They go in two steps:
+// clear moves them, and the list last, into a folder of their own; settle removes that once the
 // new result has begun; without it, release puts them back. Whatever moment a kill meets, the name
 // of that folder says what is to be done by the next who claims the place:
 //   amontons.aside     files were on their way, there or back: back
@@ -14,11 +10,9 @@
 
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
-#include "io/files/own_mark.h"
+#include "io/files/own_list.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,12 +21,15 @@
 
 enum { PATH_SIZE = PATH_MAX + 300 };
 
-// A run that was killed while a process of its own read for it (base/apart) leaves that for a
+// A run that was killed while a child process read for it (base/child_process) leaves that for a
 // moment, with its lock; s.
 static const double LOCK_WAIT = 1;
-static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
+static const char LOCK_NAME[] = "amontons.lock";
 static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
                   GONE[] = "amontons.gone";
+// What a file has behind its name: nothing, or while it is written; the last is to replace a part.
+static const char *const ENDINGS[] = {"", ".part", ".part.part"};
+enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
 // A file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
@@ -46,15 +43,7 @@ static bool make_folder(const char *folder, Error *err)
     return true;
 }
 
-// `name` without a PART at its end, in `bare` [NAME_MAX + 1].
-static void strip_part(const char *name, char *bare)
-{
-    size_t length = strlen(name), end = sizeof PART - 1;
-    if (length > end && strcmp(name + length - end, PART) == 0) length -= end;
-    snprintf(bare, NAME_MAX + 1, "%.*s", (int)length, name);
-}
-
-// Where the own files of a folder go: `to` is another, or empty: they are removed.
+// `to` empty: it is removed. What is not there is no failure.
 static bool move_file(const char *from, const char *to, Error *err)
 {
     int failed = *to ? rename(from, to) : unlink(from);
@@ -64,84 +53,78 @@ static bool move_file(const char *from, const char *to, Error *err)
     return true;
 }
 
-// Those of folder/name, told by `is_own`. A folder that is not there, or a link, is left.
-static bool move_folder(const char *folder, const char *to, const char *name,
-                        bool (*is_own)(const char *), Error *err)
+// All files that the list of the folder `list` names, from the folder `from` into `to`, or for good
+// where that is empty; folders in `from` that are empty then go, too. A link in the place of one of
+// them is not followed.
+static bool move_listed(const char *list, const char *from, const char *to, Error *err)
 {
-    char path[PATH_SIZE], file[PATH_SIZE + NAME_MAX + 1], bare[NAME_MAX + 1];
-    char target[PATH_SIZE + NAME_MAX + 1] = "";
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    int opened = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    DIR *directory = opened < 0 ? NULL : fdopendir(opened);
-    if (!directory) return true;
-    if (*to) {
-        snprintf(target, sizeof target, "%s/%s", to, name);
-        mkdir(target, 0777);   // a failure shows at the first file
-    }
-    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
-        strip_part(entry->d_name, bare);
-        snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
-        bool part = strcmp(bare, entry->d_name) != 0;
-        if (!is_own(bare) || !(part || own_mark_is_in(file))) continue;
-        if (*to) snprintf(target, sizeof target, "%s/%s/%s", to, name, entry->d_name);
-        TRY(move_file(file, target, err));
+    char path[PATH_SIZE], target[PATH_SIZE] = "", inner[PATH_SIZE];
+    char name[OWN_NAME_SIZE];
+    struct stat status;
+    FILE *names = own_list_open(list, err);
+    while (names && own_list_next(names, name)) {
+        int inside = strchr(name, '/') ? (int)(strchr(name, '/') - name) : 0;
+        snprintf(inner, sizeof inner, "%s/%.*s", from, inside, name);
+        if (inside && (lstat(inner, &status) != 0 || !S_ISDIR(status.st_mode))) continue;
+        if (inside && *to) {
+            snprintf(target, sizeof target, "%s/%.*s", to, inside, name);
+            mkdir(target, 0777);   // a failure shows at the first file
+        }
+        for (int k = 0; k < ENDING_COUNT; k++) {
+            snprintf(path, sizeof path, "%s/%s%s", from, name, ENDINGS[k]);
+            if (*to) snprintf(target, sizeof target, "%s/%s%s", to, name, ENDINGS[k]);
+            TRY(move_file(path, target, err));
+        }
+        if (inside) rmdir(inner);
     }
 cleanup:
-    closedir(directory);
+    if (names) fclose(names);
     return error_is_clean(err);
 }
 
-// Where a run would write over somebody's file. The search for an error bar, stopped, leaves
-// accuracy.json and .png alone, and begins anew.
-static bool refuse_taken(const char *folder, const char *name, bool (*is_own)(const char *),
-                         bool ours_may_go, Error *err)
+static bool move_list(const char *from, const char *to, Error *err)
 {
-    char path[PATH_SIZE], file[PATH_SIZE + NAME_MAX + 1];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    DIR *directory = opendir(path);
-    if (!directory) return true;
-    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
-        bool may_go = ours_may_go || strncmp(entry->d_name, "accuracy.", 9) == 0;
-        snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
-        if (is_own(entry->d_name) && !(may_go && own_mark_is_in(file)))
-            FAIL(err, ERROR_INPUT,
-                 "%s is there, and nothing says that a run wrote it: choose another folder (-o), "
-                 "or move it away",
-                 file);
+    char path[PATH_SIZE], target[PATH_SIZE] = "";
+    snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, from);
+    if (*to) snprintf(target, sizeof target, "%s/" OWN_LIST_NAME, to);
+    return move_file(path, target, err);
+}
+
+// Whether a file of an earlier result lies there, and the first, in `found`. The search for an
+// error bar, stopped, leaves accuracy.json and .png alone, and begins anew.
+static bool find_earlier(ResultFolder *folder, bool overwrite, char found[PATH_SIZE], Error *err)
+{
+    static const char stopped[] = "figures/accuracy.";
+    char name[OWN_NAME_SIZE];
+    FILE *names = own_list_open(folder->path, err);
+    while (names && !folder->has_earlier && own_list_next(names, name)) {
+        if (!overwrite && strncmp(name, stopped, sizeof stopped - 1) == 0) continue;
+        for (int k = 0; k < ENDING_COUNT && !folder->has_earlier; k++) {
+            snprintf(found, PATH_SIZE, "%s/%s%s", folder->path, name, ENDINGS[k]);
+            folder->has_earlier = open_is_there(found);
+        }
     }
-cleanup:
-    closedir(directory);
+    if (names) fclose(names);
     return error_is_clean(err);
 }
 
-// The own file number k / 3, the unfinished one, and its journal; false: no more.
-static bool own_path(const char *folder, int32_t k, char path[PATH_SIZE])
+// A result needs this name: a file of somebody's is told before anything is computed.
+static bool refuse_taken(const char *path, void *context, Error *err)
 {
-    static const char *const ends[] = {"", ".part", ".journal"};
-    const char *name = own_file_name(k / 3);
-    if (name) snprintf(path, PATH_SIZE, "%s/%s%s", folder, name, ends[k % 3]);
-    return name;
-}
-
-// The first file of an earlier result, in `found`. One with such a name that is none is refused;
-// unfinished ones are ours by their names.
-static bool find_earlier(ResultFolder *folder, char found[PATH_SIZE], Error *err)
-{
-    char path[PATH_SIZE];
-    for (int32_t k = 0; own_path(folder->path, k, path); k++) {
-        if (!open_is_there(path)) continue;
-        if (k % 3 == 0 && !own_mark_is_in(path))
-            return REFUSE(err,
-                          "%s is there, and is none that a run wrote: choose another folder (-o), "
-                          "or move it away",
-                          path);
-        if (!folder->has_earlier) memcpy(found, path, PATH_SIZE);
-        folder->has_earlier = true;
+    (void)context;
+    for (int k = 0; k < ENDING_COUNT; k++) {
+        char name[PATH_SIZE];
+        bool ours = false;
+        snprintf(name, sizeof name, "%s%s", path, ENDINGS[k]);
+        if (!open_is_there(name)) continue;
+        if (!own_list_has(path, &ours, err)) return false;
+        if (!ours) return own_list_refuse_taken(name, err);
     }
     return true;
 }
 
-// Who holds the lock has written so into its file.
+// Who holds the lock has written so into its file. Where the folder takes no lock file at all the
+// work goes on, and shows at its first file what is wrong.
 static bool take_lock(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE], host[65] = "", holder[128] = "";
@@ -152,7 +135,7 @@ static bool take_lock(ResultFolder *folder, Error *err)
         dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
         return true;
     }
-    if (!folder->lock.busy && !open_is_there(path)) return true;   // a file system without locks
+    if (!folder->lock.busy && !open_is_there(path)) return true;
     if (!folder->lock.busy)
         return REFUSE(err, "%s is there, and is no lock of ours: move it away", path);
     FILE *file = open_stream(path, &ignored);
@@ -182,19 +165,6 @@ static bool may_go_on(const char *folder)
     return !strstr(start, "\"done\"");
 }
 
-// All own files of `folder`, the history last, as the proof.
-static bool move_all(const char *folder, const char *to, Error *err)
-{
-    char path[PATH_SIZE], target[PATH_SIZE] = "";
-    if (!move_folder(folder, to, "fields", own_file_is_field, err)) return false;
-    if (!move_folder(folder, to, "figures", own_file_is_figure, err)) return false;
-    for (int32_t k = 0; own_path(folder, k, path); k++) {
-        if (*to) own_path(to, k, target);
-        if (!move_file(path, target, err)) return false;
-    }
-    return true;
-}
-
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE];
@@ -203,17 +173,15 @@ static bool rename_aside(const char *folder, const char *from, const char *to, E
     return move_file(path, target, err);
 }
 
-// Empties folder/name into `to`, or for good, and removes it.
+// Empties folder/name into `to`, or for good, and removes it. Its list is there, or still, or
+// again, in `folder`.
 static bool end_aside(const char *folder, const char *name, const char *to, Error *err)
 {
-    static const char *const inner[] = {"fields", "figures"};
-    char path[PATH_SIZE], sub[PATH_SIZE + 16];
+    char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (!move_all(path, to, err)) return false;
-    for (size_t k = 0; k < sizeof inner / sizeof *inner; k++) {
-        snprintf(sub, sizeof sub, "%s/%s", path, inner[k]);
-        rmdir(sub);
-    }
+    bool has_list = own_list_is_in(path) || !*to;
+    if (!move_listed(has_list ? path : folder, path, to, err)) return false;
+    if (has_list && !move_list(path, to, err)) return false;
     rmdir(path);
     return true;
 }
@@ -231,7 +199,7 @@ static bool put_back(const char *folder, Error *err)
 {
     if (is_folder(folder, GONE) && !end_aside(folder, GONE, "", err)) return false;
     if (is_folder(folder, EARLIER)) {
-        if (!move_all(folder, "", err)) return false;
+        if (!move_listed(folder, folder, "", err) || !move_list(folder, "", err)) return false;
         if (!rename_aside(folder, EARLIER, ASIDE, err)) return false;
     }
     return !is_folder(folder, ASIDE) || end_aside(folder, ASIDE, folder, err);
@@ -246,11 +214,12 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     if (strlen(path) >= sizeof folder->path)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
-    snprintf(found, sizeof found, "%s/%s", path, LOCK_NAME);
-    folder->ours_may_go = overwrite || access(found, F_OK) == 0;
     TRY(take_lock(folder, err));
     TRY(put_back(path, err));
-    TRY(find_earlier(folder, found, err));
+    TRY(own_file_adopt(path, err));
+    TRY(own_file_visit(path, refuse_taken, NULL, err));
+    TRY(own_list_check(path, err));
+    TRY(find_earlier(folder, overwrite, found, err));
     if (folder->has_earlier && !overwrite && may_go_on(path))
         FAIL(err, ERROR_INPUT,
              "%s holds a result that was cut off: go on with it (--resume), choose another folder "
@@ -260,29 +229,26 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         FAIL(err, ERROR_INPUT,
              "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
              strrchr(found, '/') + 1);
-    TRY(refuse_taken(path, "fields", own_file_is_field, folder->ours_may_go, err));
-    TRY(refuse_taken(path, "figures", own_file_is_figure, folder->ours_may_go, err));
 cleanup:
     if (!error_is_clean(err)) result_folder_release(folder);
     return error_is_clean(err);
 }
 
-// Also without an earlier result: figures and fields of ours may lie there alone.
 bool result_folder_clear(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE];
-    bool any = folder->has_earlier || is_folder(folder->path, "fields") ||
-               is_folder(folder->path, "figures");
-    if (!folder->ours_may_go || !any) return true;
+    if (!folder->path[0]) return true;
+    if (!folder->has_earlier) return own_list_make(folder->path, err);
     snprintf(path, sizeof path, "%s/%s", folder->path, ASIDE);
     if (mkdir(path, 0777) != 0)
         return FAULT(err, ERROR_FILE, "cannot make %s for the earlier result: %s", path,
                      strerror(errno));
     folder->aside = true;
-    if (!move_all(folder->path, path, err)) return false;
+    if (!move_listed(folder->path, folder->path, path, err)) return false;
+    if (!move_list(folder->path, path, err)) return false;
     if (!rename_aside(folder->path, ASIDE, EARLIER, err)) return false;
     folder->has_earlier = false;
-    return true;
+    return own_list_make(folder->path, err);
 }
 
 bool result_folder_settle(ResultFolder *folder, Error *err)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The folder that a computation writes into: one computation at a time, and of what lies there only
-// the files of an earlier result are ever removed. Called by run/simulation,
+// files that our list names are ever removed (io/files/own_list). Called by run/simulation,
 // run/static/static_solve and the studies of one scene.
 //
 //   claim -> (input accepted) -> clear or take_up -> (files are written) -> settle -> release
@@ -13,7 +13,6 @@
 
 typedef struct ResultFolder {
     char path[AMONTONS_PATH_SIZE];   // empty: nothing is written at all
-    bool ours_may_go;   // what lies there of ours: asked for, or left by a run that was killed
     bool has_earlier;   // an earlier result lies there and has not been cleared: not to be touched
     bool aside;   // cleared, and not settled yet
     FileLock lock;   // held from claim to release
@@ -21,7 +20,7 @@ typedef struct ResultFolder {
 
 // Makes the folder with all that leads to it; nothing is removed. path NULL: none is wanted.
 // ERROR_INPUT: it holds a result and `overwrite` is false, another process computes into it, or
-// there are pictures or fields that no result beside them tells whose they are.
+// it is not ours, or a file of somebody's has a name that a result needs.
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err);
 
 // Sets the earlier result aside, where there is one; to be called once the input is known to be

@@ -11,6 +11,7 @@
 #include "algebra/dense.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "model/scene_mesh.h"
 #include "friction/friction_state.h"
 #include "run/result/result_folder.h"
 
@@ -108,12 +109,9 @@ static bool check_options(const Scene *scene, const Model1dOptions *options, Err
 // The mesh is read for L and H and to see that the contact is one whole face; it is not kept.
 static bool measure_block(const Scene *scene, Model1d *model, Error *err)
 {
-    MeshFile file = {0};
     Mesh mesh = {0};
     MeshContact contact = {0};
-    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
-                       err));
-    TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    TRY(scene_mesh_read(scene, &mesh, NULL, err));
     if (mesh.dim > 2)
         FAIL(err, ERROR_INPUT,
              "%s: is a mesh in space, and the 1D model a line along a block in the plane",
@@ -138,7 +136,6 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
 cleanup:
     mesh_contact_destroy(&contact);
     mesh_destroy(&mesh);
-    mesh_file_destroy(&file);
     return error_is_clean(err);
 }
 

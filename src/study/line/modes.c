@@ -31,7 +31,7 @@ static double overlap(int32_t j)
 int64_t model1d_rates_work(int32_t count)
 {
     int64_t size = 2 * (int64_t)count;
-    return 2 * size * size + 2 * size + dense_eigen_work((int32_t)size);
+    return 2 * size * size + 2 * size + DENSE_EIGEN_WORK(size);
 }
 
 // Columns first (LAPACK): the lower left block is -K/rho, the lower right (W - C)/rho, the upper

@@ -85,7 +85,8 @@ static double theory_front(const Model1d *model, double U)
 static void compare_step(Model1dSimulation *simulation, const Observation *seen)
 {
     const Model1d *model = &simulation->model;
-    bool rapid = simulation->events.kinds[EVENT_BOUNDED] + simulation->events.kinds[EVENT_LEADING];
+    const Events *events = &simulation->events;
+    bool rapid = events->count > events->kinds[EVENT_QUASI_STATIC];
     if (rapid || seen->U > model1d_rod(model, model->length)) {
         simulation->next_point = simulation->point_count;
         return;

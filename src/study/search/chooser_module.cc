@@ -6,8 +6,10 @@ extern "C" {
 
 #include <dlib/global_optimization/global_function_search.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
+#include <stdexcept>
 
 namespace
 {
@@ -17,6 +19,15 @@ using Vector = dlib::matrix<double, 0, 1>;
 // Of what designs differ by: bars of some per cent. At 0.001 and at 0.2 a search of 30 designs ends
 // further off (validation/benchmark/choosers.cc).
 constexpr double relative_noise = 0.05;
+
+// dlib takes squares and slopes of values, and ends the process where one of them is no number.
+constexpr double largest = 1e60;
+
+double value_of(double value)
+{
+    if (value != value) throw std::invalid_argument("a design's value is no number");
+    return std::clamp(value, -largest, largest);
+}
 
 Vector vector_of(const double *values, int32_t count)
 {
@@ -36,7 +47,8 @@ std::vector<dlib::function_evaluation> known_of(const ChooserSpace &space)
 {
     std::vector<dlib::function_evaluation> known;
     for (int32_t k = 0; k < space.known; k++)
-        known.emplace_back(vector_of(&space.places[k * space.count], space.count), space.values[k]);
+        known.emplace_back(vector_of(&space.places[k * space.count], space.count),
+                           value_of(space.values[k]));
     return known;
 }
 
@@ -89,7 +101,7 @@ bool choose(Chooser *chooser, double *x, int32_t *number, Error *err)
 bool tell(Chooser *chooser, int32_t number, double value, Error *err)
 {
     return guarded(err, [&] {
-        chooser->waiting.at(number).set(value);
+        chooser->waiting.at(number).set(value_of(value));
         chooser->waiting.erase(number);
     });
 }

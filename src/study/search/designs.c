@@ -76,7 +76,8 @@ static void write_design(const Study *study, const Design *design, FILE *out)
     for (int32_t k = 0; k < study->search.key_count; k++) {
         char number[NUMBER_SIZE];
         number_text(study, k, design->x[k], number);
-        fprintf(out, "%s%s: %s", k ? ", " : "", study->search.keys[k].key, number);
+        fprintf(out, "%s%s: %s%s", k ? ", " : "", study->search.keys[k].key, number,
+                study->search.keys[k].unit);
     }
     if (design->accuracy > 0) fprintf(out, ", accuracy.mu: %.2g", design->accuracy);
 }

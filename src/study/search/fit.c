@@ -69,7 +69,14 @@ static bool make_response(Fit *fit, Error *err)
         one->misfit = designs->list[d].value;
     }
     response_destroy(&fit->response);
-    ResponseDef def = {n, count, data, list, fit->measured.list, FAR * fit_threshold(fit, 1)};
+    ResponseDef def = {.keys = n,
+                       .designs = count,
+                       .data = data,
+                       .list = list,
+                       .measured = fit->measured.list,
+                       .far = FAR * fit_threshold(fit, 1),
+                       .failed = fit->search.failed,
+                       .failure = fit->search.failure};
     TRY(response_make(&def, &fit->response, err));
 cleanup:
     memory_free(list);

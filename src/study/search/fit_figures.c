@@ -3,6 +3,8 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "base/units.h"
 #include "study/search/search_figure.h"
 
 #include <float.h>
@@ -137,14 +139,83 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
     return search_draw(&fit->search, &frame, curves, 2, err);
 }
 
-// --- found less measured ------------------------------------------------------------------------
+// --- found beside measured ----------------------------------------------------------------------
 
-static bool draw_measured(const Fit *fit, Error *err)
+// Where a datum was measured: along its curve, or by the one key that is its condition. key: out,
+// what that is. false: it is neither.
+static bool find_place(const Fit *fit, int32_t datum, double *x, char key[STUDY_NAME_SIZE])
+{
+    const Datum *one = &fit->measured.list[datum];
+    const char *condition = fit->measured.conditions[one->condition];
+    const char *colon = strstr(condition, ": ");
+    *x = one->at;
+    snprintf(key, STUDY_NAME_SIZE, "%s", one->along);
+    if (*one->along) return true;
+    if (!colon || strchr(condition, ',') || colon - condition >= STUDY_NAME_SIZE) return false;
+    snprintf(key, STUDY_NAME_SIZE, "%.*s", (int)(colon - condition), condition);
+    int32_t length = text_number(colon + 2, x);
+    const char *unit = colon + 2 + length + strspn(colon + 2 + length, " ");
+    return length > 0 && (!*unit || unit_to_si(unit, NULL, x));
+}
+
+// One result over the one thing that differs; curves under one condition.
+static bool has_places(const Fit *fit, double *x, char key[STUDY_NAME_SIZE])
+{
+    char other[STUDY_NAME_SIZE];
+    const Measured *measured = &fit->measured;
+    for (int32_t k = 0; k < measured->count; k++) {
+        if (!find_place(fit, k, &x[k], k ? other : key)) return false;
+        if (strcmp(measured->list[k].name, measured->list[0].name) != 0) return false;
+        if (k && strcmp(key, other) != 0) return false;
+        if (*measured->list[k].along && measured->condition_count > 1) return false;
+    }
+    return measured->count > 0;
+}
+
+static bool draw_places(const Fit *fit, const double *x, const char *key, Error *err)
 {
     int32_t count = fit->measured.count;
     double *room = NEW_ARRAY(double, 3 * (int64_t)count, err);
     TRY(room);
+    double *value = room, *error = room + count, *found = error + count;
+    for (int32_t k = 0; k < count; k++) {
+        value[k] = fit->measured.list[k].value;
+        error[k] = fit->measured.list[k].error;
+        found[k] = response_at(&fit->response, k, fit->best);
+    }
+    Curve curves[] = {search_dots("measured, with one error", count, x, value),
+                      search_dots("found, at the best", count, x, found)};
+    curves[0].error = error;
+    curves[1].marker = "square";
+    curves[1].color = COLOR_BEST;
+    bool is_si = fit->search.sweep->scene->units == UNITS_SI;
+    bool is_series = strncmp(key, "series/", 7) == 0;
+    Frame frame = {"measured", "linear", "linear", label_of_key(key, is_si),
+                   label_of_record(fit->measured.list[0].name)};
+    if (is_series) {
+        frame.x = (QuantityLabel){0};
+        snprintf(frame.x.words, sizeof frame.x.words, "%.60s (%s)", key + 7,
+                 is_si ? "SI" : "normalised");
+        snprintf(frame.y.words, sizeof frame.y.words, "%.60s", fit->measured.list[0].name + 7);
+    }
+    TRY(search_draw(&fit->search, &frame, curves, 2, err));
+cleanup:
+    memory_free(room);
+    return error_is_clean(err);
+}
+
+// Of several results, or under conditions of several keys: how far each is off.
+static bool draw_measured(const Fit *fit, Error *err)
+{
+    int32_t count = fit->measured.count;
+    char key[STUDY_NAME_SIZE];
+    double *room = NEW_ARRAY(double, 3 * (int64_t)count, err);
+    TRY(room);
     double *number = room, *off = room + count, *error = off + count;
+    if (has_places(fit, number, key)) {
+        TRY(draw_places(fit, number, key, err));
+        goto cleanup;
+    }
     for (int32_t k = 0; k < count; k++) {
         number[k] = k + 1;
         off[k] = fit_errors_off(fit, k);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { WORST_SHOWN = 3, EIGEN_WORK_MAX = 4096 };
+enum { WORST_SHOWN = 3 };
 static const double OFF = 2;   // errors, from which on a measurement is said not to fit
 static const double HARDLY = 0.5;   // of ln of a combination of keys: known to no more than that
 
@@ -55,8 +55,8 @@ static void print_combinations(const Fit *fit, FILE *out)
 {
     int32_t n = fit->response.keys;
     double matrix[STUDY_SEARCH_MAX * STUDY_SEARCH_MAX], values[STUDY_SEARCH_MAX];
-    double work[EIGEN_WORK_MAX];
-    if (n < 2 || dense_eigen_work(n) > EIGEN_WORK_MAX) return;
+    double work[DENSE_EIGEN_WORK(STUDY_SEARCH_MAX)];
+    if (n < 2) return;
     response_curvature(&fit->response, fit->best, matrix);
     for (int32_t i = 0; i < n; i++)
         for (int32_t k = 0; k < n; k++) {
@@ -153,6 +153,11 @@ static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
     if (fit->search.refused > 0)
         fprintf(out, "  %d more designs have no scene, the first: %s\n", fit->search.refused,
                 fit->search.refusal.message);
+    if (fit->search.designs.count > summary->designs)
+        fprintf(out,
+                "  %d more designs failed or lack what was measured, and do not count; --retry "
+                "computes failed points again\n",
+                fit->search.designs.count - summary->designs);
     design_words(fit->search.study, &fit->search.designs.list[best], words);
     fprintf(out, "  nearest design: %s; its first run again: amontons run %s/best.yaml -o fitted\n",
             words, fit->search.options->folder);

@@ -13,13 +13,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+// Misfits are squares of differences over errors: none of them may overflow.
+static const double LARGEST = 1e30, SMALLEST = 1e-30, DIGITS = 1e-12;   // DIGITS: of the value
 static const char SERIES[] = "series/", ERROR_ENDING[] = "_error";
 
 typedef enum ColumnKind { COLUMN_CONDITION, COLUMN_RESULT, COLUMN_ERROR, COLUMN_ALONG } ColumnKind;
 
 typedef struct Column {
+    char name[STUDY_NAME_SIZE];   // without its unit
+    char unit[CSV_UNIT_SIZE];   // "": none
+    double factor;   // of its numbers, to SI base units
     ColumnKind kind;
     int32_t error;   // of a result: the column of its error
 } Column;
@@ -43,46 +49,75 @@ static bool is_series(const char *name)
     return strncmp(name, SERIES, sizeof SERIES - 1) == 0;
 }
 
-// NAME of NAME_error, where there is such a column. false: it is none's error.
-static bool is_error(const CsvTable *csv, const char *name)
+static int32_t find_name(const Table *table, const char *name)
 {
-    char of[STUDY_NAME_SIZE];
-    if (!text_ends_with(name, ERROR_ENDING) || strlen(name) >= sizeof of) return false;
-    snprintf(of, sizeof of, "%.*s", (int)(strlen(name) - sizeof ERROR_ENDING + 1), name);
-    return csv_column(csv, of) >= 0;
+    for (int32_t k = 0; k < table->csv.columns; k++)
+        if (strcmp(table->columns[k].name, name) == 0) return k;
+    return -1;
 }
 
-static int32_t error_of(const CsvTable *csv, const char *name)
+// NAME of NAME_error, where there is such a column. false: it is none's error.
+static bool is_error(const Table *table, const char *name)
+{
+    char of[STUDY_NAME_SIZE];
+    if (!text_ends_with(name, ERROR_ENDING)) return false;
+    snprintf(of, sizeof of, "%.*s", (int)(strlen(name) - sizeof ERROR_ENDING + 1), name);
+    return find_name(table, of) >= 0;
+}
+
+static int32_t error_of(const Table *table, const char *name)
 {
     char column[STUDY_NAME_SIZE + sizeof ERROR_ENDING];
     snprintf(column, sizeof column, "%s%s", name, ERROR_ENDING);
-    return csv_column(csv, column);
+    return find_name(table, column);
+}
+
+// Names and units, each name once.
+static bool read_names(Table *table, Error *err)
+{
+    const CsvTable *csv = &table->csv;
+    for (int32_t k = 0; k < csv->columns; k++) {
+        Column *column = &table->columns[k];
+        CsvUnit unit;
+        int32_t length = 0;
+        csv_split(csv, k, &length, &unit);
+        if (length >= STUDY_NAME_SIZE)
+            return csv_refuse(csv, -1, k, err, "is too long for the name of a column");
+        if (unit.length > 0 && !csv_to_si(csv, k, unit, NULL, &column->factor, err)) return false;
+        if (unit.length == 0) column->factor = 1;
+        snprintf(column->unit, sizeof column->unit, "%.*s", unit.length, unit.text);
+        char name[STUDY_NAME_SIZE];
+        snprintf(name, sizeof name, "%.*s", length, csv_name(csv, k));
+        int32_t before = find_name(table, name);   // those not read yet are ""
+        if (before >= 0 && before < k)
+            return csv_refuse(csv, -1, k, err, "is %s a second time, beside column %d", name,
+                              before + 1);
+        snprintf(column->name, sizeof column->name, "%s", name);
+    }
+    return true;
 }
 
 static bool read_column(Table *table, int32_t k, Error *err)
 {
     const CsvTable *csv = &table->csv;
-    const char *name = csv_name(csv, k);
     Column *column = &table->columns[k];
+    const char *name = column->name;
     column->error = -1;
-    if (strlen(name) >= STUDY_NAME_SIZE)
-        return REFUSE(err, "%s: %.60s...: the name of a column is too long", table->path, name);
     column->kind = COLUMN_ERROR;
-    if (is_error(csv, name)) return true;
+    if (is_error(table, name)) return true;
     column->kind = COLUMN_CONDITION;
     if (is_key(name)) return true;
-    column->error = error_of(csv, name);
+    column->error = error_of(table, name);
     column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
     if (is_series(name)) return true;
     if (!study_record_path(name))
-        return REFUSE(err,
-                      "%s: column %s: neither a key of the scene nor a result, as `record` of a "
-                      "study names it, nor a series of history.h5, as in series/mu",
-                      table->path, name);
+        return csv_refuse(
+            csv, -1, k, err,
+            "is neither a key of the scene nor a result, as `record` of a study names "
+            "it, nor a series of history.h5, as in series/mu");
     if (column->error < 0)
-        return REFUSE(
-            err, "%s: column %s: how far is it known? a column %s_error has one standard deviation",
-            table->path, name, name);
+        return csv_refuse(csv, -1, k, err,
+                          "has no error: a column %s_error has one standard deviation of it", name);
     return true;
 }
 
@@ -90,11 +125,12 @@ static bool read_columns(Table *table, Error *err)
 {
     int32_t along = 0, results = 0, curves = 0;
     if (!(table->columns = NEW_ARRAY(Column, table->csv.columns, err))) return false;
+    if (!read_names(table, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++) {
         if (!read_column(table, k, err)) return false;
         along += table->columns[k].kind == COLUMN_ALONG;
         results += table->columns[k].kind == COLUMN_RESULT;
-        curves += table->columns[k].kind == COLUMN_RESULT && is_series(csv_name(&table->csv, k));
+        curves += table->columns[k].kind == COLUMN_RESULT && is_series(table->columns[k].name);
     }
     if (results == 0)
         return REFUSE(err, "%s: no column is a result, as in mu_M with mu_M_error", table->path);
@@ -109,6 +145,19 @@ static bool read_columns(Table *table, Error *err)
 
 // --- rows ---------------------------------------------------------------------------------------
 
+// A key with its value as a scene has it: "load.pressure: 3 kPa".
+static void write_condition(const Table *table, int32_t row, int32_t k, FILE *out)
+{
+    const Column *column = &table->columns[k];
+    double value = csv_value(&table->csv, row, k);
+    fprintf(out, "%s%s: ", ftell(out) > 0 ? ", " : "", column->name);
+    if (table->csv.decimal_comma && isfinite(value))
+        fprintf(out, "%.17g", value);
+    else
+        fputs(csv_cell(&table->csv, row, k), out);
+    fprintf(out, "%s%s", *column->unit ? " " : "", column->unit);
+}
+
 // "load.pressure: 0.003, mesh.set.length: 1"; one that was there before is the same.
 static bool find_condition(Measured *measured, const Table *table, int32_t row, int32_t *found,
                            Error *err)
@@ -118,9 +167,7 @@ static bool find_condition(Measured *measured, const Table *table, int32_t row, 
     FILE *out = open_memstream(&text, &size);
     if (!out) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
     for (int32_t k = 0; k < table->csv.columns; k++)
-        if (table->columns[k].kind == COLUMN_CONDITION)
-            fprintf(out, "%s%s: %s", ftell(out) > 0 ? ", " : "", csv_name(&table->csv, k),
-                    csv_cell(&table->csv, row, k));
+        if (table->columns[k].kind == COLUMN_CONDITION) write_condition(table, row, k, out);
     if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
     for (*found = 0; *found < measured->condition_count; ++*found)
         if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
@@ -144,10 +191,8 @@ static bool add_datum(Measured *measured, const Datum *datum, Error *err)
 
 static bool read_number(const Table *table, int32_t row, int32_t column, double *value, Error *err)
 {
-    *value = csv_value(&table->csv, row, column);
-    if (!isfinite(*value))
-        return REFUSE(err, "%s:%d: %s: `%.40s` is no number", table->path, row + 2,
-                      csv_name(&table->csv, column), csv_cell(&table->csv, row, column));
+    if (!csv_read_number(&table->csv, row, column, value, err)) return false;
+    *value *= table->columns[column].factor;
     return true;
 }
 
@@ -160,16 +205,25 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
         if (table->columns[k].kind == COLUMN_ALONG) along = k;
     if (along >= 0 && !read_number(table, row, along, &datum.at, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++) {
-        const char *name = csv_name(&table->csv, k);
+        const char *name = table->columns[k].name;
         if (table->columns[k].kind != COLUMN_RESULT || !*csv_cell(&table->csv, row, k)) continue;
         snprintf(datum.name, sizeof datum.name, "%s", name);
         snprintf(datum.along, sizeof datum.along, "%s",
-                 is_series(name) ? csv_name(&table->csv, along) : "");
+                 is_series(name) ? table->columns[along].name : "");
         if (!read_number(table, row, k, &datum.value, err)) return false;
         if (!read_number(table, row, table->columns[k].error, &datum.error, err)) return false;
         if (!(datum.error > 0))
-            return REFUSE(err, "%s:%d: %s%s: an error is above 0", table->path, row + 2, name,
-                          ERROR_ENDING);
+            return csv_refuse(&table->csv, row, table->columns[k].error, err,
+                              "`%.40s`: an error is above 0",
+                              csv_cell(&table->csv, row, table->columns[k].error));
+        if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
+            return csv_refuse(&table->csv, row, k, err,
+                              "%g with an error of %g; allowed: at most %g", datum.value,
+                              datum.error, LARGEST);
+        if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
+            return csv_refuse(&table->csv, row, table->columns[k].error, err,
+                              "%g beside %s = %g: nothing is measured to so many digits",
+                              datum.error, name, datum.value);
         if (!add_datum(measured, &datum, err)) return false;
     }
     return true;
@@ -197,13 +251,31 @@ static bool read_named(const Study *study, YamlNode node, Measured *measured, Er
     return read_table(measured, path, err);
 }
 
+// Both name one file, by whatever path.
+static bool is_same_file(const Study *study, YamlNode one, YamlNode other)
+{
+    char path[2 * SCENE_TEXT_SIZE];
+    struct stat seen[2];
+    folder_beside(study->path, yaml_text(study->file, one), path, sizeof path);
+    if (stat(path, &seen[0]) != 0) return false;
+    folder_beside(study->path, yaml_text(study->file, other), path, sizeof path);
+    return stat(path, &seen[1]) == 0 && seen[0].st_dev == seen[1].st_dev &&
+           seen[0].st_ino == seen[1].st_ino;
+}
+
 bool measured_read(const Study *study, Measured *measured, Error *err)
 {
     YamlNode node = study->search.measured;
     *measured = (Measured){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
-    YAML_EACH (one, study->file, node)
+    YAML_EACH (one, study->file, node) {
         if (!read_named(study, one, measured, err)) return false;
+        YAML_EACH (before, study->file, node) {
+            if (before == one) break;
+            if (is_same_file(study, before, one))
+                return yaml_refuse(study->file, one, "measured", "each table once", err);
+        }
+    }
     return error_is_clean(err);
 }
 

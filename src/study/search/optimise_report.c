@@ -37,6 +37,9 @@ static void print_estimate(const Design *design, FILE *out)
     double bar = design->has_bar ? design->bar : (double)NAN;
     amontons_estimate(design->value, bar, design->bar, text);
     fprintf(out, "%s", text);
+    if (design->has_bar || isnan(design->value)) return;
+    amontons_known_to(design->value, design->bar, text);
+    fprintf(out, ", %s", text);
 }
 
 static void print_gain(const Search *search, const OptimiseSummary *summary, int32_t best,

@@ -145,12 +145,16 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
         (Response){.keys = n, .data = def->data, .terms = full_terms(n), .measured = def->measured};
     if (def->designs < MORE * r->terms) r->terms = 1 + 2 * n;
     if (def->designs < MORE * r->terms) r->terms = 1 + n;
+    if (def->designs <= r->terms && def->failed > 0)
+        FAIL(err, ERROR_COMPUTE,
+             "only %d designs have all that was measured: too few for %d keys; %d runs failed, the "
+             "first with: %s",
+             def->designs, n, def->failed, def->failure);
     if (def->designs <= r->terms)
-        FAIL(
-            err, ERROR_COMPUTE,
-            "only %d designs have all that was measured: too few for %d keys; sweep.csv says which "
-            "runs lack what (a longer time.until, or more `designs`, would help)",
-            def->designs, n);
+        FAIL(err, ERROR_COMPUTE,
+             "only %d designs have all that was measured: too few for %d keys; sweep.csv says "
+             "which runs lack what (a longer time.until, or more `designs`, would help)",
+             def->designs, n);
     TRY(weights = NEW_ARRAY(double, def->designs, err));
     TRY(r->coefficients = NEW_ARRAY(double, (int64_t)r->data * r->terms, err));
     TRY(r->own = NEW_ARRAY(double, r->data, err));

@@ -24,6 +24,8 @@ typedef struct ResponseDef {
     const ResponseDesign *list;   // [designs]
     const Datum *measured;   // [data]
     double far;   // misfit above the least from which on a design counts little
+    int32_t failed;   // runs that failed
+    const char *failure;   // what the first of them said; NULL: none
 } ResponseDef;
 
 typedef struct Response {

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/formula.h"
 #include "base/memory.h"
+#include "io/text/json_reader.h"
 #include "base/module.h"
 #include "scene/formulas.h"
 #include "study/sweep/computing/tally.h"
@@ -55,6 +56,8 @@ static bool take_design(Search *search, int32_t d, Error *err)
         char *report = point_report(search->sweep, design->point + c, err);
         if (!error_is_clean(err)) return false;
         bool done = point_status(report) == POINT_DONE;
+        if (!done && report && search->failed++ == 0)
+            json_find_text(report, "message", search->failure, sizeof search->failure);
         search->judge.take(search, d, c, done ? report : NULL, err);
         memory_free(report);
         if (!error_is_clean(err)) return false;
@@ -351,7 +354,7 @@ void search_close(Search *search, Error *err)
 {
     Error ignored = {0};
     bool whole = error_is_clean(err), stopped = err->code == ERROR_INTERRUPT;
-    if (search->sweep && search->sweep->lock >= 0) {
+    if (search->sweep && search->sweep->lock.held) {
         sweep_share_results(search->sweep);
         if (whole || stopped) sweep_show(search->sweep, whole, whole ? err : &ignored);
     }

@@ -33,6 +33,8 @@ struct Search {
     int32_t planned, told, computed;   // points: expected, shown, computed
     int32_t refused;   // designs whose scene was
     Error refusal;   // the first of them
+    int32_t failed;   // points
+    char failure[ERROR_MESSAGE_SIZE / 2];   // what the first of them says
     double started;   // wall clock, s
 };
 

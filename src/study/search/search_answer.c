@@ -20,7 +20,7 @@ bool search_answer_end(const Search *search, SearchAnswer *answer, Error *err)
     if (fclose(answer->out) != 0) FAIL(err, ERROR_MEMORY, "no memory for the answer");
     if (search->options->out) fputs(answer->text, search->options->out);
     snprintf(path, sizeof path, "%s/answer.txt", search->options->folder);
-    TRY(part_file_put(path, answer->text, (int64_t)answer->size, err));
+    TRY(part_file_put(path, false, answer->text, (int64_t)answer->size, err));
 cleanup:
     free(answer->text);
     return error_is_clean(err);

@@ -40,7 +40,7 @@ typedef struct PadWork {
     int32_t count;
     double pressure;   // mean of the pad's, stress
     int32_t *pivots;   // [contact_count]
-    double *matrix, *values, *work;   // [contact_count^2], [contact_count], dense_eigen_work
+    double *matrix, *values, *work;   // [contact_count^2], [contact_count], DENSE_EIGEN_WORK
 } PadWork;
 
 // S_K (lifted, where the free block leaves it singular), a trial state and room for one pad.
@@ -56,7 +56,7 @@ static bool work_create(StabilityPath *path, PadWork *work, Error *err)
     work->pivots = NEW_ARRAY(int32_t, count, err);
     work->matrix = NEW_ARRAY(double, count *count, err);
     work->values = NEW_ARRAY(double, count, err);
-    work->work = NEW_ARRAY(double, dense_eigen_work((int32_t)count), err);
+    work->work = NEW_ARRAY(double, DENSE_EIGEN_WORK(count), err);
 cleanup:
     return error_is_clean(err);
 }

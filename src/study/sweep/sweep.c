@@ -10,8 +10,7 @@
 #include "base/module.h"
 #include "io/files/folder.h"
 #include "io/files/open_file.h"
-#include "io/files/own_mark.h"
-#include "study/sweep/computing/block_counts.h"
+#include "io/files/own_list.h"
 #include "study/sweep/computing/pool.h"
 #include "study/sweep/computing/share.h"
 #include "study/sweep/computing/slurm.h"
@@ -23,63 +22,61 @@
 #include "study/sweep/showing/figure_plot.h"
 #include "study/sweep/showing/figure_ranking.h"
 
-#include <sys/file.h>
-#include <time.h>
-#include <unistd.h>
+#include <errno.h>
+#include <string.h>
 
 // Points of a sweep that was killed die with it, and leave its lock a moment later; s.
 static const double LOCK_WAIT = 1;
-static const struct timespec PAUSE = {.tv_nsec = 10000000};
 
-static bool take_lock(int descriptor)
-{
-    double until = clock_seconds() + LOCK_WAIT;
-    while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-        if (clock_seconds() >= until) return false;
-        nanosleep(&PAUSE, NULL);
-    }
-    return true;
-}
-
-// What has the name of one of the sweep's tables or figures and is none is told before hours of
-// computing, not behind them.
+// A file of somebody's with the name of one of the sweep's tables or figures is told before hours
+// of computing, not behind them.
 static bool refuse_taken(const Sweep *sweep, Error *err)
 {
-    static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv"};
+    static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv", "reports"};
     static const char *const endings[] = {"json", "h5", "png"};
     const Study *study = &sweep->study;
     char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
         snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
-        if (!own_mark_check(path, err)) return false;
+        if (!own_list_refuse_taken(path, err)) return false;
     }
     for (int32_t k = study->rank.wanted ? -1 : 0; k < study->plot_count; k++)
         for (size_t e = 0; e < sizeof endings / sizeof endings[0]; e++) {
             snprintf(path, sizeof path, "%s/figures/%.*s.%s", sweep->folder, STUDY_NAME_SIZE - 1,
                      k < 0 ? "ranking" : study->plots[k].name, endings[e]);
-            if (!own_mark_check(path, err)) return false;
+            if (!own_list_refuse_taken(path, err)) return false;
         }
     return true;
+}
+
+static bool take_lock(Sweep *sweep, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/amontons.lock", sweep->folder);
+    if (file_lock_take(&sweep->lock, path, LOCK_WAIT)) {
+        const char *unlocked = file_lock_warning(&sweep->lock);
+        if (unlocked && sweep->options->out) fprintf(sweep->options->out, "%s\n\n", unlocked);
+        return true;
+    }
+    if (sweep->lock.busy)
+        return FAULT(err, ERROR_FILE,
+                     "another sweep is running in %s: wait for it, or choose another folder (-o)",
+                     sweep->folder);
+    return FAULT(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
 }
 
 // The system removes the lock when the process ends, however it ends.
 static bool take_folder(Sweep *sweep, Error *err)
 {
-    char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
+    char path[POINT_PATH_SIZE];
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
         (int)sizeof sweep->folder)
         return REFUSE(err, "the path of the sweep's folder is too long");
-    snprintf(path, sizeof path, "%s%s", sweep->folder, sweep->study.keep_table ? "" : "/points");
-    if (!folder_make(path, err)) return false;
-    snprintf(path, sizeof path, "%s/lock", sweep->folder);
-    sweep->lock = open_to_write(path, OPEN_KEPT, why);
-    if (sweep->lock < 0)
-        return FAULT(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, why);
-    if (!take_lock(sweep->lock))
-        return FAULT(err, ERROR_FILE,
-                     "another sweep is running in %s: wait for it, or choose another folder (-o)",
-                     sweep->folder);
-    return refuse_taken(sweep, err);
+    if (!folder_make(sweep->folder, err) || !take_lock(sweep, err) || !refuse_taken(sweep, err) ||
+        !own_list_check(sweep->folder, err) || !own_list_make(sweep->folder, err))
+        return false;
+    snprintf(path, sizeof path, "%s/points", sweep->folder);
+    return sweep->study.keep_table || folder_make(path, err);
 }
 
 // What `keep: table` cannot do: nothing but numbers is kept.
@@ -134,7 +131,6 @@ static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 {
     const Scene *scene = point_scene(sweep, k, err);
     if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
-    if (!block_note(scene, &sweep->mesh, &sweep->points[k], err)) return false;
     if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
         return REFUSE(err,
@@ -151,7 +147,6 @@ static bool plan_points(Sweep *sweep, Error *err)
     int32_t count = sweep->study.point_count;
     TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
     for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, err));
-    TRY(blocks_count(sweep->points, count, err));
     TRY(points_find_same(sweep, err));
     TRY(find_baselines(sweep, err));
     sweep->point_count = sweep->planned = count;
@@ -229,11 +224,11 @@ bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, E
     Sweep *sweep = *opened = NEW_ARRAY(Sweep, 1, err);
     if (!sweep) return false;
     sweep->options = options;
-    sweep->lock = -1;
     sweep->started = clock_seconds();
     if (!(sweep->scene = NEW_ARRAY(Scene, 1, err))) return false;
     dense_use_one_thread();   // before forking
-    return study_read(path, options->overrides, options->override_count, &sweep->study, err);
+    return study_read(path, options->overrides, options->override_count, options->trust,
+                      &sweep->study, err);
 }
 
 // The folder is made when the study has turned out to be right.
@@ -241,7 +236,7 @@ bool sweep_plan(Sweep *sweep, Error *err)
 {
     int32_t first = sweep->point_count;
     if (!plan_points(sweep, err)) return false;
-    if (sweep->lock < 0) {
+    if (!sweep->folder[0]) {
         if (!take_folder(sweep, err)) return false;
         if (!slurm_end_leftovers(sweep, err)) return false;
         if (!open_reports(sweep, err)) return false;
@@ -257,7 +252,7 @@ bool sweep_add(Sweep *sweep, const char *designs, Error *err)
 void sweep_close(Sweep *sweep)
 {
     if (!sweep) return;
-    if (sweep->lock >= 0) close(sweep->lock);
+    file_lock_release(&sweep->lock);
     reports_close(&sweep->reports);
     points_forget(&sweep->by_hash);
     memory_free_all(sweep->points, sweep->scene);

@@ -37,7 +37,7 @@ TEST(test_eigen_of_a_string)
     dense_use_one_thread();
     for (int32_t n = 0; n <= SIZE_TRIED; n++) {
         double a[SIZE_TRIED * SIZE_TRIED + 1] = {0}, values[SIZE_TRIED + 1];
-        double *work = hand_matrix((int32_t)dense_eigen_work(n), 1);
+        double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(n), 1);
         for (int32_t k = 0; k < n; k++) {
             a[k * n + k] = 2;
             if (k + 1 < n) a[k * n + k + 1] = -1;   // the lower triangle is read
@@ -64,7 +64,7 @@ TEST(test_eigen_of_random_matrices)
         double a[SIZE_TRIED * SIZE_TRIED], kept[SIZE_TRIED * SIZE_TRIED], values[SIZE_TRIED];
         double wanted[SIZE_TRIED], back[SIZE_TRIED * SIZE_TRIED], unit[SIZE_TRIED * SIZE_TRIED];
         double scaled[SIZE_TRIED * SIZE_TRIED];
-        double *work = hand_matrix((int32_t)dense_eigen_work(n), 1);
+        double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(n), 1);
         for (int32_t j = 0; j < n; j++)
             for (int32_t i = 0; i <= j; i++)
                 a[j * n + i] = a[i * n + j] = n % 2 ? random_between(&random, -1, 1) : i == j;
@@ -81,6 +81,70 @@ TEST(test_eigen_of_random_matrices)
         hand_product(vectors, (DenseView){scaled, n, n}, false, 1, 0, back);
         assert_all_near("Q D Q'", back, kept, n * n, 1e-13);
         free(work);
+    }
+}
+
+enum { ARRAYS_MAX = 8 };
+static const double GUARD = 12345.678;
+
+// Arrays with a guard number behind each.
+typedef struct Guarded {
+    double *array[ARRAYS_MAX];
+    int64_t size[ARRAYS_MAX];
+    int32_t count;
+} Guarded;
+
+static double *guarded_array(Guarded *all, int64_t size)
+{
+    double *array = malloc((size_t)(size + 1) * sizeof *array);
+    assert_non_null(array);
+    for (int64_t k = 0; k < size; k++) array[k] = 0;
+    array[size] = GUARD;
+    all->array[all->count] = array;
+    all->size[all->count++] = size;
+    return array;
+}
+
+// n on the diagonal and sines beside it: positive definite, symmetric or not.
+static void fill_guarded(double *a, int32_t n, bool symmetric)
+{
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t i = 0; i < n; i++)
+            a[j * n + i] = i == j ? n : symmetric ? sin(1.0 + i + j) : sin(1.0 + i + 7.0 * j);
+}
+
+// LAPACK writes no further than the sizes that algebra/dense.h names; its own sizes of work arrays
+// change from one function to the next.
+TEST(test_guard_numbers_stay)
+{
+    for (int32_t n = 1; n <= SIZE_TRIED; n++) {
+        Guarded all = {0};
+        int64_t square = (int64_t)n * n;
+        double *a = guarded_array(&all, square), *b = guarded_array(&all, square);
+        double *values = guarded_array(&all, n), *re = guarded_array(&all, n);
+        double *im = guarded_array(&all, n), *right = guarded_array(&all, n);
+        double *work = guarded_array(&all, DENSE_EIGEN_WORK(n));
+        int32_t pivots[SIZE_TRIED + 1] = {[SIZE_TRIED] = 0};
+        pivots[n] = -77;
+        fill_guarded(a, n, true);
+        assert_true(dense_eigen(a, n, values, work));
+        fill_guarded(a, n, true);
+        assert_true(dense_eigen_above(a, n, values[n / 2], values, work));
+        fill_guarded(a, n, true);
+        fill_guarded(b, n, true);
+        assert_true(dense_eigen_pair(a, b, n, values, work));
+        fill_guarded(a, n, false);
+        assert_true(dense_eigen_general(a, n, re, im, b, work));
+        fill_guarded(a, n, false);
+        assert_true(dense_lu(a, n, pivots));
+        dense_lu_solve(a, n, pivots, right);
+        fill_guarded(a, n, true);
+        assert_true(dense_cholesky(a, n) && dense_invert_factored(a, n));
+        assert_int_equal(pivots[n], -77);
+        for (int32_t k = 0; k < all.count; k++) {
+            if (all.array[k][all.size[k]] != GUARD) fail_msg("n = %d: beyond array %d", n, k);
+            free(all.array[k]);
+        }
     }
 }
 
@@ -159,7 +223,7 @@ TEST(test_eigen_above)
             int32_t cells = two ? n / 2 : n, first = n - wanted;
             double a[SIZE_TRIED * SIZE_TRIED + 1] = {0}, full[SIZE_TRIED * SIZE_TRIED + 1] = {0};
             double values[SIZE_TRIED + 1], image[SIZE_TRIED], unit[SIZE_TRIED * SIZE_TRIED];
-            double *work = hand_matrix((int32_t)dense_eigen_work(n), 1);
+            double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(n), 1);
             if (two && wanted % 2) first++;   // both of a pair or none
             for (int32_t k = 0; k < n; k++) {
                 a[k * n + k] = full[k * n + k] = 2;
@@ -225,7 +289,7 @@ TEST(test_general_eigenvalues)
     for (int32_t n = 1; n <= SIZE_TRIED; n += 2) {
         double a[SIZE_TRIED * SIZE_TRIED], kept[SIZE_TRIED * SIZE_TRIED], re[SIZE_TRIED];
         double im[SIZE_TRIED], v[SIZE_TRIED * SIZE_TRIED], x[SIZE_TRIED], y[SIZE_TRIED];
-        double *work = hand_matrix((int32_t)dense_eigen_work(n), 1), trace = 0, sum = 0;
+        double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(n), 1), trace = 0, sum = 0;
         fill_random(&random, a, n * n);
         memcpy(kept, a, sizeof a);
         assert_true(dense_eigen_general(a, n, re, im, v, work));
@@ -315,7 +379,7 @@ TEST(test_pair)
                 y[j * n + i] = y[i * n + j] = a[j * n + i] = a[i * n + j] =
                     random_between(&random, -1, 1);
         memcpy(factor, b, sizeof b);
-        assert_true(dense_eigen_work(n) <= 26 * SIZE + 64);
+        assert_true(DENSE_EIGEN_WORK(n) <= 26 * SIZE + 64);
         assert_true(dense_eigen_pair(y, factor, n, values, work));
         for (int32_t j = 0; j < n; j++) {
             hand_apply(a, n, n, y + j * n, left);

@@ -1,42 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// OpenBLAS's kernels follow the processor, whatever OpenBLAS took, unless the user chose. What the
-// processor can do is read from the system, not asked of it again.
+// Which kernels the processor could run, whatever OpenBLAS has taken. What the processor can do is
+// read from the system, not asked of it again; OpenBLAS's word is ours.
 #include "base/kernels.h"
 
-#include "algebra/dense.h"
 #include "near.h"
 
-#include <stdlib.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
-void gotoblas_dynamic_init(void) __attribute__((weak));
-void gotoblas_dynamic_quit(void) __attribute__((weak));
+static char taken[32];
 
-static char *asked;   // by who runs the test
-
-// As OpenBLAS does it when it is loaded, on a processor for which it takes `name`.
-static void take(const char *name)
+// In place of OpenBLAS's.
+char *openblas_get_corename(void);
+char *openblas_get_corename(void)
 {
-    gotoblas_dynamic_quit();
-    setenv("OPENBLAS_CORETYPE", name, 1);
-    gotoblas_dynamic_init();
-    unsetenv("OPENBLAS_CORETYPE");
-    assert_string_equal(kernels_name(), name);
-}
-
-FIXTURE(can_choose)
-{
-    if (!gotoblas_dynamic_init) return 0;
-    const char *was = getenv("OPENBLAS_CORETYPE");
-    asked = was ? strdup(was) : NULL;
-    return 0;
-}
-
-FIXTURE(take_back)
-{
-    if (asked) setenv("OPENBLAS_CORETYPE", asked, 1);
-    free(asked);
-    return 0;
+    return taken;
 }
 
 // " avx2 " in the first line of flags of /proc/cpuinfo.
@@ -64,62 +43,29 @@ static const char *best_here(void)
     return processor_has("avx") ? "Sandybridge" : NULL;
 }
 
-static void assert_multiplies(void)
+static void assert_possible(const char *name, const char *possible)
 {
-    double lower[4] = {2, 1, 0, 3}, square[4];
-    dense_lower_square(lower, 2, square);   // L L'
-    assert_near("1, 1", square[0], 4, 1e-15);
-    assert_near("2, 1", square[1], 2, 1e-15);
-    assert_near("2, 2", square[3], 10, 1e-15);
+    snprintf(taken, sizeof taken, "%s", name);
+    assert_string_equal(kernels_name(), name);
+    assert_string_equal(kernels_possible(), possible);
 }
 
-// On a processor that OpenBLAS does not know it takes Prescott's.
-TEST(test_unknown_processor)
+// Of a processor that OpenBLAS does not know, or a choice of less.
+TEST(test_less_than_the_processor_can)
 {
     const char *best = best_here();
-    if (!gotoblas_dynamic_init || !best) skip();
-    unsetenv("OPENBLAS_CORETYPE");
-    take("Prescott");
-    assert_string_equal(kernels_possible(), best);
-    kernels_follow_processor();
-    assert_string_equal(kernels_name(), best);
-    assert_string_equal(kernels_possible(), best);
-    assert_null(getenv("OPENBLAS_CORETYPE"));
-    assert_multiplies();
-    kernels_follow_processor();   // once more: nothing is left to do
-    assert_string_equal(kernels_name(), best);
+    if (!best) skip();
+    assert_possible("Prescott", best);
+    assert_possible("NEHALEM", best);
 }
 
-// What is as good as the processor stays: OpenBLAS knows it better.
-TEST(test_known_processor)
+// What is as good stays: OpenBLAS knows it better. So do those of a later OpenBLAS.
+TEST(test_as_good_as_the_processor)
 {
     const char *best = best_here();
-    if (!gotoblas_dynamic_init || !best) skip();
-    unsetenv("OPENBLAS_CORETYPE");
-    if (strcmp(best, "Haswell") == 0) {
-        take("Zen");
-        kernels_follow_processor();
-        assert_string_equal(kernels_name(), "Zen");
-    } else {
-        take(best);
-        kernels_follow_processor();
-        assert_string_equal(kernels_name(), best);
-    }
+    if (!best) skip();
+    assert_possible(best, best);
+    assert_possible("Cooperlake", "Cooperlake");
+    assert_possible("of a later one", "of a later one");
+    if (strcmp(best, "Haswell") == 0) assert_possible("Zen", "Zen");
 }
-
-TEST(test_choice_of_the_user)
-{
-    if (!gotoblas_dynamic_init || !best_here()) skip();
-    take("Nehalem");
-    setenv("OPENBLAS_CORETYPE", "NEHALEM", 1);
-    kernels_follow_processor();
-    assert_string_equal(kernels_name(), "Nehalem");
-    assert_string_equal(kernels_possible(), best_here());
-    setenv("OPENBLAS_CORETYPE", "Nehalm", 1);   // there are none of that name: no choice
-    kernels_follow_processor();
-    assert_string_equal(kernels_name(), best_here());
-    assert_string_equal(getenv("OPENBLAS_CORETYPE"), "Nehalm");
-    assert_multiplies();
-}
-
-GROUP_BETWEEN(can_choose, take_back);

@@ -39,20 +39,37 @@ TEST(test_estimates)
                  {0.65039, 0.00994, 0.00994, "0.6504 +- 0.0099"},
                  {0.65125, 0.2, 0.2, "0.65 +- 0.20"},
                  {123.4, 12.3, 12.3, "123 +- 12"},
-                 {0.32737, NAN, 0.0027, "0.33"},   // the last digit is within 1
+                 {0.2656, NAN, 0.013, "0.27"},   // the first digit that is not sure is the last
+                 {0.32737, NAN, 0.0027, "0.327"},
                  {0.32737, NAN, 0.001, "0.327"},
-                 {0.32737, NAN, 0.0011, "0.33"},
-                 {0.64885, NAN, 0.0101, "0.6"},
+                 {0.32737, NAN, 0.00099, "0.3274"},
+                 {0.64885, NAN, 0.0101, "0.65"},
                  {0.02, NAN, 0.5, "0.02"},   // one digit at least
-                 {0.32737, NAN, NAN, "0.3"},
-                 {1.0261, NAN, NAN, "1"},
+                 {0.32737, NAN, NAN, "0.33"},   // nothing is known: two, which the words say
+                 {1.0261, NAN, NAN, "1.0"},
                  {0.3273721, NAN, 0, "0.327372"},
                  {0, NAN, NAN, "0"},
-                 {-0.32737, NAN, 0.005, "-0.33"},
+                 {-0.32737, NAN, 0.005, "-0.327"},
                  {NAN, 0.1, 0.1, "none"}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         char text[ESTIMATE_SIZE];
         text_estimate(known[k].value, known[k].bar, known[k].known_to, text);
+        assert_string_equal(text, known[k].text);
+    }
+}
+
+TEST(test_known_to)
+{
+    const struct {
+        double value, known_to;
+        const char *text;
+    } known[] = {{0.2656, 0.0133, "one mesh: known to about 5 %"},
+                 {-0.2656, 0.00133, "one mesh: known to about 0.5 %"},
+                 {0.2, 0.024, "one mesh: known to about 12 %"},
+                 {0.2, NAN, "one mesh, and how far it is known is not"}};
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        char text[ESTIMATE_SIZE];
+        text_known_to(known[k].value, known[k].known_to, text);
         assert_string_equal(text, known[k].text);
     }
 }

@@ -94,7 +94,9 @@ TEST(test_static_friction)
     summary.mu_M_is = "steady sliding";
     summary.mu_M = summary.mu_steady = 0.375;
     summary.mu_M_known_to = 0.0004;
-    assert_says(closing("A", &summary), "mu_M            0.375: F_T/F_N of steady sliding");
+    assert_says(closing("A", &summary),
+                "mu_M            0.3750, one mesh: known to about 0.1 %: F_T/F_N of steady "
+                "sliding");
     summary.mu_M_is = "peaks";
     summary.mu_M = 0.254;
     summary.mu_M_known_to = 0.005;
@@ -103,9 +105,12 @@ TEST(test_static_friction)
     summary.peaks_counted = 1;
     said = closing("A", &summary);
     assert_true(strncmp(said, "A: done\n", 8) == 0);
-    assert_says(said, "mu_M            0.25: static friction, mean of the last 1 of 3 peaks");
-    assert_says(said, "to the digits that finer meshes keep as a rule, the last within 1; --to 1% "
-                      "gives an error bar\n                  on this mesh 0.2540\n");
+    assert_says(said,
+                "mu_M            0.254, one mesh: known to about 2 %: static friction, mean of the "
+                "last 1 of 3 peaks");
+    assert_says(
+        said, "(what finer meshes change as a rule; --to 1% gives an error bar)\n                  "
+              "on this mesh 0.2540\n");
     summary.mu_M_spread = 0.01;
     assert_says(closing("", &summary), "peaks differ by at most 0.01; not periodic yet\n");
     summary.period = 1;
@@ -113,14 +118,14 @@ TEST(test_static_friction)
     summary.period = 2;
     summary.mu_M_error = 0.002;   // of its peaks: no error bar
     said = closing("", &summary);
-    assert_says(said, "mu_M            0.25: static");
+    assert_says(said, "mu_M            0.254, one mesh: known to about 2 %: static");
     assert_null(strstr(said, "+-"));
     assert_says(said, "on this mesh 0.2540 (drops 0.002); the peaks differ by at most 0.01 and "
                       "repeat after 2 slidings\n");
     summary.mu_M_known_to = NAN;
     said = closing("", &summary);
-    assert_says(said, "mu_M            0.3: static");
-    assert_says(said, "cells are too long for slip: not even this digit is sure on others\n");
+    assert_says(said, "mu_M            0.25, one mesh, and how far it is known is not: static");
+    assert_says(said, "cells are too long for slip: finer ones may change any digit\n");
 }
 
 TEST(test_what_holds)
@@ -140,12 +145,15 @@ TEST(test_what_holds)
     summary.run_in_drift = -0.01;
     summary.run_in_drops_left = NAN;
     assert_says(closing("", &summary),
-                "0.20 so far: what the contact holds, the lowest tenth of 7 load ratios at which "
+                "0.20, one mesh: known to about 5 %, so far: what the contact holds, the lowest "
+                "tenth of 7 load ratios at which "
                 "the load dropped\n                  run-in still going on (trend, -1 % a drop)");
     summary.run_in = NULL;
     const char *said = closing("", &summary);
-    assert_says(said, "0.20 so far: what the contact holds, the lowest tenth of 7 load ratios");
-    assert_says(said, "finer meshes keep as a rule");   // there is no mu_M that says it
+    assert_says(
+        said,
+        "0.20, one mesh: known to about 5 %, so far: what the contact holds, the lowest tenth");
+    assert_says(said, "what finer meshes change as a rule");   // there is no mu_M that says it
     assert_says(said, "too few to say");
     summary.drops = 1;
     assert_says(closing("", &summary), "the one load ratio at which the load dropped\n");
@@ -191,7 +199,7 @@ TEST(test_error_bars)
     summary.mu_M_known_to = 0.03;
     summary.bar_meshes = 2;
     said = closing("", &summary);
-    assert_says(said, "0.2 (its error is not known): static friction");
+    assert_says(said, "0.25 (its error is not known): static friction");
     assert_says(said, "on 2 meshes");
     summary.mu_M_error = 0.005;
     summary.mu_M_parts[0] = 0.004;

@@ -94,6 +94,26 @@ TEST(test_rayleigh)
     }
 }
 
+// A wave exp(s t + i k x) has rho s^2 + N k^2 s + M k^2 = 0: at a damping of 1 the discriminant of
+// the less damped of the two kinds is 0, and the other's is above it.
+TEST(test_wave_damping)
+{
+    Material material = {
+        .young = 3e9, .poisson = 0.4, .density = 1190, .eta1 = 0.2e6, .eta2 = 0.7e6};
+    double pi = acos(-1), long_wave = material_wave_damping(&material, 2);
+    assert_near("length", material_wave_damping(&material, 1), 2 * long_wave, 1e-12 * long_wave);
+    double k = pi / (2 * long_wave), least = INFINITY;   // of the length at which it is 1
+    const Moduli elastic = material_elastic(&material), viscous = material_viscous(&material);
+    const double m[] = {moduli_axial(elastic), moduli_shear(elastic)};
+    const double n[] = {moduli_axial(viscous), moduli_shear(viscous)};
+    for (int i = 0; i < 2; i++) {
+        double square = pow(n[i] * k * k, 2), discriminant = square - 4 * 1190 * m[i] * k * k;
+        assert_true(discriminant > -1e-9 * square);
+        least = fmin(least, fabs(discriminant) / square);
+    }
+    assert_near("critical", least, 0, 1e-12);
+}
+
 // c_L while that is below 2 c_S: in plane stress for every nu (c_L^2/c_S^2 = 2/(1 - nu)), in plane
 // strain up to nu = 1/3 (2 (1 - nu)/(1 - 2 nu)).
 TEST(test_slip_speed)

@@ -176,13 +176,14 @@ TEST(test_overlap)
     mesh_destroy(&mesh);
 }
 
-// An edge with an element on either side, and a block whose halves do not hang together.
+// An edge with an element on either side, and a block of whose notch both sides end in one place.
 TEST(test_inside_and_unglued)
 {
     static const double stacked[][2] = {{0, -1}, {1, -1}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
-    static const double split[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
-                                      {1, 0}, {2, 0}, {2, 1}};   // a crack below (1, 1)
-    static const int32_t tower[] = {0, 1, 3, 2, 2, 3, 5, 4}, halves[] = {0, 1, 2, 3, 4, 5, 6, 2};
+    static const double split[][2] = {{0, 0}, {1, 0},   {1, 1}, {0, 1}, {1, 0},   {2, 0},
+                                      {2, 1}, {1.2, 1}, {0, 2}, {1, 2}, {1.2, 2}, {2, 2}};
+    static const int32_t tower[] = {0, 1, 3, 2, 2, 3, 5, 4},
+                         halves[] = {0, 1, 2, 3, 4, 5, 6, 7, 3, 2, 9, 8, 2, 7, 10, 9, 7, 6, 11, 10};
     static const int32_t inner[][2] = {{2, 3}}, bottom[][2] = {{0, 1}, {4, 5}};
     Error err = {0};
     Mesh mesh;
@@ -191,7 +192,7 @@ TEST(test_inside_and_unglued)
     assert_true(mesh_build(&file, "block.msh", &mesh, &err));
     refuse(&mesh, NULL, 0, "'contact' runs inside the block", NULL);
     mesh_destroy(&mesh);
-    file = hand_mesh(7, split, ELEMENT_Q4, 2, halves);
+    file = hand_mesh(12, split, ELEMENT_Q4, 5, halves);   // a notch that ends at the floor
     hand_curve(&file, "contact", 2, bottom);
     assert_true(mesh_build(&file, "block.msh", &mesh, &err));
     refuse(&mesh, NULL, 0, "both at x = 1", "not glued");

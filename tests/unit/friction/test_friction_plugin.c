@@ -24,9 +24,8 @@ TEST(test_same_bits)
                          .mu_kinetic = 0.1,
                          .critical_velocity = 3.4e-4};
     FrictionLaw own = known;
-    FrictionSource source = {.file = example(path, sizeof path), .end = 1};
+    FrictionSource source = {.trusted = true, .file = example(path, sizeof path), .end = 1};
     own.kind = FRICTION_PLUGIN;
-    assert_int_equal(setenv("AMONTONS_TRUST", "yes", 1), 0);
     own = own_law(own, &source);
     for (double v = 0; v < 1e-2; v += 1.23e-6) {
         assert_true(friction_coefficient(&own, v) == friction_coefficient(&known, v));
@@ -44,7 +43,8 @@ TEST(test_parameters)
     const double parameters[] = {0.02, 1e-3};
     FrictionLaw own = {
         .kind = FRICTION_PLUGIN, .mu_static = 0.38, .mu_kinetic = 0.1, .critical_velocity = 3.4e-4};
-    FrictionSource source = {.file = example(path, sizeof path),
+    FrictionSource source = {.trusted = true,
+                             .file = example(path, sizeof path),
                              .parameters = parameters,
                              .parameter_count = 2,
                              .end = 0.1};
@@ -58,11 +58,11 @@ TEST(test_first_interface)
 {
     char path[1000];
     const double parameters[] = {0.4};
-    FrictionSource source = {.file = built("../tests/friction_interface_1.so", path, sizeof path),
+    FrictionSource source = {.trusted = true,
+                             .file = built("../tests/friction_interface_1.so", path, sizeof path),
                              .parameters = parameters,
                              .parameter_count = 1,
                              .end = 0.1};
-    assert_int_equal(setenv("AMONTONS_TRUST", "yes", 1), 0);
     FrictionLaw own =
         own_law((FrictionLaw){.kind = FRICTION_PLUGIN, .critical_velocity = 1e-3}, &source);
     assert_false(own.remembers);
@@ -78,7 +78,8 @@ TEST(test_states)
     static const FrictionStateText states[] = {
         {.name = "psi", .rate = "(1e-5 * exp(-psi) - v) / 1e-4", .start = "log(1e-5 * 50 / 1e-4)"},
         {.name = "chi", .rate = "(1e-5 * exp(-chi) - v) / 1e-3", .start = "log(1e-5 * 50 / 1e-3)"}};
-    FrictionSource source = {.file = built("../tests/two_states.so", path, sizeof path),
+    FrictionSource source = {.trusted = true,
+                             .file = built("../tests/two_states.so", path, sizeof path),
                              .parameters = parameters,
                              .parameter_count = 7,
                              .rod_velocity = 1e-5,
@@ -92,7 +93,6 @@ TEST(test_states)
         .rod_velocity = 1e-5,
         .pressure = 3e-3,
         .end = 1};
-    assert_int_equal(setenv("AMONTONS_TRUST", "yes", 1), 0);
     FrictionLaw own = own_law((FrictionLaw){.kind = FRICTION_PLUGIN}, &source);
     FrictionLaw known = own_law((FrictionLaw){.kind = FRICTION_FORMULA}, &text);
     assert_true(friction_creeps(&own) && friction_creeps(&known));
@@ -112,18 +112,26 @@ TEST(test_states)
     }
 }
 
-static void check_refused(const char *file, int32_t parameters, const char *words)
+static void check_refused_of(bool trusted, const char *file, int32_t parameters, const char *words)
 {
     static const double numbers[AMONTONS_FRICTION_PARAMETERS_MAX + 1] = {0};
     Error err = {0};
     const char *key = NULL;
     FrictionLaw law = {.kind = FRICTION_PLUGIN};
-    FrictionSource source = {
-        .file = file, .parameters = numbers, .parameter_count = parameters, .end = 1};
+    FrictionSource source = {.trusted = trusted,
+                             .file = file,
+                             .parameters = numbers,
+                             .parameter_count = parameters,
+                             .end = 1};
     assert_false(friction_own_law(&source, &law, &key, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_string_equal(key, "file");
     if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);
+}
+
+static void check_refused(const char *file, int32_t parameters, const char *words)
+{
+    check_refused_of(true, file, parameters, words);
 }
 
 TEST(test_refusals)
@@ -134,6 +142,5 @@ TEST(test_refusals)
     check_refused(built("amontons_hdf5.so", path, sizeof path), 0, "has no function");
     check_refused(built("../tests/two_states.so", path, sizeof path), 3, "has 0 states");
     check_refused(example(path, sizeof path), AMONTONS_FRICTION_PARAMETERS_MAX + 1, "at most 16");
-    assert_int_equal(unsetenv("AMONTONS_TRUST"), 0);
-    check_refused(example(path, sizeof path), 0, "--trust");
+    check_refused_of(false, example(path, sizeof path), 0, "--trust");
 }

@@ -20,7 +20,7 @@ static double log_between(Random *random, double low, double high)
 // mu_v v = -k u - mu_theta theta. Returns the largest real part.
 static double growth_on_spring(const FrictionRates *rates, double spring)
 {
-    enum { MOST = STATES_MAX + 1, WORK = 4 + 11 * MOST + 2 * MOST * MOST };
+    enum { MOST = STATES_MAX + 1, WORK = DENSE_EIGEN_WORK(MOST) };
     double a[MOST * MOST], re[MOST], im[MOST], vectors[MOST * MOST], work[WORK], most = -INFINITY;
     int32_t n = rates->states, size = n + 1;
     for (int32_t j = 0; j < size; j++) {
@@ -176,6 +176,20 @@ TEST(test_bound_of_weakening)
     print_message("%d bounded, %d of several states, %.4f between\n", bounded, coupled, between);
     assert_true(between > 1.07 && between < 1.125);   // 1.0607 is not enough
     assert_true(bounded > 250 && coupled > 150);
+}
+
+// As many states as there may be, which do not couple: their rates are the diagonal.
+TEST(test_most_states)
+{
+    FrictionRates rates = {.states = STATES_MAX, .mu_speed = 1};
+    double re[STATES_MAX], im[STATES_MAX];
+    for (int32_t k = 0; k < STATES_MAX; k++) rates.rate_state[k][k] = -(k + 1.0);
+    friction_own_rates(&rates, re, im);
+    for (int32_t k = 0; k < STATES_MAX; k++) {
+        int32_t found = 0;
+        for (int32_t j = 0; j < STATES_MAX; j++) found += re[j] == -(k + 1.0) && im[j] == 0;
+        assert_int_equal(found, 1);
+    }
 }
 
 TEST(test_calm)

@@ -92,7 +92,33 @@ TEST(test_refusals)
     check_refused(source_of("0.3", &root, 1), "state", "the rate of x is -nan");
     check_refused(source_of("0.3", &steep, 1), "formula", "derivative");
     check_refused(source_of("0.3", &other, 1), "state", "`y` is no number here");
+    check_refused(source_of("0.3 + 0.01 * round(theta / 20)", &AGE, 1), "formula",
+                  "at theta 10 the coefficient jumps");
+    check_refused(source_of("0.3 + 0.01 * round(v / 1e-3)", &AGE, 1), "formula", "at velocity ");
+    FrictionSource pressed = source_of("0.3 + 0.01 * round(p / 0.2)", &AGE, 1);
+    pressed.pressure = 0.05;
+    check_refused(pressed, "formula", "at pressure 0.1 the coefficient jumps");
     FrictionSource without = source_of(AGED, &AGE, 1);
     without.rod_velocity = 0;
     check_refused(without, "state", "a state needs its `start`");
+}
+
+// One state of steady slip, none, and two that hold with an unstable one between them.
+TEST(test_steady_states)
+{
+    static const struct {
+        const char *rate;
+        int32_t count;
+    } rows[] = {{"1 - v * x", 1}, {"v", 0}, {"-x * (x - 0.2) * (x - 1)", 2}};
+    for (int32_t k = 0; k < 3; k++) {
+        FrictionStateText text = {.name = "x", .start = "0.1"};
+        snprintf(text.rate, sizeof text.rate, "%s", rows[k].rate);
+        FrictionSource source = source_of("0.3", &text, 1);
+        FrictionLaw law = made(&source);
+        double states[2] = {0};
+        assert_int_equal(friction_count_steady(&law.own.memory, 1e-3, states), rows[k].count);
+        if (rows[k].count < 2) continue;
+        assert_near("lower", states[0], 0, 1e-6);
+        assert_near("upper", states[1], 1, 1e-6);
+    }
 }

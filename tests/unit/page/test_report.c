@@ -66,9 +66,13 @@ TEST_BETWEEN(test_refused, begin, end)
     refuse(results, 1, "is no table of a sweep");
     place_write(place, "sweep.csv", "status,b\ndone,2\n");
     refuse(results, 1, "is no table of a sweep");
-    place_write(place, "page.html.part", "of a process that crashed");
-    assert_int_equal(chmod(place_path(place, "page.html.part"), 01644), 0);   // as ours are
-    refuse(results, 1, "is no table of a sweep");
+    char file[PLACE_SIZE + 20];
+    Error err = {0};
+    snprintf(file, sizeof file, "%s/page.html", place);
+    place_write(place, "page.html.part", "of somebody");   // is neither used nor removed
+    assert_false(amontons_report(results, 1, file, false, &err));
+    assert_non_null(strstr(err.message, "page.html.part is there already"));
+    assert_true(place_has(place, "page.html.part"));
 }
 
 // A report alone: its numbers, its scene, the film beside it; nothing of a history.
@@ -87,7 +91,7 @@ TEST_BETWEEN(test_run_of_a_report_alone, begin, end)
     expect_not(page, "<hand>");
     expect(page, "<video controls");
     expect(page, "data:video/webm;base64,GkXfoyBhIGZpbG0=");   // coreutils' base64 of it
-    expect(page, "\u22120.25<");
+    expect(page, "\u22120.250<");   // a digit below what is known
     expect(page, "there is no error bar");
     expect_not(page, "&nbsp;\u00b1");
     expect(page, "[&quot;a&quot;, &quot;b&quot;]");   // of a list of several lines one
@@ -216,12 +220,12 @@ static void write_history(const char *name, const char *units, const double *kin
     if (!array_file_close(file, &err)) fail_msg("%s", err.message);
 }
 
-// The last 300 of them, and kinds that no version wrote by no name.
+// The last 300 of them, by the names of their kinds.
 TEST_BETWEEN(test_many_events, begin, end)
 {
     double kinds[EVENTS_MAX] = {0};
-    kinds[EVENTS_MAX - 1] = -1;
-    kinds[EVENTS_MAX - 2] = 7;
+    kinds[EVENTS_MAX - 1] = 3;
+    kinds[EVENTS_MAX - 2] = 1;
     kinds[EVENTS_MAX - 3] = 2;
     write_history("", "normalised", kinds, EVENTS_MAX);
     place_write(place, "run.json", "{\"status\": \"done\", \"scene\": {}}");
@@ -230,8 +234,8 @@ TEST_BETWEEN(test_many_events, begin, end)
     expect(page, ">101</td><td>quasi-static<");
     expect_not(page, ">100</td><td>quasi-static<");
     expect(page, ">398</td><td>bulk sliding<");
-    expect(page, ">399</td><td>unknown<");
-    expect(page, ">400</td><td>unknown<");
+    expect(page, ">399</td><td>bounded rapid<");
+    expect(page, ">400</td><td>slight rapid<");
 }
 
 TEST_BETWEEN(test_without_events, begin, end)

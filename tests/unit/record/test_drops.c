@@ -43,6 +43,8 @@ TEST(test_kinds)
     for (int32_t k = 0; k < 4; k++) {
         const Drop *found = &hand.drops.list[k];
         assert_int_equal(found->pads, pads[k]);
+        const uint8_t *slid = &hand.drops.slid[2 * k];   // LEFT is all of the left pad
+        assert_true(slid[0] == (k < 3) && slid[1] == (k == 1));
         assert_int_equal(hand.run.events.list[found->event].kind,
                          k == 1 ? EVENT_LEADING : EVENT_BOUNDED);
     }
@@ -92,6 +94,25 @@ TEST(test_since_the_last_of_its_kind)
     assert_int_equal(drops_series(&hand.drops, DROP_LOAD, 0), 3);
     assert_near("series", hand.drops.series[1].value, 0.4, 0);
     assert_int_equal(drops_series(&hand.drops, DROP_PADS, 2), 1);
+    hand_drops_end(&hand);
+}
+
+// l_c is how far slow slip had come from the trailing end. Where the nodes there are open, or stick
+// while slip begins elsewhere, it is not known; slip behind an open node counts.
+TEST(test_no_critical_length)
+{
+    HandDrops hand;
+    hand_drops_begin(&hand, 1);
+    hand.run.hand.open[0] = true;
+    see(&hand, 0.2, REST);
+    see(&hand, 0.3, (double[]){0, 0, 0, 0.5, 0.5});
+    see(&hand, 0.3, ACROSS);
+    see(&hand, 0.1, REST);
+    assert_true(isnan(hand.drops.list[0].critical_length));
+    see(&hand, 0.3, (double[]){0, 0.5, 0, 0, 0});
+    see(&hand, 0.3, ACROSS);
+    see(&hand, 0.1, REST);
+    assert_near("behind it", hand.drops.list[1].critical_length, 0.25, 0);
     hand_drops_end(&hand);
 }
 

@@ -273,6 +273,39 @@ TEST_BETWEEN(test_run_ends_within, setup, teardown)
     expect_kinds(0, 1, 0);
 }
 
+// What counts as a precursor: slip that came to 2.5 V somewhere, and was rapid over a twentieth of
+// the contact in all, or slid a whole pad. What does not is listed, as slight.
+TEST_BETWEEN(test_slight, setup, teardown)
+{
+    const double weight[] = {0.004, 0.04, 0.007, 0.5, 0.449};   // of 1
+    Error err = {0};
+    events_destroy(&events);
+    memcpy(hand.weight, weight, sizeof weight);
+    assert_true(events_create(&hand.interface, 1, &events, &err));
+    see(1, 2.4, 2.4, 2.4, 2.4, 0);   // it rings about V
+    see(2, 0.5, 0.5, 0.5, 0.5, 0);
+    see(3, 9, 9, 0.5, 0.5, 0);   // two nodes jump where others slip slowly
+    see(4, 0.5, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 2);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 0);
+    assert_string_equal(event_name(events.list[1].kind), "slight rapid");
+    see(5, 2.1, 2.1, 0, 0, 0);   // what it comes to later counts
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 3);
+    see(6, 1.1, 2.6, 2.1, 0, 0);
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 2);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
+    see(7, 0.1, 0.1, 0, 0, 0);
+    see(8, 2.1, 2.1, 2.1, 2.1, 2.1);   // over all of the contact it is a sliding at any rate
+    assert_int_equal(events.kinds[EVENT_LEADING], 1);
+    const double light[] = {0.48, 0.48, 0, 0.02, 0.02};   // a small second pad slides
+    memcpy(hand.weight, light, sizeof light);
+    split(2);
+    see(9, 0.1, 0, 0, 0, 9);
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 1);
+    see(10, 0.1, 0, 0, 9, 9);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
+}
+
 // More events than there was room for at first; none is lost, none moves.
 TEST_BETWEEN(test_many, setup, teardown)
 {

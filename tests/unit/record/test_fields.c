@@ -3,6 +3,8 @@
 // listed. What stands in them is held against history and report end to end (test_run_fields.py).
 #include "record/fields.h"
 
+#include "io/files/own_list.h"
+
 #include "block_rig.h"
 #include "result_place.h"
 
@@ -27,6 +29,7 @@ FIXTURE(setup)
     assert_true(state_create(&rig.system, &rig.interface, &now, &err));
     seen = (Observation){.state = &now, .interface = &rig.interface, .system = &rig.system};
     place_make(place);
+    if (!own_list_make(place, &err)) return 1;   // some write twice
     return 0;
 }
 

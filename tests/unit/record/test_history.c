@@ -3,6 +3,7 @@
 #include "record/history.h"
 
 #include "base/memory.h"
+#include "io/files/own_list.h"
 #include "plane.h"
 #include "result_place.h"
 #include "seen_by_hand.h"
@@ -260,6 +261,7 @@ TEST(test_memory_faults)
 {
     char place[PLACE_SIZE];
     place_make(place);
+    assert_true(own_list_make(place, &(Error){0}));
     hand_seen_init(&hand);
     two_pads();
     show(1);

@@ -122,6 +122,72 @@ TEST(test_next_cycle)
     fixture_destroy(&fixture);
 }
 
+// A foot whose corner is lifted from the start lets go with its other nodes; the corner alone is no
+// slip, and a foot that never touches lets go of nothing.
+TEST(test_lifted_corner)
+{
+    Fixture fixture;
+    char order[PADS_ORDER_SIZE];
+    fixture_build(&fixture);
+    fixture.run.hand.open[0] = true;
+    see(&fixture, 0.1, REST);
+    assert_true(isnan(fixture.pads.list[0].now.U_first_slip));
+    pads_order(&fixture.pads, order);
+    assert_string_equal(order, "");
+    see(&fixture, 0.2, (double[]){0, 0.5, 0, 0, 0});   // U = 0.1
+    see(&fixture, 0.3, (double[]){0, 0.5, 0.5, 0, 0});   // U = 0.2
+    see(&fixture, 0.3, ACROSS);
+    const PadCycle *left = &fixture.pads.list[0].last;
+    assert_near("first", left->U_first_slip, 0.1, 1e-15);
+    assert_near("all", left->U_detached, 0.2, 1e-15);
+    assert_int_equal(left->order, 1);
+    assert_int_equal(fixture.pads.list[1].last.order, 2);
+    pads_order(&fixture.pads, order);
+    assert_string_equal(order, "left, right");
+    fixture_destroy(&fixture);
+}
+
+TEST(test_foot_in_the_air)
+{
+    Fixture fixture;
+    char order[PADS_ORDER_SIZE];
+    fixture_build(&fixture);
+    fixture.run.hand.open[3] = fixture.run.hand.open[4] = true;
+    see(&fixture, 0.1, REST);
+    see(&fixture, 0.2, ACROSS);
+    assert_int_equal(fixture.pads.list[1].last.order, 0);
+    pads_order(&fixture.pads, order);
+    assert_string_equal(order, "left");
+    fixture_destroy(&fixture);
+}
+
+// Names of pads that let go together, and as many as there is room for.
+TEST(test_order_in_words)
+{
+    enum { MANY = 40 };
+    char order[PADS_ORDER_SIZE];
+    Pad list[MANY] = {0};
+    Pads pads = {.count = 3, .list = list};
+    for (int32_t p = 0; p < MANY; p++) {
+        snprintf(list[p].name, sizeof list[p].name, "contact_%d", p + 1);
+        list[p].last.order = p + 1;
+    }
+    list[0].last.order = 2;
+    list[1].last.order = 1;
+    list[2].last.order = 2;
+    pads_order(&pads, order);
+    assert_string_equal(order, "contact_2, contact_1 with contact_3");
+    pads.count = MANY;
+    list[0].last.order = list[2].last.order = 3;
+    pads_order(&pads, order);
+    assert_non_null(strstr(order, "contact_2, contact_1 with contact_3, contact_4, "));
+    const char *last = strrchr(order, ',');
+    int32_t told = 1, left = 0;
+    for (const char *c = order; (c = strstr(c + 1, "contact_"));) told++;
+    assert_int_equal(sscanf(last, ", and %d more", &left), 1);
+    assert_int_equal(told + left, MANY);
+}
+
 // Slip that turned fast, came to rest and turned fast again: the last time counts.
 TEST(test_bounded_first)
 {
@@ -259,10 +325,12 @@ TEST(test_block_on_pads)
     size_t size = 0;
     assert_true(json && getdelim(&text, &size, '\0', json) > 0);
     fclose(json);
-    const char *first = strstr(text, "\"contact_1\""), *third = strstr(text, "\"contact_3\"");
-    assert_true(first && third && first < third);
+    const char *first = strstr(text, "\"name\": \"contact_1\""),
+               *second = strstr(text, "\"name\": \"contact_2\""),
+               *third = strstr(text, "\"name\": \"contact_3\"");
+    assert_true(first && second && third && first < second && second < third);
     assert_non_null(strstr(first, "\"detachment_order\": 1"));
-    assert_true(strstr(first, "\"detachment_order\": 1") < strstr(text, "\"contact_2\""));
+    assert_true(strstr(first, "\"detachment_order\": 1") < second);
     free(text);
     amontons_scene_destroy(scene);
     place_remove(place);

@@ -79,6 +79,7 @@ static const Observation *show(double t, const double speed[NODES])
     hand.state.time = hand.seen.t = t;
     hand.seen.U = t / 10;
     hand.seen.max_slip_rate = hand.seen.front = 0;
+    hand.seen.front_slips = speed[1] > 0;   // the trailing node of the middle line; none is open
     for (int32_t i = 0; i < NODES; i++) {
         hand.slip_rate[3 * i] = 0.6 * speed[i];
         hand.slip_rate[3 * i + 1] = -0.8 * speed[i];

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 #include "io/hdf5/result_file.h"
 
 #include <math.h>
@@ -51,7 +52,7 @@ FIXTURE(result_write)
     for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : x;
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k) head.numbers[k] = 0.01 * (k + 1);
     snprintf(folder, sizeof folder, "/tmp/amontons_render_XXXXXX");
-    if (!mkdtemp(folder)) return -1;
+    if (!mkdtemp(folder) || !own_list_make(folder, &err)) return -1;
     ArrayFile *file = result_file_create(folder, &head, &err);
     bool done = file && steps_write(file, &head, &err);
     for (int32_t table = 0; done && table < RESULT_TABLES_COUNT; ++table) {

@@ -72,6 +72,17 @@ TEST(test_without_viscosity)
         warnings_of("material.eta1=0", "friction={law: coulomb, mu_static: 0.3}").count, 0);
 }
 
+// A holder of steel without viscosity above a sole that has some is none of friction's business; a
+// sole without it is.
+TEST(test_one_material_without_viscosity)
+{
+    const char *mesh = "mesh={file: ../../meshes/layers.geo, set: {nx: 10, nz: 10, nz_layer: 2}}";
+    assert_int_equal(warnings_of(mesh, "materials={body: {eta1: 0}}").count, 0);
+    RunWarnings found = warnings_of(mesh, "materials={layer: {eta1: 0}}");
+    assert_true(found.count >= 1);   // where it is ill-posed slip is not resolved either
+    assert_non_null(strstr(found.text[0], "eta1 is 0 in layer, which touches the floor"));
+}
+
 // Strip 0.2 to 0.3 of a face from 0 to 0.5; then half of it above the face, then a fifth below.
 TEST(test_rod_beside_its_face)
 {
@@ -96,6 +107,66 @@ TEST(test_tall_block)
         warnings_of_shape(scene, k == 1 ? 2 : 0.04, k == 2 ? 0.1 : 0.5, &found);
         assert_int_equal(found.count, k == 0);
         if (k == 0) assert_non_null(strstr(found.text[0], "12.5 times as high as long"));
+        amontons_scene_destroy(scene);
+    }
+}
+
+static bool is_warned(const char *setting, const char *more, const char *words)
+{
+    RunWarnings found = warnings_of(setting, more);
+    for (int32_t k = 0; k < found.count; k++)
+        if (strstr(found.text[k], words)) return true;
+    return false;
+}
+
+TEST(test_gaps)
+{
+    static const char large[] = "a gap as large as the block", steep[] = "the floor is steep";
+    assert_true(is_warned("contact={gap: 0.6 * x}", NULL, large));
+    assert_true(is_warned("contact={gap: 0.6 * x}", NULL, steep));
+    assert_true(is_warned("contact={gap: 0.3 * abs(x - 0.5)}", NULL, steep));
+    assert_false(is_warned("contact={gap: 0.3 * abs(x - 0.5)}", NULL, large));
+    assert_int_equal(warnings_of("contact={gap: 0.1 * x}", NULL).count, 0);
+    // Steeper where the block will not touch it: no harm.
+    assert_int_equal(warnings_of("contact={gap: 'max(0, 0.5 - x)^2 / 2'}", NULL).count, 0);
+}
+
+TEST(test_states)
+{
+    static const char law[] = "friction={law: formula, formula: 0.3 + 0.1 * s / (1 + s), "
+                              "state: {s: {rate: '%s', start: 0.1}}}";
+    char setting[300];
+    snprintf(setting, sizeof setting, law, "v * (s * (1 - s) * (s - 0.2)) * 1e5");
+    assert_true(is_warned(setting, NULL, "several values of steady slip"));
+    snprintf(setting, sizeof setting, law, "v * 1e5");
+    assert_true(is_warned(setting, NULL, "do not come to steady slip"));
+    snprintf(setting, sizeof setting, law, "(1 - v * s / 1e-2) / 10");
+    assert_false(is_warned(setting, NULL, "steady slip"));
+}
+
+// A block as a drawing in mm makes it, and moduli in GPa, in an SI scene.
+TEST(test_units)
+{
+    static const struct {
+        const char *setting;
+        double length, young;
+        const char *words;
+    } rows[] = {{"units=si", 0.2, 3.3e9, NULL},
+                {"units=si", 200, 3.3e9, "a block of 200 m"},
+                {"mesh.unit=mm", 200, 3.3e9, NULL},
+                {"units=si", 0.2, 3.3, "sound of 0.05"},
+                {"units=normalised", 200, 3.3, NULL}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char young[60];
+        snprintf(young, sizeof young, "material.young=%g", rows[k].young);
+        Scene *scene = small_scene((const char *const[]){
+            "units=si", "material.density=1190", "material.eta1=1", young, rows[k].setting, NULL});
+        Model model = model_of(scene);
+        RunWarnings found = {0};
+        model.length = rows[k].length;
+        warnings_of_units(&model, &found);
+        assert_int_equal(found.count, rows[k].words != NULL);
+        if (rows[k].words && !strstr(found.text[0], rows[k].words)) fail_msg("%s", found.text[0]);
         amontons_scene_destroy(scene);
     }
 }

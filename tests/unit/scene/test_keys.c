@@ -214,7 +214,7 @@ TEST(test_json_is_nested_as_the_scene)
         if (*c != ' ' && *c != '\n') compact[used++] = *c;
     compact[used] = 0;
     static const char *const parts[] = {
-        "\"mesh\":{\"file\":\"block.geo\",\"set\":{\"nx\":4}},\"groups\":{",
+        "\"mesh\":{\"file\":\"block.geo\",\"set\":{\"nx\":4},\"scale\":1},\"groups\":{",
         "\"load\":{\"pressure\":0.01,\"tractions\":[],\"supports\":[]}",
         "\"time\":{\"until\":{\"U\":0.1,\"t\":0,\"periodic\":false},\"scheme\":\"sdirk2\"",
         "\"output\":{\"history\":true,\"fields\":\"none\",\"figures\":[]}",

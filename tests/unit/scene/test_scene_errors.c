@@ -144,7 +144,14 @@ static const BadScene bad_values[] = {
      "rod: {velocity: 1, kind: pull}",
      "s.yaml:7:26: rod.kind: found `pull`",
      {"one of push, bonded, none"}},
-    {0, "start: {friction: true}", "s.yaml:9:19: start.friction: found `true`", {"one of off, on"}},
+    {0,
+     "start: {friction: no}",
+     "s.yaml:9:19: start.friction: found `no`, did you mean `off`?",
+     {"one of off, on"}},
+    {0,
+     "start: {friction: Yes}",
+     "s.yaml:9:19: start.friction: found `Yes`, did you mean `on`?",
+     {"one of off, on"}},
     {0,
      "output: {figures: [force, slipmap]}",
      "s.yaml:9:27: output.figures: found `slipmap`",
@@ -355,7 +362,7 @@ TEST(test_bad_files)
                  {"/bin/true", "not a text file"}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         Error err = {0};
-        assert_false(scene_read(cases[k].path, NULL, 0, &scene, &err));
+        assert_false(scene_read(cases[k].path, NULL, 0, false, &scene, &err));
         if (err.code != ERROR_INPUT || !strstr(err.message, cases[k].words))
             fail_msg("%s", err.message);
     }
@@ -364,7 +371,7 @@ TEST(test_bad_files)
     snprintf(path, sizeof path, "%s/validation/paper/", getenv("AMONTONS_SOURCE"));
     for (int k = 0; k < 260; k++) strcat(path, "./");
     strcat(path, "fig1.yaml");
-    assert_false(scene_read(path, NULL, 0, &scene, &err));
+    assert_false(scene_read(path, NULL, 0, false, &scene, &err));
     assert_non_null(strstr(err.message, "a path of more than 511 bytes"));
     snprintf(path, sizeof path, "mesh: {file: %0500d.msh}", 1);
     scene_text_with(3, path, text);
@@ -386,7 +393,7 @@ TEST(test_too_many_overrides)
     Error err = {0};
     snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
     for (int k = 0; k < 20000; k++) words[k] = "rod.width=0.1";
-    assert_false(scene_read(path, words, 20000, &scene, &err));
+    assert_false(scene_read(path, words, 20000, false, &scene, &err));
     if (!strstr(err.message, "settings of keys")) fail_msg("%s", err.message);
 }
 
@@ -429,7 +436,7 @@ TEST(test_bad_overrides)
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         static Scene scene;
         Error err = {0};
-        assert_false(scene_read(path, &cases[k].text, 1, &scene, &err));
+        assert_false(scene_read(path, &cases[k].text, 1, false, &scene, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         if (strncmp(err.message, cases[k].place, strlen(cases[k].place)) != 0 ||
             !strstr(err.message, cases[k].words))

@@ -245,7 +245,7 @@ static int32_t find_rates(Fixture *fixture, bool coupled)
     const State *seen = &fixture->built.seen;
     int32_t n = fixture->free_count, all = rig->bulk.dof_count, size = 2 * n + CONTACTS * STATES;
     double *a = hand_matrix(size, size), *vectors = hand_matrix(size, size);
-    double *work = hand_matrix((int32_t)dense_eigen_work(size), 1);
+    double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(size), 1);
     for (int32_t i = 0; i < n; i++) {
         int32_t k = fixture->free[i];
         a[(int64_t)(n + i) * size + i] = 1;

@@ -70,7 +70,7 @@ static double least_angle(const Fixture *fixture, double weak)
     int32_t size = 2 * count;
     double *a = hand_matrix(size, size), *vectors = hand_matrix(size, size);
     double *re = hand_matrix(size, 2), *im = re + size;
-    double *work = hand_matrix((int32_t)dense_eigen_work(size), 1);
+    double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(size), 1);
     for (int32_t q = 0; q < count; q++) {
         a[(count + q) * size + q] = 1;   // u' = v, v' = -M^-1 (K u + (C - W) v)
         for (int32_t p = 0; p < count; p++) {

@@ -239,7 +239,7 @@ static void rates_by_hand(const Fixture *fixture, double *largest, double *real)
     }
     double *re = hand_matrix(size, 1), *im = hand_matrix(size, 1),
            *vectors = hand_matrix(size, size);
-    double *work = calloc((size_t)dense_eigen_work(size), sizeof *work);
+    double *work = calloc((size_t)DENSE_EIGEN_WORK(size), sizeof *work);
     assert_true(dense_eigen_general(a, size, re, im, vectors, work));
     *largest = -INFINITY;
     *real = 0;

@@ -191,7 +191,7 @@ static int32_t dense_rates(const Case *test, Complex *rates)
         for (int32_t a = 0; a < count; a++) companion[b * size + count + a] = -both[b * count + a];
     }
     double *re = hand_matrix(size, 1), *im = hand_matrix(size, 1), *v = hand_matrix(size, size);
-    double *work = hand_matrix((int32_t)dense_eigen_work(size), 1);
+    double *work = hand_matrix((int32_t)DENSE_EIGEN_WORK(size), 1);
     assert_true(dense_eigen_general(companion, size, re, im, v, work));
     for (int32_t j = 0; j < size; j++)
         if (im[j] >= 0) rates[found++] = re[j] + im[j] * I;

@@ -4,6 +4,7 @@
 
 #include "base/computation.h"
 #include "base/memory.h"
+#include "io/files/own_list.h"
 #include "io/files/text_file.h"
 #include "io/mesh/mesh_source.h"
 #include "io/text/json_reader.h"
@@ -38,7 +39,7 @@ static bool hash_mesh(const Scene *scene, PointMesh *mesh, Error *err)
     } else {
         Error failed = {0};   // it will be this point's own, when it is computed
         if (mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
-                           &made, &failed))
+                           scene->trusted, &made, &failed))
             mesh_file_hash(&made, &mesh->hash);
     }
 cleanup:
@@ -111,7 +112,6 @@ const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
     Scene *scene = sweep->scene;
     double accuracy = sweep->points[point].accuracy;
     if (!study_scene(&sweep->study, &(PointChoice){.point = point}, scene, err)) return NULL;
-    scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
     return scene;
 }
@@ -124,7 +124,8 @@ void point_path(const Sweep *sweep, int32_t point, const char *file,
              sweep->points[point].hash, *file ? "/" : "", file);
 }
 
-// Missing is no error; unreadable is.
+// Missing is no error; unreadable is. One that a power cut left with zero bytes is cut there, and
+// computed again.
 char *point_report(const Sweep *sweep, int32_t point, Error *err)
 {
     const SweepPoint *first = &sweep->points[sweep->points[point].same_as];
@@ -133,7 +134,7 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
     int32_t size = 0;
     point_path(sweep, point, RUN_REPORT, path);
-    if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
+    if (access(path, F_OK) == 0) text_file_bytes(path, REPORT_BYTES_MAX, &bytes, &size, err);
     return bytes;
 }
 
@@ -250,7 +251,8 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
     JsonWriter *json = NULL;
     TRY(scene);
     point_path(sweep, point, "", folder);
-    if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
+    if (!table) mkdir(folder, 0777);   // a failure shows when the list is written
+    if (!table) TRY(own_list_make(folder, err));
     point_path(sweep, point, RUN_REPORT, path);
     TRY((json = json_create(table ? NULL : path, err)));
     json_begin_object(json, NULL);

@@ -16,6 +16,7 @@
 
 #include "amontons.h"
 #include "base/hash.h"
+#include "io/files/file_lock.h"
 #include "study/sweep/computing/reports.h"
 #include "study/sweep/reading/study.h"
 
@@ -28,8 +29,6 @@ typedef struct SweepPoint {
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
     ReportPlace place;   // of its report, with `keep: table`
-    Hash block;   // what its basis depends on
-    int32_t runs;   // points that step on the same basis, this one too (block_counts)
     double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
     bool settled;   // a smaller accuracy is of no use
     bool refined;   // its result has that accuracy,
@@ -48,7 +47,7 @@ typedef struct Sweep {
     Study study;   // owned
     char folder[AMONTONS_PATH_SIZE];
     Reports reports;   // open: `keep: table`
-    int lock;   // file descriptor; -1: none
+    FileLock lock;   // held from plan to close
     SweepPoint *points;   // [study.point_count]; owned
     int32_t point_count;   // points so far: a search adds some in each round
     Scene *scene;   // of the point that point_scene was asked for last; owned

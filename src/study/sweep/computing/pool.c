@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "study/sweep/computing/tally.h"
 
@@ -16,7 +17,6 @@
 #include <malloc.h>
 #include <poll.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -38,6 +38,7 @@ typedef struct Worker {
 // A point has ended; `size` bytes of its report follow.
 typedef struct Reply {
     char message[ERROR_MESSAGE_SIZE];   // empty: it ended well, or its report says how
+    ErrorCode code;   // of the message
     int32_t size;   // 0: its report is run.json, or there is none
 } Reply;
 
@@ -59,7 +60,7 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
     int32_t point;
     signal(SIGTERM, SIG_DFL);
     signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    system_end_with_parent();
     if (getppid() != parent) _exit(1);
     mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
     mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
@@ -68,7 +69,7 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
         Reply reply = {0};
         char *report = NULL;
         if (!point_run(sweep, point, &report, &err))
-            memcpy(reply.message, err.message, sizeof reply.message);
+            memcpy(reply.message, err.message, sizeof reply.message), reply.code = err.code;
         reply.size = report ? (int32_t)strlen(report) : 0;
         bool sent = transfer_write(socket, &reply, sizeof reply, -1) == 0 &&
                     transfer_write(socket, report, reply.size, -1) == 0;
@@ -106,9 +107,11 @@ static bool start_worker(Pool *pool, Worker *worker, Error *err)
 
 // Takes what a point left, or else says why it left nothing: the message of its child, or how that
 // ended (as process_wait has it).
-static bool note_result(Pool *pool, const Worker *of, const char *said, int ending, Error *err)
+static bool note_result(Pool *pool, const Worker *of, const Reply *reply, int ending, Error *err)
 {
-    const char *failure = *said ? "not begun" : "crashed";
+    const char *said = reply->message, *failure = *said ? "not begun" : "crashed";
+    if (*said && (reply->code == ERROR_FILE || reply->code == ERROR_MEMORY))
+        failure = amontons_error_name(reply->code);   // the machine's, not the point's
     char message[ERROR_MESSAGE_SIZE], how[200];
     double seconds = clock_seconds() - of->started;
     bool left = false;
@@ -185,7 +188,7 @@ static bool read_worker(Pool *pool, Worker *worker, Error *err)
     if (before.point < 0) goto cleanup;
     give_point(pool, worker, &unable);
     if (whole && report) TRY(point_keep(pool->sweep, before.point, report, err));
-    TRY(note_result(pool, &before, reply.message, ending, err));
+    TRY(note_result(pool, &before, &reply, ending, err));
     if (!error_is_clean(&unable)) *err = unable;
 cleanup:
     memory_free(report);

@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "io/files/open_file.h"
-#include "io/files/own_mark.h"
+#include "io/files/own_list.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -23,7 +23,8 @@ bool reports_open(Reports *reports, const char *path, bool anew, Error *err)
 {
     char why[OPEN_WHY_SIZE];
     *reports = (Reports){0};
-    if (!own_mark_check(path, err)) return false;
+    bool listed = false;
+    if (!own_list_has(path, &listed, err) || !(listed || own_list_add(path, err))) return false;
     int file = open_to_write(path, OPEN_KEPT, why);
     if (file < 0) return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, why);
     fcntl(file, F_SETFL, O_APPEND);

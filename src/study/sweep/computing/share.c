@@ -35,7 +35,7 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
     TRY(text_writer_open(&text, path, false, err));
     for (int32_t k = share; k < count; k += step) {
         const SweepPoint *point = &sweep->points[points[k]];
-        fprintf(text.out, "%d %s %d %.17g\n", points[k], point->hash, point->runs, point->accuracy);
+        fprintf(text.out, "%d %s %.17g\n", points[k], point->hash, point->accuracy);
     }
     TRY(text_writer_finish(&text, err));
 cleanup:
@@ -65,7 +65,7 @@ static bool read_designs(Sweep *sweep, Error *err)
     char path[SHARE_PATH_SIZE], *text = NULL;
     int32_t size = 0;
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
-    TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
+    TRY(text_file_bytes(path, SHARE_BYTES_MAX, &text, &size, err));
     for (const char *design = text; design < text + size; design += strlen(design) + 1)
         TRY(study_add_designs(&sweep->study, design, err));
 cleanup:
@@ -78,13 +78,12 @@ cleanup:
 static bool add_point(Sweep *sweep, const char *line, Error *err)
 {
     char hash[HASH_TEXT_SIZE] = "";
-    int point = -1, runs = 0;
+    int point = -1;
     double accuracy = 0;
-    if (sscanf(line, "%d %32s %d %lf", &point, hash, &runs, &accuracy) < 2 || point < 0 ||
+    if (sscanf(line, "%d %32s %lf", &point, hash, &accuracy) < 2 || point < 0 ||
         point >= sweep->study.point_count)
         return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
     SweepPoint *at = &sweep->points[point];
-    at->runs = runs;
     at->accuracy = accuracy;
     const Scene *scene = point_scene(sweep, point, err);
     if (!scene || !point_hash(sweep, scene, at->hash, err)) return false;

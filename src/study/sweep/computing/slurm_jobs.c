@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/place.h"
 #include "base/program.h"
+#include "base/system.h"
 #include "io/text/text_writer.h"
 
 #include <errno.h>
@@ -113,8 +114,7 @@ static bool find_program(char program[PATH_MAX], Error *err)
 {
     static const char *const places[] = {AMONTONS_PROGRAM_FROM_LIBRARY, "amontons"};
     char found[PATH_MAX];
-    ssize_t length = readlink("/proc/self/exe", program, PATH_MAX - 1);
-    program[length > 0 ? length : 0] = 0;
+    system_program_path(program, PATH_MAX);
     const char *name = strrchr(program, '/');
     if (name && strncmp(name + 1, "amontons", 8) == 0) return true;
     if (place_find(places, 2, found, sizeof found) && realpath(found, program)) return true;
@@ -140,6 +140,7 @@ bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *stu
     print_quoted(out, " sweep --element -o ", jobs->folder);
     for (int32_t k = 0; k < options->override_count; k++)
         print_quoted(out, " --set ", options->overrides[k]);
+    if (options->trust) fprintf(out, " --trust");
     print_quoted(out, " -- ", study);
     fprintf(out, "\n");
     TRY(text_writer_finish(&script, err));

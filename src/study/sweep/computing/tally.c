@@ -7,6 +7,7 @@
 #include "study/sweep/computing/record_check.h"
 
 #include <math.h>
+#include <string.h>
 
 // What the study ranks by, or mu_M, in the report of a point that is done.
 static void read_quantity(const Study *study, const char *report, SweepView *view)
@@ -70,6 +71,18 @@ static bool check_records(Sweep *sweep, int32_t point, const char *report, Error
     return record_check(&sweep->study, report, err);
 }
 
+// A disk or memory that was full says nothing of the point: the same command computes it again.
+static bool failed_by_the_machine(const char *report)
+{
+    static const ErrorCode codes[] = {ERROR_FILE, ERROR_MEMORY};
+    char failure[40] = "";
+    json_find_text(report, "failure", failure, sizeof failure);
+    bool found = false;
+    for (size_t k = 0; k < sizeof codes / sizeof *codes; k++)
+        found = found || strcmp(failure, amontons_error_name(codes[k])) == 0;
+    return found;
+}
+
 // Points finished by an earlier sweep.
 bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
 {
@@ -79,7 +92,9 @@ bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
         char *report = point_report(sweep, k, err);
         if (!error_is_clean(err)) return false;
         point->status = point_status(report);
-        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
+        bool failed = point->status == POINT_FAILED;
+        if (sweep->options->fresh || (failed && sweep->options->retry) ||
+            (failed && failed_by_the_machine(report)))
             point->status = POINT_PENDING;
         point->reused = point->status != POINT_PENDING;
         if (point->reused) {

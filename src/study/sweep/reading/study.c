@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/units.h"
+#include "scene/keys.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,12 +20,31 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
            isfinite(*value);
 }
 
-bool study_pair(const Study *study, YamlNode node, double pair[2])
+bool study_pair(const Study *study, YamlNode node, const char *key, double pair[2],
+                char unit[STUDY_UNIT_SIZE])
 {
-    YamlNode first = yaml_first(study->file, node);
-    return yaml_kind(study->file, node) == YAML_LIST && yaml_count(study->file, node) == 2 &&
-           study_plain_number(study, first, &pair[0]) &&
-           study_plain_number(study, yaml_next(study->file, first), &pair[1]);
+    int32_t index = scene_key_index(key), count = 0, units = 0, read = 0;
+    const SceneKey *keys = scene_keys(&count);
+    bool measured = index >= 0 && keys[index].type == KEY_NUMBER;   // it has a dimension
+    unit[0] = 0;
+    if (yaml_kind(study->file, node) != YAML_LIST || yaml_count(study->file, node) != 2)
+        return false;
+    YAML_EACH (end, study->file, node) {
+        const char *text = yaml_text(study->file, end);
+        int32_t length = text_number(text, &pair[read]);
+        if (study_plain_number(study, end, &pair[read++])) continue;
+        length += (int32_t)strspn(text + length, " ");
+        if (yaml_kind(study->file, end) != YAML_SCALAR || length == 0 || !measured ||
+            !unit_to_si(text + length, keys[index].unit, &pair[read - 1]))
+            return false;
+        units++;
+    }
+    if (units == 1) return false;   // both or none
+    if (units == 2) {
+        const char *base = unit_examples(keys[index].unit);
+        snprintf(unit, STUDY_UNIT_SIZE, " %.*s", (int)strcspn(base, ","), base);
+    }
+    return true;
 }
 
 bool study_whole(const Study *study, const WantedKey *key, int32_t most, int32_t *value, Error *err)

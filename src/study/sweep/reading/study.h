@@ -135,7 +135,11 @@ bool study_is_chosen(const Study *study, const char *key);
 // *values: the children of a list, to be found by number at once (memory_free).
 bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
-bool study_pair(const Study *study, YamlNode node, double pair[2]);   // [from, to]; false: is none
+// [from, to] of a key, in SI base units where both have units; unit: the base unit then ("m"), with
+// which numbers are to be handed to the scene, else "". false: it is none.
+enum { STUDY_UNIT_SIZE = 12 };
+bool study_pair(const Study *study, YamlNode node, const char *key, double pair[2],
+                char unit[STUDY_UNIT_SIZE]);
 // A whole number from 1 to `most`; *value stays where the key is missing.
 bool study_whole(const Study *study, const WantedKey *key, int32_t most, int32_t *value,
                  Error *err);

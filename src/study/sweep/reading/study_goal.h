@@ -29,6 +29,7 @@ typedef struct SearchKey {
     char key[STUDY_NAME_SIZE];
     SearchScale scale;
     double least, most;
+    char unit[12];   // " m": numbers are handed to the scene with it; "": as they are
 } SearchKey;
 
 // Of `where`: a design is computed only if the formula's value is between.

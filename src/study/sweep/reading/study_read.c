@@ -60,7 +60,7 @@ static bool read_keep(Study *study, Error *err)
 
 // What is wrong with values shows when scenes are made, point by point (study_point).
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
-                Study *study, Error *err)
+                bool trusted, Study *study, Error *err)
 {
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
     if (strlen(path) >= sizeof study->path)
@@ -76,5 +76,5 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
     return read_text(study, "title", study->title, err) && read_scene_path(study, err) &&
            study_read_vary(study, overrides, override_count, err) &&
            study_read_search(study, err) && study_read_wanted(study, err) &&
-           read_keep(study, err) && scene_source_open(study->scene, &study->source, err);
+           read_keep(study, err) && scene_source_open(study->scene, trusted, &study->source, err);
 }

@@ -9,6 +9,6 @@
 // are checked when the scenes of the points are made (study_point).
 // ERROR_INPUT: file:line:column, the key, what was found and what is allowed.
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
-                Study *study, Error *err);
+                bool trusted, Study *study, Error *err);
 
 #endif

@@ -29,11 +29,13 @@ static bool read_key(Study *study, YamlNode item, Error *err)
     if (!good || scale == 3) return yaml_refuse(study->file, item, key->key, KEY_ALLOWED, err);
     double ends[2] = {0, 0};
     key->scale = (SearchScale)scale;
-    good = study_pair(study, range, ends);
+    good = study_pair(study, range, key->key, ends, key->unit);
     key->least = ends[0], key->most = ends[1];
     if (!good || !(key->least < key->most) || (key->scale == SEARCH_LOG && key->least <= 0))
         return yaml_refuse(study->file, range, key->key,
-                           "two numbers, the smaller one first (of log: above 0)", err);
+                           "two numbers, the smaller one first (of log: above 0), both with a unit "
+                           "of the key's or both without",
+                           err);
     if (key->scale == SEARCH_WHOLE &&
         (key->least != floor(key->least) || key->most != floor(key->most)))
         return yaml_refuse(study->file, range, key->key, "two whole numbers", err);

@@ -134,10 +134,10 @@ static bool read_cases(Study *study, const YamlDocument *document, YamlNode case
 // between is rounded to 6 digits, so that it can be quoted.
 // *text: a YAML list, the caller's to free, so that values of a range are read by the same parser
 // as those in the file.
-static bool write_range(const double bounds[2], bool is_log, int32_t points, char **text,
-                        Error *err)
+static bool write_range(const double bounds[2], const char *unit, bool is_log, int32_t points,
+                        char **text, Error *err)
 {
-    enum { NUMBER_SIZE = 32 };
+    enum { NUMBER_SIZE = 32 + STUDY_UNIT_SIZE };
     double from = bounds[0], to = bounds[1];
     *text = NEW_ARRAY(char, (int64_t)points *NUMBER_SIZE + 8, err);
     if (!*text) return false;
@@ -155,7 +155,7 @@ static bool write_range(const double bounds[2], bool is_log, int32_t points, cha
                 if (strtod(trial, NULL) == value) break;
             }
         }
-        used += snprintf(*text + used, NUMBER_SIZE, "%s%.*g", k ? ", " : "", digits, value);
+        used += snprintf(*text + used, NUMBER_SIZE, "%s%.*g%s", k ? ", " : "", digits, value, unit);
     }
     (*text)[used] = ']';
     return true;
@@ -168,19 +168,21 @@ static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
     WantedKey keys[] = {{.name = "log"}, {.name = "linear"}, {.name = "points"}};
     double bounds[2] = {0, 0};
     int32_t count = 0;
-    char *text = NULL, name[SCENE_TEXT_SIZE + 80];
+    char *text = NULL, name[SCENE_TEXT_SIZE + 80], unit[STUDY_UNIT_SIZE];
     if (!wanted_find(study->file, node, axis->key, keys, 3, err)) return false;
     bool is_log = keys[0].node != YAML_NO_NODE;
     YamlNode ends = keys[is_log ? 0 : 1].node;
     if (yaml_count(study->file, node) != 2 || ends == YAML_NO_NODE || keys[2].node == YAML_NO_NODE)
         return yaml_refuse(study->file, node, axis->key, AXIS_ALLOWED, err);
-    if (!study_pair(study, ends, bounds))
-        return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
+    if (!study_pair(study, ends, axis->key, bounds, unit))
+        return yaml_refuse(study->file, ends, axis->key,
+                           "two numbers, [from, to], both with a unit of the key's or both without",
+                           err);
     if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
         return yaml_refuse(study->file, ends, axis->key, "two numbers > 0 in a range of logarithms",
                            err);
     if (!study_whole(study, &keys[2], STUDY_RANGE_MAX, &count, err)) return false;
-    TRY(write_range(bounds, is_log, count, &text, err));
+    TRY(write_range(bounds, unit, is_log, count, &text, err));
     snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
              yaml_line(study->file, node), yaml_column(study->file, node));
     TRY(yaml_parse(name, text, 0, &study->made[study->made_count], err));

@@ -53,7 +53,8 @@ bool figure_end(Figure *figure, Error *err)
     json_end(figure->json);
     ArrayFile *arrays = figure->arrays;
     figure->arrays = NULL;
-    if (!json_finish(figure->json, err) | !array_file_close(arrays, err)) return false;
+    bool written = json_finish(figure->json, err);
+    if (!array_file_close(arrays, err) || !written) return false;   // closed in any case
     Error no_pictures = {0};   // in this build: the description stays, for one that has them
     if (!module_check("render", &no_pictures)) return true;
     return figure_path(figure, "json", path, err) && figure_path(figure, ending, picture, err) &&

@@ -7,6 +7,7 @@
 #include "base/text.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -154,6 +155,9 @@ cleanup:
 typedef struct FormulaPoint {
     PlotTable *table;
     int32_t point;
+    int32_t moved;   // the column whose value is taken `by` off; -1: none
+    double by;
+    bool *used;   // [PLOT_COLUMNS_MAX] out: columns that the formula has
     Error *err;
 } FormulaPoint;
 
@@ -161,8 +165,11 @@ static bool value_of(const void *context, const char *name, double *value)
 {
     const FormulaPoint *at = context;
     const Quantity *column = find_column(at->table, name, at->err);
-    if (column) *value = column->values[at->point];
-    return column != NULL;
+    if (!column) return false;
+    int32_t k = (int32_t)(column - at->table->columns);
+    *value = column->values[at->point] + (k == at->moved ? at->by : 0);
+    at->used[k] = true;
+    return true;
 }
 
 // "~{P}_{ext} · ~{L}": columns by their symbols.
@@ -193,21 +200,47 @@ static void formula_label(const char *text, bool is_si, char *words, size_t size
     snprintf(words + used, size - used, " (%s)", is_si ? "SI" : "normalised");
 }
 
+static bool value_at(const char *text, FormulaPoint *at, double *value, Error *err)
+{
+    FormulaNames names = {.look_up = value_of, .context = at, .unknown = "is no column"};
+    Formula formula;
+    Error wrong = {0};
+    double ignored = 0;
+    if (!formula_read(text, &names, &formula, &wrong)) {
+        if (error_is_clean(err)) *err = wrong;
+        error_context(err, "= %.100s", text);
+        return false;
+    }
+    *value = formula_at(&formula, 0, &ignored);
+    return true;
+}
+
+// Values, and their errors: half of what each column's own does to the value, independent of each
+// other; NaN where one of them is not known.
 static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *err)
 {
+    bool used[PLOT_COLUMNS_MAX] = {false}, any = false;
     if (!(made->values = NEW_ARRAY(double, table->count, err))) return false;
     for (int32_t k = 0; k < table->count; k++) {
-        FormulaPoint at = {table, k, err};
-        FormulaNames names = {.look_up = value_of, .context = &at, .unknown = "is no column"};
-        Formula formula;
-        Error wrong = {0};
-        double ignored = 0;
-        if (!formula_read(text, &names, &formula, &wrong)) {
-            if (error_is_clean(err)) *err = wrong;
-            error_context(err, "= %.100s", text);
-            return false;
+        FormulaPoint at = {table, k, -1, 0, used, err};
+        if (!value_at(text, &at, &made->values[k], err)) return false;
+    }
+    for (int32_t c = 0; c < table->column_count; c++)
+        any = any || (used[c] && table->columns[c].errors);
+    if (any && !(made->errors = NEW_ARRAY(double, table->count, err))) return false;
+    for (int32_t k = 0; any && k < table->count; k++) {
+        double square = 0;
+        for (int32_t c = 0; c < table->column_count; c++) {
+            const double *errors = table->columns[c].errors;
+            double high = 0, low = 0;
+            if (!used[c] || !errors) continue;
+            FormulaPoint above = {table, k, c, errors[k], used, err};
+            FormulaPoint below = {table, k, c, -errors[k], used, err};
+            if (!value_at(text, &above, &high, err) || !value_at(text, &below, &low, err))
+                return false;
+            square += 0.25 * (high - low) * (high - low);
         }
-        made->values[k] = formula_at(&formula, 0, &ignored);
+        made->errors[k] = sqrt(square);
     }
     formula_label(text, table->is_si, made->label.words, sizeof made->label.words);
     return error_is_clean(err);

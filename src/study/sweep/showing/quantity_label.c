@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MESH_PARAMETER "mesh parameter "   // of which only the name is known
-
 const char *label_last_word(const char *key)
 {
     const char *dot = strrchr(key, '.');
@@ -56,7 +54,7 @@ static void key_words(const char *name, char words[QUANTITY_LABEL_SIZE], bool *i
                  {"mesh.set.pad_height", "pad height", true}};
     bool of_mesh = strncmp(name, "mesh.set.", 9) == 0;
     const char *last = label_last_word(name);
-    snprintf(words, QUANTITY_LABEL_SIZE, of_mesh ? MESH_PARAMETER "~{%.60s}" : "%.60s", last);
+    snprintf(words, QUANTITY_LABEL_SIZE, of_mesh ? "~{%.60s}" : "%.60s", last);
     *is_length = false;
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         if (strcmp(name, known[k].key) != 0) continue;
@@ -71,7 +69,7 @@ void label_symbol(const char *key, char *symbol, size_t size)
     bool is_length = false;
     key_words(key, words, &is_length);
     const char *mark = strstr(words, "~{");
-    bool known = mark && strncmp(words, MESH_PARAMETER, strlen(MESH_PARAMETER)) != 0;
+    bool known = mark && mark > words;   // of a mesh's parameter only the name is
     snprintf(symbol, size, "%.60s", known ? mark : label_last_word(key));
 }
 

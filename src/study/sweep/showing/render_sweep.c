@@ -2,7 +2,7 @@
 // Pictures of a stored sweep: those that its study had drawn, once more, or another one.
 #include "amontons.h"
 
-#include "base/apart.h"
+#include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "base/text.h"
 #include "io/text/yaml_document.h"
@@ -57,7 +57,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool draw_apart(void *context, FILE *reply, Error *err)
+static bool draw_in_child(void *context, FILE *reply, Error *err)
 {
     const DrawSweep *draw = context;
     (void)reply;   // pictures are files
@@ -70,11 +70,11 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
 {
     NUMBERS_HAVE_A_POINT;
     DrawSweep draw = {folder, plot, style};
-    ApartWork work = {.path = folder,
+    ChildWork work = {.path = folder,
                       .reader = "HDF5",
                       .seconds = SECONDS_MAX,
                       .advice = "its table is damaged",
-                      .read = draw_apart,
+                      .read = draw_in_child,
                       .context = &draw};
-    return apart_do(&work, err);
+    return child_do(&work, err);
 }

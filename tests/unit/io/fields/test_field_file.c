@@ -6,6 +6,7 @@
 #include "io/fields/field_file.h"
 
 #include "cases.h"
+#include "io/files/own_list.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -47,7 +48,7 @@ FIXTURE(make_folder)
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
     snprintf(folder, sizeof folder, "/tmp/amontons_field_XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A final name leads to a whole file or to none, also with two writers and with readers that hold
 // the earlier file.
+#include "io/files/own_list.h"
 #include "io/files/part_file.h"
 
 #include "cases.h"
@@ -22,11 +23,14 @@ FIXTURE(make_folder)
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/result", folder);
     snprintf(part, sizeof part, "%s.part", path);
-    return 0;
+    return own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)
 {
+    char list[128];
+    snprintf(list, sizeof list, "%s/" OWN_LIST_NAME, folder);
+    unlink(list);
     return rmdir(folder);   // fails when a test left anything
 }
 
@@ -112,30 +116,59 @@ TEST(a_writer_that_ends_is_waited_for)
 }
 
 // Through none of these may anything be written: a link, a pipe that nobody reads, a second name,
-// somebody's file.
+// somebody's file; the last gives way to who says so.
 TEST_BETWEEN(what_stands_in_the_place_of_the_part, NULL, forget_files)
 {
-    char mine[140];
+    char mine[140], taken[140], left[150];   // no list has them
+    snprintf(taken, sizeof taken, "%s/unlisted", folder);
+    snprintf(left, sizeof left, "%s.part", taken);
     Error err = {0};
     PartFile file;
+    bool listed = true;
     snprintf(mine, sizeof mine, "%s/mine", folder);
     FILE *stream = fopen(mine, "w");
     assert_true(stream && fputs("mine", stream) >= 0 && fclose(stream) == 0);
     static const char *const words[] = {"a symbolic link", "a pipe (FIFO)", "a second name",
-                                        "nothing says that amontons left it"};
+                                        "unlisted.part is there already"};
     for (int k = 0; k < 4; k++) {
-        if (k == 0) assert_int_equal(symlink(mine, part), 0);
-        if (k == 1) assert_int_equal(mkfifo(part, 0600), 0);
-        if (k == 2) assert_int_equal(link(mine, part), 0);
-        if (k == 3) assert_int_equal(rename(mine, part), 0);
+        if (k == 0) assert_int_equal(symlink(mine, left), 0);
+        if (k == 1) assert_int_equal(mkfifo(left, 0600), 0);
+        if (k == 2) assert_int_equal(link(mine, left), 0);
+        if (k == 3) assert_int_equal(rename(mine, left), 0);
         error_clear(&err);
-        assert_false(part_file_create(&file, path, &err));
-        assert_int_equal(err.code, ERROR_FILE);
+        assert_false(part_file_create(&file, taken, &err));
+        assert_int_equal(err.code, k < 3 ? ERROR_FILE : ERROR_INPUT);
         if (!strstr(err.message, words[k])) fail_msg("%s", err.message);
         part_file_discard(&file);
-        assert_content(k < 3 ? mine : part, "mine");
-        unlink(part);
+        assert_content(k < 3 ? mine : left, "mine");
+        assert_true(own_list_has(taken, &listed, &(Error){0}) && !listed);
+        if (k < 3) unlink(left);
     }
+    error_clear(&err);
+    assert_true(part_file_replace(&file, taken, true, &err));
+    assert_content(left, "");
+    part_file_discard(&file);
+}
+
+// A file that is not in the list is somebody's, also where the word of a list is in it.
+TEST_BETWEEN(somebodys_file_gives_way_to_overwrite_alone, NULL, forget_files)
+{
+    Error err = {0};
+    PartFile file;
+    char mine[140];
+    snprintf(mine, sizeof mine, "%s/history.h5", folder);
+    FILE *stream = fopen(mine, "w");
+    assert_true(stream && fputs("series of mine", stream) >= 0 && fclose(stream) == 0);
+    assert_false(part_file_create(&file, mine, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_content(mine, "series of mine");
+    error_clear(&err);
+    assert_true(part_file_replace(&file, mine, true, &err) && part_file_commit(&file, &err));
+    assert_content(mine, "");
+    bool listed = false;
+    assert_true(own_list_has(mine, &listed, &err) && listed);
+    assert_true(part_file_create(&file, mine, &err) && part_file_commit(&file, &err));
+    unlink(mine);
 }
 
 TEST_BETWEEN(two_writers_do_not_meet, NULL, forget_files)

@@ -44,6 +44,24 @@ TEST(test_sizes)
     }
 }
 
+TEST(test_zero_byte)
+{
+    Error err = {0};
+    char *bytes = NULL;
+    int32_t size = 0;
+    FILE *file = fopen(path, "wb");
+    fwrite("one\ntw\0o\n", 1, 9, file);
+    fclose(file);
+    assert_false(text_file_read(path, 100, &bytes, &size, &err));
+    assert_null(bytes);
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "a zero byte in line 2"));
+    err = (Error){0};
+    assert_true(text_file_bytes(path, 100, &bytes, &size, &err));
+    assert_int_equal(size, 9);
+    memory_free(bytes);
+}
+
 TEST(test_byte_order_mark)
 {
     Error err = {0};

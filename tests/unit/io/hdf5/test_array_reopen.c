@@ -4,41 +4,68 @@
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
+#include "io/files/own_list.h"
 #include "near.h"
 #include "result_place.h"
 
-#include <errno.h>
+#include <fcntl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
 enum { WIDTH = 7, ROWS = 30000 };   // many chunks of either series
 
-// Every write of the module comes here (the test exports its symbols): the one that is due is done
-// by half, and kills the process.
-static int64_t writes_left = -1;
+// Every write, rename and removal of the module and of HDF5 comes here (the test exports its
+// symbols): a write that is due is done by half, the others not at all, and the process is killed.
+static int64_t calls_left = -1;
+static bool names_only;   // writes do not count
 
-ssize_t pwrite(int file, const void *bytes, size_t size, off_t at)
+static bool is_last(void)
 {
-    bool last = writes_left == 0;
-    if (writes_left >= 0) writes_left--;
-    ssize_t count = syscall(SYS_pwrite64, file, bytes, last ? size / 2 : size, at);
+    bool last = calls_left == 0;
+    if (calls_left >= 0) calls_left--;
+    return last;
+}
+
+static ssize_t write_at(long call, int file, const void *bytes, size_t size, off_t at)
+{
+    bool last = !names_only && is_last();
+    ssize_t count = syscall(call, file, bytes, last ? size / 2 : size, at);
     if (last) kill(getpid(), SIGKILL);
     return count;
 }
 
-ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t at)
+ssize_t write(int file, const void *bytes, size_t size)
 {
-    return pwrite(file, bytes, size, at);
+    return write_at(SYS_write, file, bytes, size, 0);
 }
 
-// And every close of HDF5.
-static bool closing_fails = false;
-
-int close(int file)
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t at)
 {
-    long status = syscall(SYS_close, file);
-    if (closing_fails) errno = EIO;
-    return closing_fails ? -1 : (int)status;
+    return write_at(SYS_pwrite64, file, bytes, size, at);
+}
+
+ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t at)
+{
+    return write_at(SYS_pwrite64, file, bytes, size, at);
+}
+
+int rename(const char *from, const char *to)
+{
+    if (is_last()) kill(getpid(), SIGKILL);
+    return (int)syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0);
+}
+
+int unlink(const char *path)
+{
+    if (is_last()) kill(getpid(), SIGKILL);
+    return (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
+}
+
+// A kill leaves what the disk has not got yet; waiting for it takes the test's time.
+int fdatasync(int file)
+{
+    (void)file;
+    return 0;
 }
 
 static double values[(int64_t)ROWS * WIDTH];
@@ -139,7 +166,7 @@ TEST(test_killed)
         ArrayFile *file = array_file_create(path, &err);
         add_series(file, &err);
         append(file, 0, 12345, &err);
-        if (!array_file_sync(file, &err)) _exit(1);
+        if (!array_file_flush(file, &err)) _exit(1);
         append(file, 12345, 25000, &err);
         kill(getpid(), SIGKILL);
     }
@@ -150,38 +177,107 @@ TEST(test_killed)
     place_remove(place);
 }
 
-// Flushes after FLUSHED rows, twice and thrice as many.
-enum { FLUSHED = 1100, FLUSHES = 3 };
+// --- killed at any moment -----------------------------------------------------------------------
 
-static _Noreturn void write_until_killed(const char *path, bool anew, int64_t writes)
+// A file that is written in so many flushes of so many rows. Noise cannot be compressed: of the
+// long one there are parts of 8 MB (PART_BYTES), and the last.
+typedef struct Course {
+    int64_t flushed, flushes;
+    int32_t width;   // of the noise; 0: none
+} Course;
+
+static double noise_at(int64_t row, int32_t column)
 {
-    Error err = {0};
-    writes_left = writes;
-    ArrayFile *file = anew ? array_file_create(path, &err) : array_file_reopen(path, &err);
-    if (!file) _exit(1);
-    if (anew) add_series(file, &err);
-    if (!anew) array_file_cut(file, "a/scalar", FLUSHED, &err);
-    if (!anew) array_file_cut(file, "wide", FLUSHED, &err);
-    for (int64_t k = anew ? 0 : 1; k < FLUSHES; k++) {
-        append(file, k * FLUSHED, (k + 1) * FLUSHED, &err);
-        if (!array_file_flush(file, &err)) _exit(1);
-    }
-    array_file_close(file, &err);
-    _exit(0);
+    uint64_t bits = (uint64_t)(row * 1009 + column + 1) * 6364136223846793005u;
+    bits ^= bits >> 29;
+    return (double)(bits * 1442695040888963407u);
 }
 
-static bool is_killed(const char *path, bool anew, int64_t writes)
+static void append_noise(ArrayFile *file, const Course *course, int64_t from, int64_t to,
+                         Error *err)
+{
+    double row[1024];
+    if (course->width == 0) return;
+    for (int64_t k = from; k < to; k++) {
+        for (int32_t c = 0; c < course->width; c++) row[c] = noise_at(k, c);
+        assert_true(array_file_append(file, "noise", row, 1, err));
+    }
+}
+
+static void append_all(ArrayFile *file, const Course *course, int64_t from, int64_t to, Error *err)
+{
+    append(file, from, to, err);
+    append_noise(file, course, from, to, err);
+}
+
+static void cut_all(ArrayFile *file, const Course *course, int64_t rows, Error *err)
+{
+    assert_true(array_file_cut(file, "a/scalar", rows, err));
+    assert_true(array_file_cut(file, "wide", rows, err));
+    if (course->width > 0) assert_true(array_file_cut(file, "noise", rows, err));
+}
+
+static void expect_all(const char *path, const Course *course, int64_t count)
+{
+    Error err = {0};
+    double *read = NULL;
+    int64_t rows = 0, wrong = 0;
+    int32_t width = 0;
+    expect_rows(path, count);
+    if (course->width == 0) return;
+    ArrayFile *file = array_file_open(path, &err);
+    assert_true(array_file_read(file, "noise", &read, &rows, &width, &err));
+    assert_true(rows == count && width == course->width);
+    for (int64_t k = 0; k < rows; k++)
+        for (int32_t c = 0; c < width; c++) wrong += read[k * width + c] != noise_at(k, c);
+    assert_int_equal(wrong, 0);
+    memory_free(read);
+    assert_true(array_file_close(file, &err));
+}
+
+// kept: rows that are gone on with; negative: a new file.
+static void write_file(const char *path, const Course *course, int64_t kept, Error *err)
+{
+    ArrayFile *file = kept < 0 ? array_file_create(path, err) : array_file_reopen(path, err);
+    if (!file) fail_msg("%s", err->message);
+    if (kept < 0) add_series(file, err);
+    if (kept < 0 && course->width > 0)
+        assert_true(array_file_add_series(file,
+                                          &(ArraySeries){.name = "noise",
+                                                         .type = ARRAY_FLOAT64,
+                                                         .width = course->width,
+                                                         .unit = "1",
+                                                         .description = ""},
+                                          err));
+    if (kept >= 0) cut_all(file, course, kept, err);
+    int64_t at = kept < 0 ? 0 : kept, end = course->flushed * course->flushes;
+    while (at < end) {
+        int64_t next = at + course->flushed < end ? at + course->flushed : end;
+        append_all(file, course, at, next, err);
+        assert_true(array_file_flush(file, err));
+        at = next;
+    }
+    assert_true(array_file_close(file, err));
+}
+
+static bool is_killed(const char *path, const Course *course, int64_t kept, int64_t calls)
 {
     int status = 0;
+    Error err = {0};
     pid_t child = fork();
-    if (child == 0) write_until_killed(path, anew, writes);
+    if (child == 0) {
+        calls_left = calls;
+        names_only = course->width > 0;   // else it takes long
+        write_file(path, course, kept, &err);
+        _exit(error_is_clean(&err) ? 0 : 1);
+    }
     assert_int_equal(waitpid(child, &status, 0), child);
     if (WIFSIGNALED(status)) assert_int_equal(WTERMSIG(status), SIGKILL);
     if (!WIFSIGNALED(status)) assert_int_equal(WEXITSTATUS(status), 0);
     return WIFSIGNALED(status);
 }
 
-// What can be read now: so many whole flushes, the same for every series; -1: none yet.
+// What can be read now; -1: nothing yet.
 static int64_t flushed_rows(const char *path)
 {
     Error err = {0};
@@ -190,45 +286,169 @@ static int64_t flushed_rows(const char *path)
     int32_t width = 0;
     ArrayFile *file = array_file_open(path, &err);
     if (!file) return -1;
-    if (array_file_has(file, "wide"))
-        assert_true(array_file_read(file, "wide", &read, &rows, &width, &err));
+    assert_true(array_file_read(file, "a/scalar", &read, &rows, &width, &err));
     memory_free(read);
     array_file_close(file, &err);
-    if (rows > 0) expect_rows(path, rows);
-    assert_true(rows % FLUSHED == 0);
     return rows;
 }
 
-// At every write there is: what the last flush left can be read and gone on with; also where it was
-// being gone on with.
-TEST(test_killed_at_every_write)
+static bool has_parts(const char *place)
+{
+    return place_has(place, "file.h5.part") || place_has(place, "file.h5.part.1");
+}
+
+// What the last flush left can be read, all series equally long, and gone on with. Where a file is
+// gone on with (kept), that many rows are there at every moment.
+static void kill_everywhere(const Course *course, int64_t kept)
 {
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
-    bool anew = true;
-    int64_t before = -1, mid_flush = 0;
+    const int64_t end = course->flushed * course->flushes;
+    int32_t kills = 0, readable = 0;
+    Error err = {0};
+    bool killed = true;
     fill_values();
-    for (int64_t writes = 0;; writes++) {
+    for (int64_t calls = 0; killed; calls++) {
         place_make(place);
         snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
-        if (!anew) assert_true(is_killed(path, true, before));
-        bool killed = is_killed(path, anew, writes);
+        if (kept >= 0) write_file(path, course, -1, &err);
+        killed = is_killed(path, course, kept, calls);
         int64_t rows = flushed_rows(path);
-        mid_flush += place_has(place, "file.h5.journal");
-        if (rows >= FLUSHED) {
-            if (killed && anew && before < 0) before = writes;
-            go_on(path, FLUSHED, 2 * FLUSHED);
-            expect_rows(path, 2 * FLUSHED);
-            assert_false(place_has(place, "file.h5.journal"));
-        } else {
-            assert_true(anew && before < 0);
+        kills += killed;
+        readable += rows >= 0;
+        if (rows >= 0) expect_all(path, course, rows);
+        assert_true(killed || rows == end);
+        assert_true(kept < 0 || rows >= kept);
+        // A little less than there is, as a checkpoint has it.
+        int64_t taken = kept >= 0 ? kept : rows > 10 ? rows - 10 : rows;
+        if (killed && rows >= 0) {
+            write_file(path, course, taken, &err);
+            expect_all(path, course, end);
         }
+        if (rows >= 0) assert_false(has_parts(place));
         place_remove(place);
-        if (killed) continue;
-        if (!anew) break;
-        anew = false;
-        writes = -1;
     }
-    assert_true(before > 0 && mid_flush > 20);
+    print_message("%d kills, %d left a file\n", (int)kills, (int)readable);
+    assert_true(kills >= 4 && readable >= kills / 2);
+}
+
+TEST(test_killed_at_every_call)
+{
+    kill_everywhere(&(Course){.flushed = 1100, .flushes = 3}, -1);
+    kill_everywhere(&(Course){.flushed = 1100, .flushes = 3}, 1100);
+}
+
+// 12 MB: a part, and what comes after it.
+TEST(test_long_file_killed)
+{
+    kill_everywhere(&(Course){.flushed = 1000, .flushes = 3, .width = 512}, -1);
+}
+
+// Cut within an earlier part, and a finished one that is longer than a part.
+TEST(test_long_file_cut)
+{
+    kill_everywhere(&(Course){.flushed = 1000, .flushes = 3, .width = 512}, 1500);
+}
+
+TEST(test_long_file_while_it_is_written)
+{
+    Error err = {0};
+    const Course course = {.flushed = 1500, .flushes = 4, .width = 512};
+    const int64_t cuts[] = {5999, 3100, 3000, 100, 0};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    double *read = NULL;
+    int64_t rows = 0;
+    int32_t width = 0;
+    place_make(place);
+    fill_values();
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    ArrayFile *file = array_file_create(path, &err);
+    add_series(file, &err);
+    assert_true(array_file_set_number(file, "answer", 3, &err));
+    assert_true(array_file_set_text(file, "title", "long", &err));
+    const ArraySeries noise = {
+        .name = "noise", .type = ARRAY_FLOAT64, .width = 512, .unit = "length", .description = "n"};
+    assert_true(array_file_add_series(file, &noise, &err));
+    for (size_t k = 0; k < sizeof cuts / sizeof cuts[0]; k++) {
+        for (int64_t at = k == 0 ? 0 : cuts[k - 1]; at < 6000;) {
+            int64_t next = at / 1500 * 1500 + 1500;
+            append_all(file, &course, at, next, &err);
+            assert_true(array_file_flush(file, &err));
+            at = next;
+        }
+        assert_true(place_has(place, "file.h5.part.2"));
+        expect_all(path, &course, 6000);   // as another process reads it
+        cut_all(file, &course, cuts[k], &err);
+        assert_true(array_file_read(file, "noise", &read, &rows, &width, &err));
+        assert_int_equal(rows, cuts[k]);
+        for (int64_t c = 0; c < rows; c++) assert_true(read[c * width] == noise_at(c, 0));
+        memory_free(read);
+    }
+    append_all(file, &course, 0, 6000, &err);
+    assert_true(array_file_close(file, &err));
+    expect_all(path, &course, 6000);
+    assert_false(has_parts(place) || place_has(place, "file.h5.part.2"));
+    double number = 0;
+    char text[20];
+    file = array_file_open(path, &err);
+    assert_true(array_file_get_number(file, "answer", &number, &err) && number == 3);
+    assert_true(array_file_get_text(file, "title", text, sizeof text, &err));
+    assert_string_equal(text, "long");
+    assert_false(array_file_get_number(file, "parts", &number, &err));
+    array_file_close(file, &err);
+    place_remove(place);
+}
+
+// A part that is gone, or is another one's, is named; nothing is made up.
+TEST(test_a_part_is_missing)
+{
+    Error err = {0};
+    const Course course = {.flushed = 1500, .flushes = 2, .width = 512};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE], part[2 * PLACE_SIZE];
+    double *read = NULL;
+    int64_t rows = 0;
+    int32_t width = 0;
+    place_make(place);
+    fill_values();
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    snprintf(part, sizeof part, "%s", place_path(place, "file.h5.part.1"));
+    for (int32_t k = 0; k < 2; k++) {
+        ArrayFile *file = array_file_create(path, &err);
+        add_series(file, &err);
+        const ArraySeries noise = {
+            .name = "noise", .type = ARRAY_FLOAT64, .width = 512, .unit = "1", .description = ""};
+        assert_true(array_file_add_series(file, &noise, &err));
+        for (int64_t at = 0; at < 3000; at += 1500) {
+            append_all(file, &course, at, at + 1500, &err);
+            assert_true(array_file_flush(file, &err));
+        }
+        array_file_abandon(file);
+        assert_true(place_has(place, "file.h5.part.1"));
+        if (k == 0) unlink(part);
+        if (k == 1) {   // fewer rows
+            char other[2 * PLACE_SIZE];
+            snprintf(other, sizeof other, "%s", place_path(place, "other.h5"));
+            file = array_file_create(other, &err);
+            add_series(file, &err);
+            assert_true(array_file_add_series(file, &noise, &err));
+            append_all(file, &course, 0, 700, &err);
+            assert_true(array_file_close(file, &err));
+            assert_int_equal(rename(other, part), 0);
+        }
+        file = array_file_open(path, &err);
+        assert_non_null(file);
+        assert_false(array_file_read(file, "noise", &read, &rows, &width, &err));
+        assert_non_null(strstr(err.message, "file.h5.part.1"));
+        err = (Error){0};
+        array_file_close(file, &err);
+        file = array_file_reopen(path, &err);
+        assert_non_null(file);
+        assert_false(array_file_close(file, &err));
+        assert_non_null(strstr(err.message, "file.h5.part.1"));
+        assert_true(place_has(place, "file.h5.part") && !place_has(place, "file.h5"));
+        err = (Error){0};
+        unlink(place_path(place, "file.h5.part"));
+    }
+    place_remove(place);
 }
 
 // Missing, no HDF5 file, fewer rows, no such series, being written.
@@ -237,7 +457,9 @@ TEST(test_refused)
     Error err = {0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     place_make(place);
+    assert_true(own_list_make(place, &err));
     snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    assert_true(own_list_add(path, &err));
     assert_null(array_file_reopen(path, &err));
     assert_int_equal(err.code, ERROR_FILE);
     err = (Error){0};
@@ -260,25 +482,5 @@ TEST(test_refused)
     assert_false(array_file_cut(file, "b", 1, &err));
     assert_int_equal(err.code, ERROR_FILE);
     array_file_abandon(file);
-    place_remove(place);
-}
-
-// HDF5 1.10 keeps half a file whose descriptor does not close, and crashes on it at the program's
-// end: that of this test.
-TEST(test_a_read_file_that_does_not_close)
-{
-    Error err = {0};
-    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
-    place_make(place);
-    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
-    ArrayFile *file = array_file_create(path, &err);
-    add_series(file, &err);
-    append(file, 0, 10, &err);
-    assert_true(array_file_close(file, &err));
-    file = array_file_open(path, &err);
-    assert_non_null(file);
-    closing_fails = true;
-    array_file_close(file, &err);
-    closing_fails = false;
     place_remove(place);
 }

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@ FIXTURE(make_folder)
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
     if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
     snprintf(folder, sizeof folder, "/tmp/amontons_result_XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)
@@ -53,10 +54,12 @@ static ResultHead head_of_a_run(void)
     return head;
 }
 
-// Differs for every series, step and node; small integers, so that every stored type holds it.
+// Differs for every series, step and node; small integers, so that every stored type holds it, and
+// where one chooses something, one that there is.
 static double value_at(int32_t series, int32_t step, int32_t node)
 {
-    return (7 * series + 3 * step + node) % 250;
+    int32_t choices = series == SERIES_STATUS ? 4 : series == SERIES_CERTIFIED ? 2 : 250;
+    return (7 * series + 3 * step + node) % choices;
 }
 
 static void assert_clean(const Error *err)
@@ -127,6 +130,72 @@ TEST(a_result_comes_back)
     assert_true(array_file_close(file, &err));
 }
 
+// A file may be anybody's: what would become an index, or is beyond all measure, is refused.
+TEST(numbers_have_ranges)
+{
+    const struct {
+        const char *name;
+        double value;
+    } bad[] = {{"nodes/pad", 2e9},      {"nodes/pad", -1},       {"nodes/pad", NODES},
+               {"interface/status", 4}, {"series/certified", 2}, {"series/mu", INFINITY},
+               {"series/time", 1e200},  {"nodes/x", -INFINITY},  {"events/kind", 4},
+               {"events/kind", -1},     {"events/kind", 0.5},    {"peaks/counts", NAN},
+               {"peaks/U", 1e101}};
+    char place[280], path[300];
+    snprintf(place, sizeof place, "%s/ranges", folder);   // the other file is read by others
+    snprintf(path, sizeof path, "%s/history.h5", place);
+    assert_int_equal(mkdir(place, 0777), 0);
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        Error err = {0};
+        ResultHead head = head_of_a_run();
+        double pads[NODES], x[NODES], *values = NULL, *column[1] = {NULL};
+        int64_t rows;
+        int32_t width, count;
+        memcpy(pads, node_pad, sizeof pads);
+        memcpy(x, node_x, sizeof x);
+        if (strcmp(bad[k].name, "nodes/pad") == 0) pads[1] = bad[k].value;
+        if (strcmp(bad[k].name, "nodes/x") == 0) x[1] = bad[k].value;
+        head.nodes[NODES_X] = x;
+        ArrayFile *file = result_file_create(place, &head, &err);
+        assert_clean(&err);
+        assert_true(array_file_cut(file, "nodes/pad", 0, &err));   // the width of series is of it
+        assert_true(array_file_append(file, "nodes/pad", pads, NODES, &err));
+        for (int32_t s = 0; s < RESULT_SERIES_COUNT; s++) {
+            if (!result_series_written(&head, s)) continue;
+            double row[NODES] = {0};
+            if (strcmp(bad[k].name, result_series_name(s)) == 0) row[0] = bad[k].value;
+            assert_true(array_file_append(file, result_series_name(s), row, 1, &err));
+        }
+        for (int32_t t = 0; t < RESULT_TABLES_COUNT; t++)
+            if (strcmp(bad[k].name, result_table_name(t)) == 0)
+                assert_true(result_file_write_table(file, t, &bad[k].value, 1, &err));
+        assert_true(array_file_close(file, &err));
+        file = result_file_open(place, &err);
+        assert_clean(&err);
+        bool good = true;
+        for (int32_t s = 0; good && s < RESULT_SERIES_COUNT; s++)
+            if (result_series_written(&head, s)) {
+                good = result_file_read_series(file, s, &values, &rows, &width, &err);
+                memory_free(values);
+            }
+        if (good && (good = result_file_read_nodes(file, NODES_X, &values, &count, &err)))
+            memory_free(values);
+        for (ResultTable t = 0; good && t < RESULT_TABLES_COUNT; t++) {
+            good = result_file_read_tables(file, &t, 1, column, &count, &err);
+            memory_free(column[0]);
+        }
+        if (good && (good = result_file_read_nodes(file, NODES_PAD, &values, &count, &err)))
+            memory_free(values);
+        if (good) fail_msg("%s of %g is taken", bad[k].name, bad[k].value);
+        assert_int_equal(err.code, ERROR_FILE);
+        assert_non_null(strstr(err.message, bad[k].name));
+        err = (Error){0};
+        assert_true(array_file_close(file, &err));
+    }
+    unlink(path);
+    assert_int_equal(rmdir(place), 0);
+}
+
 TEST(what_is_missing_is_named)
 {
     Error err = {0};
@@ -151,6 +220,7 @@ TEST(every_path_frees_when_memory_is_short)
     snprintf(place, sizeof place, "%s/short", folder);
     snprintf(path, sizeof path, "%s/history.h5", place);
     assert_int_equal(mkdir(place, 0777), 0);
+    assert_true(own_list_make(place, &(Error){0}));
     int64_t live = memory_counters().live;
     ErrorCode code = ERROR_MEMORY;
     int32_t k = 0;
@@ -179,6 +249,8 @@ TEST(every_path_frees_when_memory_is_short)
     }
     assert_int_equal(code, ERROR_NONE);
     assert_in_range(k, 40, 70);   // two arrays a series and a few more
+    unlink(path);
+    snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, place);
     unlink(path);
     assert_int_equal(rmdir(place), 0);
 }

@@ -17,7 +17,6 @@ static inline void assert_same_group(const MeshGroup *group, const MeshGroup *ot
     assert_int_equal(group->nodes_per_face, other->nodes_per_face);
     assert_int_equal(group->node_count, other->node_count);
     assert_int_equal(group->element_count, other->element_count);
-    assert_int_equal(group->blurred, other->blurred);
     int32_t ends = group->face_count * group->nodes_per_face;
     if (ends) SAME_ITEMS(group->face_nodes, other->face_nodes, ends);
     if (group->node_count) SAME_ITEMS(group->nodes, other->nodes, group->node_count);

@@ -58,7 +58,7 @@ static void read_well(const char *path, const MeshParameter *parameters, int32_t
                       MeshFile *mesh)
 {
     Error err = {0};
-    bool done = mesh_file_read(path, parameters, count, mesh, &err);
+    bool done = mesh_file_read(path, parameters, count, false, mesh, &err);
     if (!done) fail_msg("%s", err.message);
 }
 
@@ -69,7 +69,7 @@ static void read_badly(const char *path, const MeshParameter *parameter, const c
     Error err = {0};
     MeshFile mesh;
     int64_t live = memory_counters().live;
-    bool done = mesh_file_read(path, parameter, parameter ? 1 : 0, &mesh, &err);
+    bool done = mesh_file_read(path, parameter, parameter ? 1 : 0, false, &mesh, &err);
     mesh_file_destroy(&mesh);
     assert_false(done);
     assert_int_equal(err.code, ERROR_INPUT);
@@ -349,15 +349,108 @@ TEST(test_two_groups_in_22)
     mesh_file_destroy(&mesh);
 }
 
-// Two groups on one elementary number: gmsh would give each the edges of both.
-TEST(test_shared_number_in_22)
+// The right one of two cells is in group 8 as well, the left edge in group 1, the right one in 2.
+static void check_told_apart(const char *path, int32_t times)
 {
+    MeshFile mesh;
+    MeshParameter refine = {"refine", times, ""};
+    Error err = {0};
+    read_well(path, &refine, 1, &mesh);
+    assert_int_equal(mesh.element_count, 2 * times * times);
+    const MeshGroup *left = mesh_file_group(&mesh, path, "1", 1, &err);
+    const MeshGroup *right = mesh_file_group(&mesh, path, "2", 1, &err);
+    const MeshGroup *all = mesh_file_group(&mesh, path, "7", 2, &err);
+    const MeshGroup *one = mesh_file_group(&mesh, path, "8", 2, &err);
+    assert_true(left && right && all && one);
+    assert_int_equal(left->face_count, times);
+    assert_int_equal(right->face_count, times);
+    assert_int_equal(all->element_count, 2 * times * times);
+    assert_int_equal(one->element_count, times * times);
+    for (int32_t k = 0; k < right->node_count; k++)
+        assert_true(mesh.position[2 * right->nodes[k]] >= 1);
+    mesh_file_destroy(&mesh);
+}
+
+// Numbers of entities are the file's own matter: all 1, all 0 as meshio has them, or none.
+TEST(test_entities_in_22)
+{
+    static const char *const forms[] = {"%d 2 %d 1 ", "%d 2 %d 0 ", "%d 1 %d ",
+                                        "%d 5 %d 1 2 1 -2 "};
+    static const char *const ends[] = {"1 2", "2 3", "1 2 5 4", "2 3 6 5", "2 3 6 5"};
+    static const int types[] = {1, 1, 3, 3, 3}, groups[] = {1, 2, 7, 7, 8};
+    char path[PATH_SIZE], text[1000];
+    for (size_t f = 0; f < sizeof forms / sizeof *forms; f++) {
+        int length = snprintf(text, sizeof text, HEAD_22 NODES_22 "$Elements\n5\n");
+        for (int k = 0; k < 5; k++) {
+            length += snprintf(text + length, sizeof text - (size_t)length, "%d ", k + 1);
+            length += snprintf(text + length, sizeof text - (size_t)length, forms[f], types[k],
+                               groups[k]);
+            length += snprintf(text + length, sizeof text - (size_t)length, "%s\n", ends[k]);
+        }
+        snprintf(text + length, sizeof text - (size_t)length, "$EndElements\n");
+        write_file("shared.msh", text, path);
+        check_told_apart(path, 1);
+    }
+}
+
+// The same in a binary file, elements one by one as meshio writes them.
+TEST(test_entities_in_binary_22)
+{
+    static const int32_t blocks[][3] = {{1, 1, 2}, {1, 1, 2}, {3, 1, 2}, {3, 1, 2}, {3, 1, 2}};
+    static const int32_t numbers[][7] = {{1, 1, 0, 1, 2},
+                                         {2, 2, 0, 2, 3},
+                                         {3, 7, 0, 1, 2, 5, 4},
+                                         {4, 7, 0, 2, 3, 6, 5},
+                                         {5, 8, 0, 2, 3, 6, 5}};
+    static const double places[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
     char path[PATH_SIZE];
-    write_file("shared.msh",
-               HEAD_22 NODES_22 "$Elements\n4\n1 1 2 1 1 1 2\n2 1 2 2 1 2 3\n3 3 2 7 1 1 2 5 4\n"
-                                "4 3 2 7 1 2 3 6 5\n$EndElements\n",
+    int32_t one = 1;
+    FILE *file = fopen(write_file("binary.msh", "", path), "wb");
+    assert_non_null(file);
+    fprintf(file, "$MeshFormat\n2.2 1 8\n");
+    fwrite(&one, 4, 1, file);
+    fprintf(file, "\n$EndMeshFormat\n$Nodes\n6\n");
+    for (int32_t i = 0; i < 6; i++) {
+        int32_t number = i + 1;
+        fwrite(&number, 4, 1, file);
+        fwrite(places + 3 * i, 8, 3, file);
+    }
+    fprintf(file, "\n$EndNodes\n$Elements\n5\n");
+    for (int32_t k = 0; k < 5; k++) {
+        fwrite(blocks[k], 4, 3, file);
+        fwrite(numbers[k], 4, k < 2 ? 5 : 7, file);
+    }
+    fprintf(file, "\n$EndElements\n");
+    assert_int_equal(fclose(file), 0);
+    check_told_apart(path, 1);
+}
+
+// Endings of gmsh and of other systems, and what an editor puts before the first word.
+TEST(test_names_and_marks)
+{
+    static const char *const names[] = {"HAND.MSH", "hand.msh2", "hand.Msh4"};
+    char path[PATH_SIZE];
+    MeshFile mesh;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        write_file(names[k], HEAD_22 NAMES_22 NODES_22 ELEMENTS_22, path);
+        read_well(path, NULL, 0, &mesh);
+        assert_int_equal(mesh.element_count, 2);
+        mesh_file_destroy(&mesh);
+    }
+    write_file("mark.msh", "\xEF\xBB\xBF" HEAD_22 NAMES_22 NODES_22 ELEMENTS_22, path);
+    read_well(path, NULL, 0, &mesh);
+    assert_int_equal(mesh.element_count, 2);
+    mesh_file_destroy(&mesh);
+    write_file("BLOCK.GEO",
+               "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0};\n"
+               "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\n"
+               "Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n",
                path);
-    read_badly(path, NULL, "group '1'", "shares an elementary number", "element 1");
+    read_well(path, NULL, 0, &mesh);
+    assert_true(mesh.element_count > 0);
+    mesh_file_destroy(&mesh);
+    read_badly(write_file("part.step", "x", path), NULL, "meshes/step3d.geo", NULL, NULL);
+    read_badly(write_file("part.vtu", "x", path), NULL, "meshio", NULL, NULL);
 }
 
 // --- files that are wrong -----------------------------------------------------------------------
@@ -374,8 +467,8 @@ TEST(test_not_a_mesh)
     read_badly(write_file("mesh.vtk", "x", path), NULL, "a .msh or a .geo", NULL, NULL);
     read_badly(write_file("junk.msh", "hello\nworld\n", path), NULL, "is not a gmsh mesh",
                "$MeshFormat", NULL);
-    read_badly(write_file("junk.geo", "hello world\n", path), NULL, "gmsh failed while reading it",
-               "line 1", NULL);
+    read_badly(write_file("junk.geo", "hello world\n", path), NULL, "junk.geo:1: `hello`",
+               "neither a word of gmsh", NULL);
     read_badly(write_file("head.msh", "$MeshFormat\n", path), NULL, "truncated", NULL, NULL);
     read_badly(write_file("none.msh", "$MeshFormat\nx 0 8\n", path), NULL, "no version", NULL,
                NULL);
@@ -443,8 +536,17 @@ TEST(test_repeated_names)
                "$PhysicalNames\n2\n1 1 \"contact\"\n2 7 \"contact\"\n$EndPhysicalNames\n" NODES_22
                    ELEMENTS_22,
                path);
-    read_badly(path, NULL, "'contact' is used twice", "group 1 of dimension 1",
-               "group 7 of dimension 2");
+    MeshFile mesh;   // a curve and a surface of one name
+    read_well(path, NULL, 0, &mesh);
+    assert_int_equal(mesh_file_group(&mesh, path, "contact", 1, &(Error){0})->face_count, 2);
+    assert_int_equal(mesh_file_group(&mesh, path, "contact", 2, &(Error){0})->element_count, 2);
+    mesh_file_destroy(&mesh);
+    write_file("pair.msh",
+               HEAD_22
+               "$PhysicalNames\n2\n1 1 \"contact\"\n1 2 \"contact\"\n$EndPhysicalNames\n" NODES_22
+               "$Elements\n3\n1 1 2 1 1 1 2\n2 1 2 2 2 2 3\n3 3 2 7 1 1 2 5 4\n$EndElements\n",
+               path);
+    read_badly(path, NULL, "'contact' is used twice", "groups 1 and 2 of dimension 1", NULL);
     write_file("same.geo",
                "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0};\n"
                "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\n"
@@ -508,7 +610,7 @@ static void exhaust(const char *path, const MeshParameter *parameters, int32_t c
         Error err = {0};
         MeshFile mesh;
         memory_fail_after(k);
-        done = mesh_file_read(path, parameters, count, &mesh, &err);
+        done = mesh_file_read(path, parameters, count, false, &mesh, &err);
         memory_fail_after(-1);
         if (!done) assert_int_equal(err.code, ERROR_MEMORY);
         mesh_file_destroy(&mesh);

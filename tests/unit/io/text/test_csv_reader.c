@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 static const char PATH[] = "csv_reader_test.csv";
@@ -67,16 +68,17 @@ TEST(other_line_ends_are_read)
     csv_destroy(&table);
     assert_true(read_text("x,y\n 1 , -2\n1, \n", &table, &err));
     assert_true(csv_value(&table, 0, 0) == 1 && csv_value(&table, 0, 1) == -2);
+    assert_true(isnan(csv_value(&table, 1, 1)));
     assert_true(csv_check(&table, 1, false, &err) && csv_check(&table, -1, true, &err));
     assert_false(csv_check(&table, 1, true, &err));
-    assert_string_equal(err.message,
-                        "line 2, y: ` -2` is no number above 0; what is not known is left empty");
+    assert_string_equal(err.message, "csv_reader_test.csv:2:6: y: `-2` is no number above 0; what "
+                                     "is not known is left empty");
     csv_destroy(&table);
 }
 
 TEST(wrong_tables_are_told)
 {
-    static const char *const wrong[] = {"", "a,b\n1\n", "a\n1,2\n", "a,b\n1,", "a,b\n\"1,2\n3,4\n"};
+    static const char *const wrong[] = {"", "a,b\n1\n", "a\n1,2\n", "a,b\n\"1,2\n3,4\n"};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         Error err = {0};
         CsvTable table;
@@ -85,4 +87,132 @@ TEST(wrong_tables_are_told)
         assert_null(table.cells);
         csv_destroy(&table);
     }
+}
+
+// The same numbers as programs write them.
+TEST(as_it_is_written)
+{
+    static const char *const same[] = {
+        "U,mu\n0.5,1.25\n2,-3e-2\n",
+        "U;mu\n0,5;1,25\n2;-3e-2\n",
+        "U\tmu\n0,5\t1,25\n2\t-0,03\n",
+        "U\tmu\n0.5\t1.25\n2\t-0.03\n",
+        "U mu\n0.5   1.25\n  2 -0.03\n",
+        "U mu\n0,5 1,25\n2 -0,03\n",
+        "U , mu\n 0.5 , 1.25\n 2 , -0.03 \n",
+        "\"U\",\"mu\"\n\"0,5\",\"1,25\"\n\"2\",\"-0,03\"\n",
+        "# by hand\n\nU,mu\n# two\n0.5,1.25\n   \n2,-0.03\n\n",
+        "# by hand\n# U mu\n0.5 1.25\n2 -0.03\n",
+        "# by hand\n# U mu\n0.5, 1.25\n2, -0.03\n",
+        "# U, mu\n0.5 1.25\n2 -0.03\n",
+        "U, mu\n0.5 1.25\n2 -0.03\n",
+        "% U;mu\r\n0,5;1,25;\r\n2;-0,03;\r\n",
+        "\xEF\xBB\xBFU,mu\r0.5,1.25\r2,-0.03",
+    };
+    for (size_t k = 0; k < sizeof same / sizeof *same; ++k) {
+        Error err = {0};
+        CsvTable table;
+        if (!read_text(same[k], &table, &err)) fail_msg("%zu: %s", k, err.message);
+        assert_true(table.rows == 2 && table.columns == 2);
+        assert_int_equal(csv_column(&table, "U"), 0);
+        assert_int_equal(csv_column(&table, "mu"), 1);
+        const double expected[] = {0.5, 1.25, 2, -0.03};
+        for (int32_t c = 0; c < 4; ++c)
+            if (csv_value(&table, c / 2, c % 2) != expected[c]) fail_msg("%zu: cell %d", k, c);
+        csv_destroy(&table);
+    }
+}
+
+TEST(numbers_alone)
+{
+    static const char *const same[] = {"0.5,1.25\n2,3\n", "0.5, 1.25\n2, 3\n", "0,5 1,25\n2 3\n",
+                                       "0,5;1,25\n2;3", "# measured\n0.5\t1.25\n2\t3\n"};
+    for (size_t k = 0; k < sizeof same / sizeof *same; ++k) {
+        Error err = {0};
+        CsvTable table;
+        assert_false(read_text(same[k], &table, &err));
+        assert_non_null(strstr(err.message, "the first row names the columns"));
+        error_clear(&err);
+        FILE *file = fopen(PATH, "w");
+        fputs(same[k], file);
+        fclose(file);
+        if (!csv_read_bare(PATH, &table, &err)) fail_msg("%zu: %s", k, err.message);
+        unlink(PATH);
+        assert_false(table.named);
+        assert_true(table.rows == 2 && table.columns == 2);
+        assert_true(csv_value(&table, 0, 0) == 0.5 && csv_value(&table, 1, 1) == 3);
+        csv_destroy(&table);
+    }
+}
+
+// What is wrong is told with file, line and place.
+TEST(what_is_not_understood_is_told)
+{
+    static const struct {
+        const char *text, *words;
+    } wrong[] = {
+        {"U,mu,U\n1,2,3\n", "csv_reader_test.csv:1:6: U stands twice, in column 1 and in column 3"},
+        {"# a\nU;mu\n0,5;1\n\n0.5;2\n",
+         "csv_reader_test.csv:5:1: U: is `0.5`, but line 3 has `0,5`"},
+        {"U,mu\n0,5,1,25\n", "csv_reader_test.csv:2: 4 cells, the first row has 2; are these"},
+        {"U,mu\n\n1\n", "csv_reader_test.csv:3: 1 cell, the first row has 2"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+        Error err = {0};
+        CsvTable table;
+        assert_false(read_text(wrong[k].text, &table, &err));
+        if (!strstr(err.message, wrong[k].words)) fail_msg("%s", err.message);
+    }
+}
+
+TEST(units_behind_names)
+{
+    static const struct {
+        const char *name, *asked, *unit;   // unit NULL: another name
+    } heads[] = {
+        {"U", "U", ""},          {"U (mm)", "U", "mm"},         {"F_T [kN]", "F_T", "kN"},
+        {"t/s", "t", "s"},       {"t in s", "t", "s"},          {"U mm", "U", "mm"},
+        {"x_mm", "x", "mm"},     {"v/(m/s)", "v", "m/s"},       {"v (m/s)", "v", "m/s"},
+        {"v mm/s", "v", "mm/s"}, {"U (parsec)", "U", "parsec"}, {"F_T/F_N", "F_T", NULL},
+        {"U/L", "U", NULL},      {"x_error", "x", NULL},        {"F_N", "F", "N"},
+        {"load", "l", NULL},     {"t[ min ]", "t", "min"},
+    };
+    for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
+        char text[80];
+        Error err = {0};
+        CsvTable table;
+        CsvUnit unit;
+        int32_t column = -1;
+        snprintf(text, sizeof text, "a;%s\n1;2\n", heads[k].name);
+        assert_true(read_text(text, &table, &err));
+        assert_true(csv_find(&table, heads[k].asked, &column, &unit, &err));
+        if ((column == 1) != (heads[k].unit != NULL)) fail_msg("%s", heads[k].name);
+        if (column == 1 && (unit.length != (int32_t)strlen(heads[k].unit) ||
+                            strncmp(unit.text, heads[k].unit, (size_t)unit.length) != 0))
+            fail_msg("%s: %.*s", heads[k].name, unit.length, unit.text);
+        csv_destroy(&table);
+    }
+}
+
+TEST(one_quantity_stands_once)
+{
+    Error err = {0};
+    CsvTable table;
+    CsvUnit unit;
+    int32_t column = -1, length = 0;
+    double factor = 0;
+    assert_true(read_text("U (mm),U/um,load.pressure (kPa)\n1,2,3\n", &table, &err));
+    assert_false(csv_find(&table, "U", &column, &unit, &err));
+    assert_string_equal(err.message, "csv_reader_test.csv:1:8: U/um is U a second time, beside "
+                                     "column 1, U (mm)");
+    error_clear(&err);
+    csv_split(&table, 2, &length, &unit);
+    assert_int_equal(length, strlen("load.pressure"));
+    assert_true(csv_to_si(&table, 2, unit, "stress", &factor, &err));
+    assert_true(factor == 1000);
+    assert_false(csv_to_si(&table, 2, unit, "length", &factor, &err));
+    assert_string_equal(err.message,
+                        "csv_reader_test.csv:1:13: load.pressure (kPa) has `kPa`, which "
+                        "is no unit of length; allowed: m, mm, um");
+    csv_destroy(&table);
 }

@@ -25,6 +25,7 @@ TEST(cells_are_quoted_where_they_must_be)
 {
     Error err = {0};
     char text[400];
+    unlink(path);
     CsvWriter *csv = csv_create(path, &err);
     assert_non_null(csv);
     csv_text(csv, "plain");
@@ -46,6 +47,7 @@ TEST(numbers_keep_their_bits)
     static const double values[] = {1.0 / 3, 1e-300, 123456789.0, -0.38, 5e-324, 4};
     Error err = {0};
     char text[400], *at = text;
+    unlink(path);
     CsvWriter *csv = csv_create(path, &err);
     for (int32_t k = 0; k < 6; k++) csv_number(csv, values[k]);
     csv_end_row(csv);
@@ -64,6 +66,7 @@ TEST(rounded_numbers_have_nine_digits)
     enum { COUNT = sizeof values / sizeof *values };
     Error err = {0};
     char text[400], *at = text;
+    unlink(path);
     CsvWriter *csv = csv_create(path, &err);
     for (int32_t k = 0; k < COUNT; k++) csv_rounded(csv, values[k]);
     csv_rounded(csv, NAN);
@@ -85,6 +88,7 @@ TEST(long_files_are_whole)
     Error err = {0};
     enum { ROWS = 30000 };
     static char text[20 * ROWS];
+    unlink(path);
     CsvWriter *csv = csv_create(path, &err);
     for (int32_t k = 0; k < ROWS; k++) {
         csv_number(csv, k);
@@ -108,6 +112,7 @@ TEST(nothing_is_left_of_an_abandoned_one)
     Error err = {0};
     unlink(path);
     int64_t live = memory_counters().live;
+    unlink(path);
     CsvWriter *csv = csv_create(path, &err);
     csv_text(csv, "half");
     csv_abandon(csv);

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "cases.h"
+#include "io/files/own_list.h"
 
 #include <math.h>
 #include <signal.h>
@@ -22,7 +23,7 @@ static char path[128], part[136];
 FIXTURE(make_folder)
 {
     snprintf(folder, sizeof folder, "/tmp/amontons_json_XXXXXX");
-    if (!mkdtemp(folder)) return -1;
+    if (!mkdtemp(folder) || !own_list_make(folder, &(Error){0})) return -1;
     snprintf(path, sizeof path, "%s/document", folder);
     snprintf(part, sizeof part, "%s.part", path);
     return 0;
@@ -30,6 +31,8 @@ FIXTURE(make_folder)
 
 FIXTURE(remove_folder)
 {
+    unlink(path);
+    snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, folder);
     unlink(path);
     return rmdir(folder);   // fails when anything else was left
 }

@@ -58,3 +58,37 @@ TEST(what_is_given_goes_before)
     assert_string_equal(style.title, "words");
     assert_null(style.limits);
 }
+
+// An option that no figure of those asked for takes is refused, of the block's figures, too.
+TEST(options_fit_their_figures)
+{
+    static const char *const density[] = {"contact-density"}, *const two[] = {"force",
+                                                                              "precursors"};
+    static const char *const field[] = {"field"}, *const plot[] = {"plot"};
+    const struct {
+        PictureStyle style;
+        FieldChoice field;
+        const char *const *figures;
+        int32_t count;
+        const char *says;   // NULL: allowed
+    } cases[] = {
+        {{.from = "U=1"},
+         {0},
+         density,
+         1,
+         "from has no meaning for contact-density: it is an option of force, slip-map, state-map"},
+        {{.from = "U=1 parsec"}, {0}, two, 2, NULL},   // force takes it, and looks at its value
+        {{0}, {.at = "U=1"}, two, 2, "at has no meaning for force and the others"},
+        {{0}, {.at = "U=1"}, field, 1, NULL},
+        {{0}, {.edges = true}, two + 1, 1, "edges has no meaning for precursors"},
+        {{.pixels = "mean"}, {0}, plot, 1, "pixels has no meaning for plot"},
+        {{.limits = "0,1", .width = 100, .warnings = "none"}, {0}, plot, 1, NULL},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        Error err = {0};
+        bool fits = picture_options_fit(&cases[k].style, &cases[k].field, cases[k].figures,
+                                        cases[k].count, &err);
+        if (fits != !cases[k].says) fail_msg("case %zu", k);
+        if (!fits && !strstr(err.message, cases[k].says)) fail_msg("%s", err.message);
+    }
+}

@@ -117,6 +117,20 @@ TEST(any_range_gets_ticks)
     }
 }
 
+// Of what is counted: ranks 1 to 3 have a tick each and none between them, 0 to 20 whole ones.
+TEST(whole_numbers_have_no_ticks_between)
+{
+    const double ends[][2] = {{0.8, 3.2}, {1, 2}, {0, 8.4}, {0, 20}, {0, 100}};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; ++k) {
+        Ticks ticks = ticks_choose(ends[k][0], ends[k][1], 6);
+        ticks = ticks_whole(&ticks, ends[k][0], ends[k][1]);
+        assert_true(ticks.count >= 2);
+        double minor = ticks.step / ticks.minor;
+        if (ticks.step != floor(ticks.step) || minor != floor(minor))
+            fail_msg("%g to %g: step %g of %d", ends[k][0], ends[k][1], ticks.step, ticks.minor);
+    }
+}
+
 TEST(no_range_no_ticks)
 {
     assert_int_equal(ticks_choose(1, 1, 5).count, 0);

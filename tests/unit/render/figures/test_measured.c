@@ -70,6 +70,14 @@ TEST(units_and_quotients)
     assert_float_equal(measured.value[0], 0.2, 1e-15);
     assert_float_equal(measured.at[0], 1e-3, 1e-15);
     measured_destroy(&measured);
+    assert_true(take("F_N (kN);F_T (N);U/mm\n2;400;1,0\n", MEASURED_MU, &measured, &err));
+    assert_float_equal(measured.value[0], 0.2, 1e-15);   // semicolons, decimal commas, N over kN
+    assert_float_equal(measured.at[0], 1e-3, 1e-15);
+    measured_destroy(&measured);
+    assert_true(
+        take("x (cm),v (m/s),v_error (km/s)\n5,500,0.01\n", MEASURED_SPEED, &measured, &err));
+    assert_float_equal(measured.error[0], 10, 1e-12);
+    measured_destroy(&measured);
     assert_true(take("U (um),x (cm),error\n1000,1.5,0.1\n", MEASURED_FRONT, &measured, &err));
     assert_float_equal(measured.value[0], 0.015, 1e-15);
     assert_non_null(strstr(measured.words, "misfit 0.05 ~{L}, 5 of its errors"));
@@ -131,15 +139,20 @@ TEST(what_is_wrong_is_said)
 {
     static const char *const cases[][2] = {
         {"U,mu\n1,2\n", "U needs a unit"},
-        {"U (ft),mu\n1,2\n", "no unit \"ft\" for it"},
+        {"U (ft),mu\n1,2\n", ":1:1: U (ft) has `ft`, which is no unit of length; allowed: m"},
         {"U (mm),y\n1,2\n", "it needs the columns"},
-        {"U (mm),mu\n1\n", "cells"},
+        {"U (mm),mu\n1\n", ":2: 1 cell, the first row has 2"},
         {"U (mm),mu\n", "there is no row"},
-        {"U (mm),mu\n1,\n1,0.3 kN\n", "line 3, mu: `0.3 kN` is no number;"},
-        {"U (mm),x (cm),mu\n1,?,1\n", "line 2, x (cm): `?`"},
+        {"U (mm),mu\n1,\n1,0.3 kN\n", ":3:3: mu: `0.3 kN` is no number;"},
+        {"U (mm),x (cm),mu\n1,?,1\n", ":2:3: x (cm): `?`"},
         {"U (mm),mu\n1e999,1\n", "`1e999` is no number;"},
         {"U (mm),mu,error\n1,1,0\n", "error: `0` is no number above 0"},
-        {"U (mm),F_T,F_N\n1,1,0\n", "F_N: `0` is no number above 0"}};
+        {"U (mm),F_T,F_N\n1,1,0\n", "F_N: `0` is no number above 0"},
+        {"U (mm),F_T (N),F_N\n1,1,1\n", "F_N cannot stand under F_T (N): both need units"},
+        {"U (mm),F_T (N),F_N (N/m)\n1,1,1\n", "cannot stand under"},
+        {"U (mm),mu,U/L\n1,1,1\n", ":1:1: U (mm) is U a second time, beside U/L"},
+        {"U (mm),mu,F_T/F_N\n1,1,1\n", "F_T/F_N is mu a second time"},
+        {"U (mm),mu,mu\n1,1,1\n", "mu stands twice, in column 2 and in column 3"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         Error err = {0};
         Measured measured;

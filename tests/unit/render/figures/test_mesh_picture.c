@@ -39,7 +39,7 @@ static RenderMesh mesh_by_hand(MeshGroup groups[3])
                         .groups = groups,
                         .rod_low = 0.4,
                         .rod_high = 0.6,
-                        .style = {.dpi = 118.14}};   // 400 pixels
+                        .style = {.dpi = 118.14, .overwrite = true}};   // 400 pixels
 }
 
 // Width and height from the file's own head.

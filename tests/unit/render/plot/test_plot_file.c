@@ -183,7 +183,7 @@ TEST(map_shows_its_values)
 static void draw_and_free_all(const char *text)
 {
     Error err = {0};
-    const PictureStyle small = {.width = 100, .dpi = 150};
+    const PictureStyle small = {.width = 100, .dpi = 150, .overwrite = true};
     int64_t live = memory_counters().live, k = 0;
     write_plot(text);
     if (!amontons_render_plot(path, png, &small, &err)) fail_msg("%s", err.message);

@@ -4,6 +4,7 @@
 
 #include "amontons.h"
 #include "base/text.h"
+#include "io/files/own_list.h"
 
 #include "place_fixture.h"
 
@@ -28,40 +29,26 @@ static void expect_error(const char *folder, bool overwrite, ErrorCode code, con
     if (!strstr(err.message, words)) fail_msg("'%s' is not in: %s", words, err.message);
 }
 
-// What files of ours hold, by the end of their names: enough to be known.
-static const char *ours(const char *name)
-{
-    static const char *const held[][2] = {{".json", "{\n  \"status\": \"done\",\n"},
-                                          {"checkpoint.bin", "amontons-state 1\n"},
-                                          {".h5", "\x89HDF\r\n nodes series contact"},
-                                          {".pvd", "  <Collection>\n  </Collection>\n"},
-                                          {".vtu", "<DataArray Name=\"stress_elastic\"/>"},
-                                          {".vtp", "<DataArray Name=\"slip_rate\"/>"}};
-    if (strcmp(name, "figures/accuracy.json") == 0) return "{\"x\": {\"label\": \"contact nodes\"";
-    for (size_t k = 0; k < sizeof held / sizeof *held; k++)
-        if (text_ends_with(name, held[k][0])) return held[k][1];
-    if (text_ends_with(name, ".html")) return "<meta name='generator' content='amontons 0.2.0'>";
-    if (text_ends_with(name, ".svg")) return "<svg/><!-- amontons 0.2.0 -->";
-    return "/Creator (amontons 0.2.0)";
-}
-
-static void write_ours(const char *const *names, size_t count)
+static void write_theirs(const char *const *names, size_t count)
 {
     mkdir(place_path(place, "fields"), 0777);
     mkdir(place_path(place, "figures"), 0777);
-    for (size_t k = 0; k < count; k++) {
-        static const char png[] = "Software\0amontons 0.2.0";
-        place_write(place, names[k], ours(names[k]));
-        if (!text_ends_with(names[k], ".png")) continue;
-        FILE *file = fopen(place_path(place, names[k]), "wb");
-        assert_true(fwrite(png, sizeof png, 1, file) == 1 && fclose(file) == 0);
-    }
+    for (size_t k = 0; k < count; k++) place_write(place, names[k], "mine");
 }
 
-static void write_theirs(const char *const *names, size_t count)
+// As a run leaves them: in the list.
+static void write_ours(const char *const *names, size_t count)
 {
-    write_ours(names, count);
-    for (size_t k = 0; k < count; k++) place_write(place, names[k], "mine");
+    Error err = {0};
+    assert_true(own_list_make(place, &err));
+    write_theirs(names, count);
+    for (size_t k = 0; k < count; k++) {
+        char path[2 * PLACE_SIZE];
+        snprintf(path, sizeof path, "%s", place_path(place, names[k]));
+        if (text_ends_with(path, ".part")) path[strlen(path) - 5] = 0;
+        bool listed = false;
+        assert_true(own_list_has(path, &listed, &err) && (listed || own_list_add(path, &err)));
+    }
 }
 
 static void expect_all(const char *const *names, size_t count, bool there)
@@ -89,7 +76,7 @@ TEST_BETWEEN(test_refuses_an_earlier_result, begin, end)
 {
     const char *const files[] = {"run.json", "history.h5", "history.h5.part", "fields.pvd"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
-        place_write(place, files[k], ours(files[k]));
+        write_ours(&files[k], 1);
         expect_error(place, false, ERROR_INPUT, files[k]);
         expect_error(place, false, ERROR_INPUT, "--overwrite");
         assert_true(place_has(place, files[k]));
@@ -134,61 +121,46 @@ TEST_BETWEEN(test_overwrites_only_its_own, begin, end)
     expect_all(OTHERS, OTHER_COUNT, true);
 }
 
-// A picture or a field that no run has written is somebody's: a run that would write over it, also
-// through a link, is refused, whatever else lies in the folder.
+// A folder with files and no list is somebody's; in one of ours a file that is not in the list is.
+// A run that would write over it, also through a link, is refused, and destroys nothing.
 TEST_BETWEEN(test_what_is_somebodys_is_not_written_over, begin, end)
 {
-    const char *const theirs[] = {"figures/force.png", "fields/bulk_000000.vtu"};
-    for (int k = 0; k < 2; k++) {
+    const char *const theirs[] = {"history.h5", "run.json", "figures/force.png",
+                                  "fields/bulk_000000.vtu", "checkpoint.bin"};
+    const char *const ours[] = {"static.json"};
+    for (size_t k = 0; k < sizeof theirs / sizeof *theirs; k++) {
         write_theirs(&theirs[k], 1);
         for (int overwrite = 0; overwrite < 2; overwrite++)
             expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
-        place_write(place, "run.json", ours("run.json"));   // which says nothing of a picture
+        write_ours(ours, 1);
         expect_error(place, true, ERROR_INPUT, theirs[k]);
-        assert_true(place_has(place, "run.json"));
-        unlink(place_path(place, "run.json"));
         expect_all(&theirs[k], 1, true);
+        expect_all(ours, 1, true);
         unlink(place_path(place, theirs[k]));
+        unlink(place_path(place, ours[0]));
+        unlink(place_path(place, OWN_LIST_NAME));
     }
     char elsewhere[PLACE_SIZE];
     place_make(elsewhere);
     place_write(elsewhere, "force.png", "mine");
+    write_ours(ours, 1);
     assert_int_equal(rmdir(place_path(place, "figures")), 0);
     assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
     expect_error(place, true, ERROR_INPUT, "figures/force.png");
     place_remove(elsewhere);
 }
 
-// A user's own file may have the name of one of ours: it is not taken for an earlier result.
-TEST_BETWEEN(test_proofs_of_somebody, begin, end)
+// A result of version 0.2 has no list: what has a name of that version beside its report is ours.
+TEST_BETWEEN(test_results_of_version_0_2, begin, end)
 {
     Error err = {0};
-    const char *const theirs[] = {"run.json",    "history.h5", "report.html",
-                                  "static.json", "fields.pvd", "checkpoint.bin"};
-    for (size_t k = 0; k < sizeof theirs / sizeof *theirs; k++) {
-        write_theirs(&theirs[k], 1);
-        for (int overwrite = 0; overwrite < 2; overwrite++)
-            expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
-        assert_true(place_has(place, theirs[k]));
-        write_ours(&theirs[k], 1);
-        assert_true(prepare(place, true, &err));
-        assert_false(place_has(place, theirs[k]));
-    }
-}
-
-// Pictures of ours that lie there alone: replaced where the user said so, or where a run that was
-// killed has left its lock; a picture that the new run does not draw does not stay.
-TEST_BETWEEN(test_pictures_of_ours_alone, begin, end)
-{
-    Error err = {0};
-    const char *const drawn[] = {"figures/force.png", "figures/slip-map.pdf"};
-    for (int killed = 0; killed < 2; killed++) {
-        write_ours(drawn, 2);
-        expect_error(place, false, ERROR_INPUT, "figures/");
-        if (killed) place_write(place, "amontons.lock", "");
-        assert_true(prepare(place, !killed, &err));
-        expect_all(drawn, 2, false);
-    }
+    write_theirs(OWN, OWN_COUNT);
+    write_theirs(OTHERS, OTHER_COUNT);
+    place_write(place, "run.json", "{\n  \"status\": \"done\",\n  \"version\": \"0.2.0\"\n}\n");
+    expect_error(place, false, ERROR_INPUT, "holds an earlier result");
+    assert_true(prepare(place, true, &err));
+    expect_all(OWN, OWN_COUNT, false);
+    expect_all(OTHERS, OTHER_COUNT, true);
 }
 
 // An error bar that was stopped keeps what it has; the same command begins anew.
@@ -199,9 +171,6 @@ TEST_BETWEEN(test_a_stopped_search_may_begin_anew, begin, end)
     write_ours(kept, 1);
     assert_true(prepare(place, false, &err));
     expect_all(kept, 1, true);
-    write_theirs(kept, 1);
-    expect_error(place, true, ERROR_INPUT, "figures/accuracy.json");
-    expect_all(kept, 1, true);
 }
 
 // Until the input is accepted nothing goes, and then nothing behind a link.
@@ -211,8 +180,11 @@ TEST_BETWEEN(test_cleared_late_and_not_through_links, begin, end)
     ResultFolder folder;
     char elsewhere[PLACE_SIZE];
     place_make(elsewhere);
-    place_write(elsewhere, "force.svg", ours("force.svg"));
-    place_write(place, "run.json", ours("run.json"));
+    const char *const ours[] = {"run.json", "figures/force.svg"};
+    place_write(elsewhere, "other.svg", "mine");
+    write_ours(ours, 2);
+    unlink(place_path(place, ours[1]));
+    rmdir(place_path(place, "figures"));
     assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
     assert_true(result_folder_claim(place, true, &folder, &err));
     assert_false(result_folder_is_ours(&folder));
@@ -220,7 +192,7 @@ TEST_BETWEEN(test_cleared_late_and_not_through_links, begin, end)
     assert_true(result_folder_clear(&folder, &err));
     assert_true(result_folder_is_ours(&folder));
     assert_false(place_has(place, "run.json"));
-    assert_true(place_has(elsewhere, "force.svg"));
+    assert_true(place_has(elsewhere, "other.svg"));
     result_folder_release(&folder);
     place_remove(elsewhere);
 }
@@ -238,7 +210,10 @@ TEST_BETWEEN(test_back_until_settled, begin, end)
         assert_true(result_folder_clear(&folder, &err));
         expect_all(OWN, OWN_COUNT, false);
         assert_false(result_folder_is_settled(&folder));
-        place_write(place, "history.h5.journal", "new");
+        if (k > 0) {   // of the new computation, which wrote none before its earlier one was aside
+            assert_true(own_list_add(place_path(place, "report.html"), &err));
+            place_write(place, "report.html", "new");
+        }
         char now[PLACE_SIZE + 40];
         snprintf(now, sizeof now, "%s", place_path(place, "amontons.earlier"));
         if (k < 3) {
@@ -250,7 +225,7 @@ TEST_BETWEEN(test_back_until_settled, begin, end)
         if (k < 3) assert_true(result_folder_claim(place, true, &folder, &err));
         result_folder_release(&folder);
         expect_all(OWN, OWN_COUNT, k != 2);
-        assert_int_equal(place_has(place, "history.h5.journal"), k == 0 || k == 2);
+        assert_int_equal(place_has(place, "report.html"), k == 2);
         assert_false(place_has(place, "amontons.earlier") || place_has(place, "amontons.aside") ||
                      place_has(place, "amontons.gone"));
         assert_true(prepare(place, true, &err));

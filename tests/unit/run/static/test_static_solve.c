@@ -136,7 +136,7 @@ TEST(test_unknown_support)
 
 static void remove_results(const char *folder)
 {
-    static const char *const names[] = {"static.json", "static.h5", "static.vtu"};
+    static const char *const names[] = {"static.json", "static.h5", "static.vtu", "amontons.files"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         char path[TEXT_SIZE];
         snprintf(path, sizeof path, "%s/%s", folder, names[k]);

@@ -36,7 +36,7 @@ static GrowthRate by_differences(const Model1d *model, double l, int32_t n)
     double *matrix = NEW_ARRAY(double, (int64_t)size *size, &err);
     double *vectors = NEW_ARRAY(double, (int64_t)size *size, &err);
     double *re = NEW_ARRAY(double, size, &err), *im = NEW_ARRAY(double, size, &err);
-    double *work = NEW_ARRAY(double, dense_eigen_work(size), &err);
+    double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(size), &err);
     double step = l / n, layer = model->alpha * model->height, held = layer * model->drive;
     double drop = model->law.mu_static - model->law.mu_kinetic;
     for (int32_t i = 0; i < n; i++) {

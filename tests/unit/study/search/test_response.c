@@ -35,7 +35,7 @@ static ResponseDef make_data(Data *data, int32_t designs)
             design->misfit += pow((found - data->measured[k].value) / data->measured[k].error, 2);
         }
     }
-    return (ResponseDef){2, designs, DATA, data->designs, data->measured, 20};
+    return (ResponseDef){2, designs, DATA, data->designs, data->measured, 20, 0, NULL};
 }
 
 TEST(test_second_order)

@@ -168,6 +168,8 @@ TEST(test_memory)
     char part[80];
     snprintf(part, sizeof part, "%s.part", arrays);
     unlink(part);
+    snprintf(part, sizeof part, "%s/amontons.files", folder);
+    unlink(part);
     assert_int_equal(rmdir(folder), 0);
     amontons_scene_destroy(scene);
 }

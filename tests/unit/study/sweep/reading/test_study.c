@@ -29,7 +29,7 @@ static Study *read_with(const char *body, const char *const *overrides, int32_t 
     Error err = {0};
     write_study(body);
     Study *study = NEW_ARRAY(Study, 1, &err);
-    if (!study_read(path, overrides, count, study, &err)) fail_msg("%s", err.message);
+    if (!study_read(path, overrides, count, false, study, &err)) fail_msg("%s", err.message);
     return study;
 }
 
@@ -304,6 +304,10 @@ TEST(test_faults)
         {"vary: {load.pressure: {log: [1, 2], points: 2.5}}\n", "points: found"},
         {"vary: {load.pressure: {log: [1, 2], points: 0x2}}\n", "points: found"},
         {"vary: {load.pressure: {log: [0x1, 2], points: 2}}\n", "two numbers"},
+        {"vary: {load.pressure: {log: [1, 2 kPa], points: 2}}\n", "both with a unit of the key's"},
+        {"vary: {load.pressure: {log: [1 mm, 2 mm], points: 2}}\n",
+         "both with a unit of the key's"},
+        {"vary: {load.pressure: {log: [1 kPa, 2 kPa], points: 2}}\n", "normalised"},
         {"vary: {load.pressure: {log: [1, 2], linear: [1, 2], points: 2}}\n", "allowed: a list"},
         {"vary: {load.pressure: {log: [1, 2]}}\n", "allowed: a list"},
         {"vary: [1]\n", "vary: found a list"},
@@ -349,7 +353,7 @@ TEST(test_faults)
         write_study(known[k].body);
         Study *study = NEW_ARRAY(Study, 1, &err);
         Scene *scene = NEW_ARRAY(Scene, 1, &err);
-        bool done = study_read(path, NULL, 0, study, &err);
+        bool done = study_read(path, NULL, 0, false, study, &err);
         for (int32_t i = 0; done && i < study->point_count; i++)
             done = study_scene(study, &(PointChoice){.point = i}, scene, &err);
         if (done) fail_msg("%s: not refused", known[k].body);
@@ -375,7 +379,7 @@ TEST(test_faults_of_plots)
         Error err = {0};
         write_study(known[k][0]);
         Study *study = NEW_ARRAY(Study, 1, &err);
-        assert_false(study_read(path, NULL, 0, study, &err));
+        assert_false(study_read(path, NULL, 0, false, study, &err));
         if (!strstr(err.message, known[k][1])) fail_msg("%s", err.message);
         drop(study);
     }
@@ -391,7 +395,7 @@ TEST(test_faults_of_overrides)
         Error err = {0};
         write_study("vary: {load.pressure: [1]}\n");
         Study *study = NEW_ARRAY(Study, 1, &err);
-        assert_false(study_read(path, &overrides[k][0], 1, study, &err));
+        assert_false(study_read(path, &overrides[k][0], 1, false, study, &err));
         assert_non_null(strstr(err.message, overrides[k][1]));
         drop(study);
     }
@@ -410,7 +414,7 @@ TEST(test_memory)
     for (bool done = false; !done; failures++) {
         err = (Error){0};
         memory_fail_after(failures);
-        done = study_read(path, overrides, 1, study, &err) &&
+        done = study_read(path, overrides, 1, false, study, &err) &&
                study_scene(study, &(PointChoice){.point = 1}, scene, &err);
         memory_fail_after(-1);
         study_destroy(study);

@@ -19,7 +19,7 @@ static void assert_refused(const char *const *overrides, int32_t count, const ch
     place_write(place, "study.yaml", text);
     Study *study = NEW_ARRAY(Study, 1, &err);
     Scene *scene = NEW_ARRAY(Scene, 1, &err);
-    bool done = study_read(path, overrides, count, study, &err);
+    bool done = study_read(path, overrides, count, false, study, &err);
     for (int32_t k = 0; done && k < study->point_count; k++)
         done = study_scene(study, &(PointChoice){.point = k}, scene, &err);
     if (done || err.code != ERROR_INPUT || !strstr(err.message, says))
@@ -106,7 +106,7 @@ TEST(test_no_studies)
     assert_refused(NULL, 0, "scene: found");
     Study *study = NEW_ARRAY(Study, 1, &err);
     memset(longer, 'x', 600);
-    assert_false(study_read(longer, NULL, 0, study, &err));
+    assert_false(study_read(longer, NULL, 0, false, study, &err));
     assert_non_null(strstr(err.message, "a path of more than 511 bytes"));
     study_destroy(study);
     memory_free(study);

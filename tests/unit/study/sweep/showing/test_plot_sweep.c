@@ -3,6 +3,7 @@
 // or with a warning, two sweeps; what their descriptions hold, and what is refused.
 #include "amontons_pictures.h"
 
+#include "io/files/own_list.h"
 #include "io/hdf5/array_file.h"
 #include "result_place.h"
 
@@ -47,6 +48,7 @@ static void write_table(Table table)
         }
     snprintf(path, sizeof path, "%s/%s", place, table.name);
     mkdir(path, 0777);
+    assert_true(own_list_make(path, &(Error){0}));
     strcat(path, "/sweep.h5");
     ArrayFile *file = array_file_create(path, &err);
     if (!file) fail_msg("%s", err.message);

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A unit is five integer powers: of ten, of sixty, and of length, mass and time. Powers of ten are
+// kept whole so that "10 um/s" is the double nearest to 1e-5.
+#include "base/units.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Unit {
+    const char *name;
+    int32_t ten, sixty;   // powers of ten and of 60 that lead to SI base units
+    int32_t powers[3];   // of metre, kilogram, second
+    const char *examples;   // of a dimension only
+} Unit;
+
+static const Unit dimensions[] = {
+    {"1", 0, 0, {0, 0, 0}, ""},
+    {"length", 0, 0, {1, 0, 0}, "m, mm, um"},
+    {"time", 0, 0, {0, 0, 1}, "s, ms, us"},
+    {"velocity", 0, 0, {1, 0, -1}, "m/s, mm/s, um/s"},
+    {"stress", 0, 0, {-1, 1, -2}, "Pa, kPa, MPa, GPa"},
+    {"density", 0, 0, {-3, 1, 0}, "kg/m3, g/cm3"},
+    {"viscosity", 0, 0, {-1, 1, -1}, "Pa s, kPa s, MPa s"},
+};
+
+static const Unit bases[] = {
+    {"m", 0, 0, {1, 0, 0}, NULL},   {"s", 0, 0, {0, 0, 1}, NULL},    {"g", -3, 0, {0, 1, 0}, NULL},
+    {"N", 0, 0, {1, 1, -2}, NULL},  {"Pa", 0, 0, {-1, 1, -2}, NULL}, {"J", 0, 0, {2, 1, -2}, NULL},
+    {"min", 0, 1, {0, 0, 1}, NULL},
+};
+
+static const struct {
+    const char *name;
+    int32_t ten;
+} prefixes[] = {{"n", -9}, {"u", -6}, {"\xC2\xB5", -6}, {"\xCE\xBC", -6}, {"m", -3},
+                {"c", -2}, {"k", 3},  {"M", 6},         {"G", 9}};
+
+enum {
+    DIMENSION_COUNT = sizeof dimensions / sizeof dimensions[0],
+    BASE_COUNT = sizeof bases / sizeof bases[0],
+    PREFIX_COUNT = sizeof prefixes / sizeof prefixes[0],
+    POWER_MAX = 4,
+};
+
+static const Unit *find_dimension(const char *name)
+{
+    for (int32_t k = 0; k < DIMENSION_COUNT; k++)
+        if (strcmp(dimensions[k].name, name) == 0) return &dimensions[k];
+    return &dimensions[0];
+}
+
+static const Unit *find_base(const char *word, size_t length)
+{
+    for (int32_t k = 0; k < BASE_COUNT; k++)
+        if (strlen(bases[k].name) == length && strncmp(bases[k].name, word, length) == 0)
+            return &bases[k];
+    return NULL;
+}
+
+// "mPa": the whole word first, so that "m" is a metre and "Pa" no peta-a.
+static const Unit *read_word(const char *word, size_t length, int32_t *ten)
+{
+    const Unit *base = find_base(word, length);
+    *ten = 0;
+    for (int32_t k = 0; !base && k < PREFIX_COUNT; k++) {
+        size_t size = strlen(prefixes[k].name);
+        if (length <= size || strncmp(word, prefixes[k].name, size) != 0) continue;
+        base = find_base(word + size, length - size);
+        *ten = prefixes[k].ten;
+    }
+    if (base) *ten += base->ten;
+    return base;
+}
+
+static size_t word_length(const char *text)
+{
+    size_t length = 0;
+    while (isalpha((unsigned char)text[length]) || (unsigned char)text[length] >= 0x80) length++;
+    return length;
+}
+
+// One word with its power, as in "m^3", "m3" or "s-1"; *text moves behind it.
+static bool read_factor(const char **text, int32_t sign, Unit *product)
+{
+    size_t length = word_length(*text);
+    int32_t ten = 0;
+    const Unit *base = length ? read_word(*text, length, &ten) : NULL;
+    if (!base) return false;
+    *text += length;
+    if (**text == '^') (*text)++;
+    long power = 1;
+    if (isdigit((unsigned char)**text) || **text == '-') {
+        char *end = NULL;
+        power = strtol(*text, &end, 10);
+        if (end == *text || power == 0 || labs(power) > POWER_MAX) return false;
+        *text = end;
+    }
+    product->ten += ten * (int32_t)power * sign;
+    product->sixty += base->sixty * (int32_t)power * sign;
+    for (int32_t i = 0; i < 3; i++) product->powers[i] += base->powers[i] * (int32_t)power * sign;
+    return true;
+}
+
+// All of `text` is a unit.
+static bool read_unit(const char *text, Unit *product)
+{
+    int32_t sign = 1;
+    *product = (Unit){0};
+    for (;;) {
+        if (!read_factor(&text, sign, product)) return false;
+        text += strspn(text, " ");
+        if (!*text) return true;
+        if (*text == '/' && sign < 0) return false;   // a/b/c is read two ways
+        if (*text == '/') sign = -1;
+        text += strspn(text, "/.*") ? 1 : 0;
+        text += strspn(text, " ");
+    }
+}
+
+static double times_power(double value, double base, int32_t power)
+{
+    double factor = pow(base, abs(power));
+    return power < 0 ? value / factor : value * factor;
+}
+
+bool unit_to_si(const char *suffix, const char *dimension, double *value)
+{
+    Unit unit;
+    if (!read_unit(suffix, &unit)) return false;
+    const Unit *wanted = dimension ? find_dimension(dimension) : &unit;
+    if (memcmp(unit.powers, wanted->powers, sizeof unit.powers) != 0) return false;
+    *value = times_power(times_power(*value, 10, unit.ten), 60, unit.sixty);
+    return true;
+}
+
+bool unit_ratio(const char *a, const char *b, double *ratio)
+{
+    Unit over, under;
+    if (!read_unit(a, &over) || !read_unit(b, &under) ||
+        memcmp(over.powers, under.powers, sizeof over.powers) != 0)
+        return false;
+    *ratio = times_power(times_power(1, 10, over.ten - under.ten), 60, over.sixty - under.sixty);
+    return true;
+}
+
+const char *unit_examples(const char *dimension)
+{
+    return find_dimension(dimension)->examples;
+}

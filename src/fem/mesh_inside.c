@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A point just outside of the middle of each face of the surface must lie in no element. Points
+// stand in order of x, so that each element looks only at those within its box.
+#include "fem/mesh_inside.h"
+
+#include "base/memory.h"
+#include "io/mesh/shape_functions.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// How far outside, over the size of the face: more than rounding of coordinates, and a slit that is
+// so wide open is no fault.
+static const double OUTSIDE = 1e-5;
+// Reference coordinates are exact to this where a point lies on the border of an element.
+static const double REFERENCE_TOLERANCE = 1e-9;
+// Box of an element with bent sides, over that of its nodes.
+static const double BENT_BOX = 0.25;
+enum { INVERSE_STEPS = 20 };
+
+typedef struct ProbePoint {
+    MeshPlace place;
+    int32_t element;   // whose face it is before
+    MeshPlace on_face;
+} ProbePoint;
+
+static int compare_points(const void *a, const void *b)
+{
+    const ProbePoint *first = a, *second = b;
+    if (first->place[0] != second->place[0]) return first->place[0] < second->place[0] ? -1 : 1;
+    return (first->element > second->element) - (first->element < second->element);
+}
+
+static const double *middle_of(ElementKind kind)
+{
+    static const double triangle[] = {1. / 3, 1. / 3}, square[] = {0, 0};
+    return element_corner_count(kind) == 3 ? triangle : square;
+}
+
+static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
+{
+    int32_t nodes[FACE_NODES_MAX];
+    MeshPlace position[FACE_NODES_MAX], normal;
+    ProbePoint point = {.element = face->element};
+    FaceNodes seen = mesh_element_face(mesh, face->element, face->side, nodes);
+    int32_t count = element_node_count(seen.kind);
+    double area = 0;
+    mesh_places(mesh, nodes, count, position);
+    ShapeValues shape = shape_at(seen.kind, middle_of(seen.kind));
+    shape_normal(seen.kind, &shape, (const MeshPlace *)position, normal);
+    for (int32_t d = 0; d < mesh->dim; d++) area = hypot(area, normal[d]);
+    double size = mesh->dim == 2 ? area : sqrt(area);
+    double outwards = mesh->dim == 2 ? -1 : 1;   // the normal of a line is to its left
+    for (int32_t d = 0; d < mesh->dim; d++) {
+        for (int32_t a = 0; a < count; a++) point.on_face[d] += shape.value[a] * position[a][d];
+        point.place[d] = point.on_face[d] + outwards * OUTSIDE * size * normal[d] / area;
+    }
+    return point;
+}
+
+// Within the reference element: xi, eta, zeta >= 0 and their sum <= 1, or each from -1 to 1.
+static bool is_within(ElementKind kind, const double *at)
+{
+    int32_t dim = element_dim(kind), corners = element_corner_count(kind);
+    int32_t simplex = corners == dim + 1 ? dim : kind == ELEMENT_WEDGE6 ? 2 : 0;
+    double left = 1;
+    for (int32_t d = 0; d < simplex; d++) {
+        if (at[d] < -REFERENCE_TOLERANCE) return false;
+        left -= at[d];
+    }
+    if (left < -REFERENCE_TOLERANCE) return false;
+    for (int32_t d = simplex; d < dim; d++)
+        if (fabs(at[d]) > 1 + REFERENCE_TOLERANCE) return false;
+    return true;
+}
+
+// Newton's method for the reference coordinates of a place. As the functions reproduce these,
+// d xi/d x is the sum of the nodes' reference coordinates times their functions' gradients.
+static bool element_holds(ElementKind kind, const MeshPlace *position, const double *place)
+{
+    int32_t dim = element_dim(kind), count = element_node_count(kind);
+    MeshPlace at = {0};
+    for (int32_t a = 0; a < count; a++)
+        for (int32_t d = 0; d < dim; d++) at[d] += shape_node(kind, a)[d] / count;
+    for (int32_t step = 0; step < INVERSE_STEPS; step++) {
+        MeshPlace gradient[ELEMENT_NODES_MAX], away = {0};
+        ShapeValues shape = shape_at(kind, at);
+        double moved = 0;
+        if (!(shape_gradients(kind, &shape, position, gradient) > 0)) return false;
+        for (int32_t d = 0; d < dim; d++) {
+            away[d] = place[d];
+            for (int32_t a = 0; a < count; a++) away[d] -= shape.value[a] * position[a][d];
+        }
+        for (int32_t a = 0; a < count; a++) {
+            double along = 0;
+            for (int32_t d = 0; d < dim; d++) along += gradient[a][d] * away[d];
+            for (int32_t d = 0; d < dim; d++) at[d] += shape_node(kind, a)[d] * along;
+            moved = fmax(moved, fabs(along));
+        }
+        if (moved < REFERENCE_TOLERANCE / 10) return is_within(kind, at);
+    }
+    return false;
+}
+
+// The first point with x >= low.
+static int32_t first_from(const ProbePoint *points, int32_t count, double low)
+{
+    int32_t from = 0, to = count;
+    while (from < to) {
+        int32_t middle = from + (to - from) / 2;
+        if (points[middle].place[0] < low)
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return from;
+}
+
+// A point that lies in element e, NULL: none does.
+static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePoint *points,
+                                      int32_t count)
+{
+    ElementKind kind = (ElementKind)mesh->kind[e];
+    MeshPlace position[ELEMENT_NODES_MAX], low, high;
+    int32_t nodes = element_node_count(kind);
+    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], nodes, position);
+    for (int32_t d = 0; d < mesh->dim; d++) {
+        low[d] = INFINITY, high[d] = -INFINITY;
+        for (int32_t a = 0; a < nodes; a++) {
+            low[d] = fmin(low[d], position[a][d]);
+            high[d] = fmax(high[d], position[a][d]);
+        }
+        double bend = nodes > element_corner_count(kind) ? BENT_BOX * (high[d] - low[d]) : 0;
+        low[d] -= bend;
+        high[d] += bend;
+    }
+    for (int32_t k = first_from(points, count, low[0]); k < count; k++) {
+        const ProbePoint *point = &points[k];
+        if (point->place[0] > high[0]) break;
+        if (point->element == e) continue;
+        bool in_box = true;
+        for (int32_t d = 1; d < mesh->dim; d++)
+            in_box = in_box && point->place[d] >= low[d] && point->place[d] <= high[d];
+        if (in_box && element_holds(kind, (const MeshPlace *)position, point->place)) return point;
+    }
+    return NULL;
+}
+
+bool mesh_check_inside(const Mesh *mesh, const MeshFaces *faces, Error *err)
+{
+    int32_t count = 0, room = 0;
+    char at[PLACE_TEXT_SIZE];
+    ProbePoint *points = NULL;
+    for (int32_t i = 0; i < mesh->node_count; i++)
+        for (int32_t k = faces->first[i]; k < faces->last[i]; k++)
+            room += faces->faces[k].elements == 1;
+    if (!(points = NEW_ARRAY(ProbePoint, room, err))) return false;
+    for (int32_t i = 0; i < mesh->node_count; i++)
+        for (int32_t k = faces->first[i]; k < faces->last[i]; k++)
+            if (faces->faces[k].elements == 1)
+                points[count++] = point_before(mesh, &faces->faces[k]);
+    qsort(points, (size_t)count, sizeof *points, compare_points);
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        const ProbePoint *found = point_inside(mesh, e, points, count);
+        if (!found) continue;
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: the %s at %s is on element %lld alone, but lies inside the block: element %lld is "
+            "right behind it. Parts of the mesh are not glued together there: nodes are there "
+            "twice (`Coherence Mesh;` in a .geo makes one of them; the sides of a crack must stand "
+            "apart, as nothing keeps them from passing through each other), a node hangs in the "
+            "middle of a larger cell's side, or elements overlap",
+            mesh->path, mesh->dim == 2 ? "edge" : "face", place_text(mesh->dim, found->on_face, at),
+            (long long)mesh->element_number[found->element], (long long)mesh->element_number[e]);
+    }
+cleanup:
+    memory_free(points);
+    return error_is_clean(err);
+}

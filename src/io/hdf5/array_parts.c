@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/hdf5/array_parts.h"
+
+#include "base/memory.h"
+#include "io/hdf5/array_attribute.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char COUNT[] = "parts";   // the attribute
+
+enum { PARTS_MAX = 1000000 };
+enum { BLOCK_BYTES = 1 << 22 };   // of rows that are copied at once
+
+void array_part_name(const ArrayParts *parts, int32_t number, char name[PATH_MAX + 24])
+{
+    if (parts->unnamed && number == parts->count)
+        snprintf(name, PATH_MAX + 24, "%s", parts->path);
+    else
+        snprintf(name, PATH_MAX + 24, "%s.%d", parts->path, (int)number);
+}
+
+bool array_parts_count(hid_t last, const char *path, int32_t *count, Error *err)
+{
+    double number = 0;
+    *count = 0;
+    if (H5Aexists(last, COUNT) <= 0) return true;
+    if (attribute_read_number(last, COUNT, &number) < 0 || !(number >= 0 && number <= PARTS_MAX))
+        return FAULT(err, ERROR_FILE, "%s: it says not how many parts it has", path);
+    *count = (int32_t)number;
+    return true;
+}
+
+// --- rows of one part ---------------------------------------------------------------------------
+
+// Rows [from, from + count) of the dataset, or into it, as values of `type`. The status is HDF5's.
+static herr_t transfer_rows(hid_t dataset, hid_t type, int64_t from, int64_t count, void *values,
+                            bool writing)
+{
+    hsize_t start[ARRAY_RANK_MAX] = {(hsize_t)from}, shape[ARRAY_RANK_MAX];
+    hid_t space = H5Dget_space(dataset);
+    int rank = H5Sget_simple_extent_dims(space, shape, NULL);
+    shape[0] = (hsize_t)count;
+    hid_t memory = rank < 1 ? -1 : H5Screate_simple(rank, shape, NULL);
+    herr_t status =
+        memory < 0 ? -1 : H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, shape, NULL);
+    if (status >= 0)
+        status = writing ? H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, values)
+                         : H5Dread(dataset, type, memory, space, H5P_DEFAULT, values);
+    if (memory >= 0) H5Sclose(memory);
+    H5Sclose(space);
+    return status;
+}
+
+// An array in one of the parts, opened.
+typedef struct Piece {
+    hid_t file, dataset;   // 0: not opened. file: only where it is an earlier part
+    char path[PATH_MAX + 24];
+    int64_t first, rows;   // which rows of the whole array it has
+    int32_t width;
+} Piece;
+
+static void close_piece(Piece *piece)
+{
+    if (piece->dataset > 0) H5Dclose(piece->dataset);
+    if (piece->file > 0) H5Fclose(piece->file);
+    *piece = (Piece){0};
+}
+
+// number: of the part; beyond parts->count: the last. *piece is closed by the caller, also after a
+// failure.
+static bool open_piece(const ArrayParts *parts, int32_t number, const char *name, Piece *piece,
+                       Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
+    int32_t components;
+    bool last = number > parts->count;
+    *piece = (Piece){0};
+    if (last) snprintf(piece->path, sizeof piece->path, "%s", parts->path);
+    if (!last) array_part_name(parts, number, piece->path);
+    if (!last && (piece->file = hdf5_disk_open(piece->path, err)) < 0) return false;
+    hid_t file = last ? parts->last : piece->file;
+    if (H5Lexists(file, name, H5P_DEFAULT) <= 0)
+        return FAULT(err, ERROR_FILE, "%s has no %s", piece->path, name);
+    piece->dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    if (piece->dataset < 0)
+        return FAULT(err, ERROR_FILE, "%s: %s is no array: %s", piece->path, name,
+                     hdf5_cause(cause));
+    if (!series_shape(piece->dataset, &piece->rows, &piece->width, &components, why))
+        return FAULT(err, ERROR_FILE, "%s: %s %s", piece->path, name, why);
+    piece->first = series_first_row(piece->dataset);
+    if (piece->first < 0 || (piece->first > 0 && parts->count == 0) ||
+        piece->first > INT64_MAX - piece->rows)
+        return FAULT(err, ERROR_FILE, "%s: %s begins with a row that cannot be", piece->path, name);
+    return true;
+}
+
+// Rows of the piece that count, where the next one begins with row `end`: at least those from its
+// first one on.
+static bool check_piece(Piece *piece, int64_t end, int32_t width, const char *name, Error *err)
+{
+    int64_t used = end > piece->first ? end - piece->first : 0;
+    if (used > piece->rows || (used > 0 && piece->width != width))
+        return FAULT(err, ERROR_FILE,
+                     "%s: rows of %s are missing: it is not the part that was "
+                     "written",
+                     piece->path, name);
+    piece->rows = used;
+    return true;
+}
+
+// Calls take(piece, rows of the whole array, ...) for each piece of the array that counts, the last
+// one first.
+typedef bool (*TakePiece)(const Piece *piece, int64_t rows, void *context, Error *err);
+
+static bool each_piece(const ArrayParts *parts, const char *name, TakePiece take, void *context,
+                       Error *err)
+{
+    Piece piece = {0};
+    int64_t rows = 0, end = 0;   // rows of the whole; where the next piece begins
+    int32_t width = 0, number = parts->count + 1;
+    do {
+        close_piece(&piece);
+        TRY(open_piece(parts, number, name, &piece, err));
+        if (number > parts->count) {
+            rows = end = piece.first + piece.rows;
+            width = piece.width;
+        }
+        TRY(check_piece(&piece, end, width, name, err));
+        TRY(take(&piece, rows, context, err));
+        if (piece.first < end) end = piece.first;
+    } while (end > 0 && --number > 0);
+    if (end > 0) FAIL(err, ERROR_FILE, "%s: the first rows of %s are missing", parts->path, name);
+cleanup:
+    close_piece(&piece);
+    return error_is_clean(err);
+}
+
+// --- reading an array ---------------------------------------------------------------------------
+
+typedef struct Reading {
+    const char *name;
+    double *values;   // [rows * width]; NULL: not allocated yet
+    int64_t rows;
+    int32_t width;
+} Reading;
+
+static bool read_piece(const Piece *piece, int64_t rows, void *context, Error *err)
+{
+    Reading *reading = context;
+    char cause[HDF5_CAUSE_SIZE];
+    int64_t most = INT64_MAX / (int64_t)sizeof(double);
+    if (!reading->values) {
+        reading->rows = rows;
+        reading->width = piece->width;
+        if (rows > most / (piece->width > 0 ? piece->width : 1))
+            return FAULT(err, ERROR_FILE, "%s: %s is too large to be true", piece->path,
+                         reading->name);
+        reading->values = memory_bytes(rows * piece->width * (int64_t)sizeof(double), err);
+        if (!reading->values) return false;
+    }
+    if (piece->rows > 0 &&
+        transfer_rows(piece->dataset, H5T_NATIVE_DOUBLE, 0, piece->rows,
+                      reading->values + piece->first * reading->width, false) < 0)
+        return FAULT(err, ERROR_FILE, "%s: cannot read %s: %s", piece->path, reading->name,
+                     hdf5_cause(cause));
+    return true;
+}
+
+bool array_parts_read(const ArrayParts *parts, const char *name, double **values, int64_t *rows,
+                      int32_t *width, Error *err)
+{
+    Reading reading = {.name = name};
+    bool done = each_piece(parts, name, read_piece, &reading, err);
+    if (!done) memory_free(reading.values);   // half read
+    *values = done ? reading.values : NULL;
+    *rows = done ? reading.rows : 0;
+    *width = done ? reading.width : 0;
+    return done;
+}
+
+// --- another file with the same arrays ----------------------------------------------------------
+
+typedef struct Beginning {
+    hid_t to;
+    bool goes_on;
+    const char *path;
+} Beginning;
+
+// Type, chunks and filters as they are, no rows.
+static hid_t create_like(hid_t dataset, const char *name, hid_t file)
+{
+    hsize_t shape[H5S_MAX_RANK], shape_max[H5S_MAX_RANK];
+    hid_t type = H5Dget_type(dataset), given = H5Dget_space(dataset);
+    hid_t creation = H5Dget_create_plist(dataset), links = H5Pcreate(H5P_LINK_CREATE);
+    int rank = H5Sget_simple_extent_dims(given, shape, shape_max);
+    shape[0] = 0;
+    hid_t space = rank < 1 ? -1 : H5Screate_simple(rank, shape, shape_max);
+    H5Pset_create_intermediate_group(links, 1);
+    hid_t made = space < 0 ? -1 : H5Dcreate2(file, name, type, space, links, creation, H5P_DEFAULT);
+    if (space >= 0) H5Sclose(space);
+    H5Pclose(links);
+    H5Pclose(creation);
+    H5Sclose(given);
+    H5Tclose(type);
+    return made;
+}
+
+static bool begin_array(hid_t dataset, const char *name, void *context, Error *err)
+{
+    const Beginning *beginning = context;
+    char why[SHAPE_WHY_SIZE];
+    int64_t rows, first = series_first_row(dataset);
+    int32_t width, components;
+    if (!series_shape(dataset, &rows, &width, &components, why))
+        return FAULT(err, ERROR_FILE, "%s: %s %s", beginning->path, name, why);
+    if (first < 0 || first > INT64_MAX - rows)
+        return FAULT(err, ERROR_FILE, "%s: %s begins with a row that cannot be", beginning->path,
+                     name);
+    hid_t made = create_like(dataset, name, beginning->to);
+    herr_t status = made < 0 ? -1 : attribute_copy_all(dataset, made, SERIES_FIRST_ROW);
+    if (status >= 0 && beginning->goes_on)
+        status = attribute_write_number(made, SERIES_FIRST_ROW, (double)(first + rows));
+    bool done = hdf5_wrote(status, beginning->path, name, err);
+    if (made >= 0) H5Dclose(made);
+    return done;
+}
+
+bool array_parts_begin(hid_t from, hid_t to, bool goes_on, const char *path, Error *err)
+{
+    int32_t count = 0;
+    Beginning beginning = {to, goes_on, path};
+    if (!array_parts_count(from, path, &count, err)) return false;
+    herr_t status = attribute_copy_all(from, to, COUNT);
+    if (status >= 0 && goes_on) status = attribute_write_number(to, COUNT, count + 1);
+    if (!hdf5_wrote(status, path, "its attributes", err)) return false;
+    return hdf5_visit(from, path, begin_array, &beginning, err);
+}
+
+// --- all parts in one ---------------------------------------------------------------------------
+
+typedef struct Joining {
+    const ArrayParts *parts;
+    hid_t whole, to;   // the file, and the array in it
+    const char *name;
+} Joining;
+
+// The rows of one piece, some at a time, to their place in the whole array, which gets its length
+// with the first one.
+static bool copy_piece(const Piece *piece, int64_t whole, void *context, Error *err)
+{
+    const Joining *joining = context;
+    char cause[HDF5_CAUSE_SIZE];
+    hsize_t shape[H5S_MAX_RANK];
+    hid_t space = H5Dget_space(joining->to), type = H5Dget_type(piece->dataset);
+    H5Sget_simple_extent_dims(space, shape, NULL);
+    H5Sclose(space);
+    int64_t row_bytes = (int64_t)H5Tget_size(type) * piece->width, rows = piece->rows;
+    int64_t most = row_bytes > 0 && row_bytes < BLOCK_BYTES ? BLOCK_BYTES / row_bytes : 1;
+    char *block = memory_array(rows < most ? rows : most, (size_t)row_bytes, err);
+    if (block && shape[0] != (hsize_t)whole) {
+        shape[0] = (hsize_t)whole;
+        hdf5_wrote(H5Dset_extent(joining->to, shape), joining->parts->path, joining->name, err);
+    }
+    for (int64_t done = 0; error_is_clean(err) && done < rows; done += most) {
+        int64_t count = rows - done < most ? rows - done : most;
+        if (transfer_rows(piece->dataset, type, done, count, block, false) < 0)
+            error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: cannot read %s: %s", piece->path,
+                      joining->name, hdf5_cause(cause));
+        else
+            hdf5_wrote(transfer_rows(joining->to, type, piece->first + done, count, block, true),
+                       joining->parts->path, joining->name, err);
+    }
+    memory_free(block);
+    H5Tclose(type);
+    return error_is_clean(err);
+}
+
+static bool join_array(hid_t last, const char *name, void *context, Error *err)
+{
+    Joining *joining = context;
+    (void)last;
+    joining->name = name;
+    joining->to = H5Dopen2(joining->whole, name, H5P_DEFAULT);
+    if (!hdf5_wrote(joining->to < 0 ? -1 : 0, joining->parts->path, name, err)) return false;
+    bool done = each_piece(joining->parts, name, copy_piece, joining, err);
+    H5Dclose(joining->to);
+    return done;
+}
+
+bool array_parts_join(const ArrayParts *parts, hid_t whole, Error *err)
+{
+    Joining joining = {.parts = parts, .whole = whole};
+    return array_parts_begin(parts->last, whole, false, parts->path, err) &&
+           hdf5_visit(parts->last, parts->path, join_array, &joining, err);
+}

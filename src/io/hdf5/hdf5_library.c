@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/hdf5/hdf5_library.h"
+
+#include "base/clock.h"
+#include "io/files/open_file.h"
+
+#include <stdio.h>
+#include <sys/stat.h>
+
+enum { GROWTH = 1 << 20 };   // bytes by which a file in memory grows
+
+// The stack is walked from where the fault was found; outer entries only say that something failed.
+static herr_t keep_innermost(unsigned position, const H5E_error2_t *entry, void *cause)
+{
+    if (position == 0) snprintf(cause, HDF5_CAUSE_SIZE, "%s", entry->desc);
+    return 0;
+}
+
+const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE])
+{
+    snprintf(cause, HDF5_CAUSE_SIZE, "it gives no reason");
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, cause);
+    return cause;
+}
+
+bool hdf5_wrote(herr_t status, const char *path, const char *what, Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE];
+    if (status >= 0) return true;
+    return FAULT(err, ERROR_LIBRARY, "HDF5 cannot write %s into %s: %s", what, path,
+                 hdf5_cause(cause));
+}
+
+// HDF5 prints its error stack otherwise. A file that could not be written is left open (see the
+// header) and would be written once more at the program's end, which crashes.
+static void start(void)
+{
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+// --- what a file may hold -----------------------------------------------------------------------
+
+#if H5_VERSION_GE(1, 12, 0)
+typedef H5L_info2_t LinkInfo;
+#define visit_links H5Lvisit2
+#else
+typedef H5L_info_t LinkInfo;
+#define visit_links H5Lvisit
+#endif
+
+typedef struct Visitor {
+    const char *path;
+    Hdf5Visit visit;   // NULL: only looked at
+    void *context;
+    Error *err;
+} Visitor;
+
+// Data that lie in the file itself: no external files, and no parts of other datasets.
+static bool check_storage(hid_t dataset, const char *name, const char *path, Error *err)
+{
+    hid_t creation = H5Dget_create_plist(dataset);
+    H5D_layout_t layout = H5Pget_layout(creation);
+    bool here = layout == H5D_COMPACT || layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED;
+    bool outside = H5Pget_external_count(creation) != 0;
+    H5Pclose(creation);
+    if (here && !outside) return true;
+    return FAULT(err, ERROR_FILE,
+                 "%s: the data of %s lie in another file, which is not read: the file is none that "
+                 "amontons wrote",
+                 path, name);
+}
+
+// HDF5 calls it for each link that leads to an object for the first time. Links by name are not
+// followed.
+static herr_t visit_link(hid_t file, const char *name, const LinkInfo *link, void *self)
+{
+    Visitor *visitor = self;
+    char cause[HDF5_CAUSE_SIZE];
+    Error *err = visitor->err;
+    if (link->type != H5L_TYPE_HARD) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__,
+                  "%s: %s is a link by name, which is not followed: the file is none that amontons "
+                  "wrote",
+                  visitor->path, name);
+        return -1;
+    }
+    hid_t object = H5Oopen(file, name, H5P_DEFAULT);
+    H5I_type_t type = H5Iget_type(object);
+    if (type == H5I_DATASET) {
+        if (check_storage(object, name, visitor->path, err) && visitor->visit)
+            visitor->visit(object, name, visitor->context, err);
+    } else if (type != H5I_GROUP) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: %s is neither array nor group: %s",
+                  visitor->path, name, hdf5_cause(cause));
+    }
+    if (object >= 0) H5Oclose(object);
+    return error_is_clean(err) ? 0 : -1;
+}
+
+bool hdf5_visit(hid_t file, const char *path, Hdf5Visit visit, void *context, Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE];
+    Visitor visitor = {path, visit, context, err};
+    herr_t status = visit_links(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit_link, &visitor);
+    if (!error_is_clean(err)) return false;
+    if (status < 0)
+        return FAULT(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", path,
+                     hdf5_cause(cause));
+    return true;
+}
+
+// Closes a file that is refused; its id.
+static hid_t check_opened(hid_t file, const char *path, Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE];
+    if (file < 0)
+        error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s, not a whole HDF5 file: %s",
+                  path, hdf5_cause(cause));
+    else if (!hdf5_visit(file, path, NULL, NULL, err))
+        H5Fclose(file);
+    return error_is_clean(err) ? file : -1;
+}
+
+// --- files in memory ----------------------------------------------------------------------------
+
+// HDF5 tells files in memory by their names, and looks whether there is one on the disk. This one
+// nothing has: no other of this moment and of this thread's stack, and no file.
+static hid_t open_memory(const void *bytes, int64_t size)
+{
+    char name[100];
+    hid_t file = -1, access = H5Pcreate(H5P_FILE_ACCESS);
+    snprintf(name, sizeof name, "/dev/null/amontons %.17g %p", clock_seconds(), (void *)name);
+    bool ready = H5Pset_fapl_core(access, GROWTH, false) >= 0 &&
+                 H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0;
+    if (ready && !bytes) file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    // HDF5 copies them, and takes no const.
+    if (ready && bytes && H5Pset_file_image(access, (void *)(uintptr_t)bytes, (size_t)size) >= 0)
+        file = H5Fopen(name, H5F_ACC_RDWR, access);
+    H5Pclose(access);
+    return file;
+}
+
+hid_t hdf5_memory_create(const char *path, Error *err)
+{
+    start();
+    hid_t file = open_memory(NULL, 0);
+    hdf5_wrote(file < 0 ? -1 : 0, path, "the header", err);
+    return file;
+}
+
+hid_t hdf5_memory_open(const char *path, const void *bytes, int64_t size, Error *err)
+{
+    start();
+    return check_opened(size > 0 ? open_memory(bytes, size) : -1, path, err);
+}
+
+void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err)
+{
+    herr_t status = H5Fflush(file, H5F_SCOPE_LOCAL);
+    ssize_t length = status < 0 ? -1 : H5Fget_file_image(file, NULL, 0);
+    if (!hdf5_wrote(length < 0 ? -1 : 0, path, "what was appended", err)) return NULL;
+    void *bytes = H5allocate_memory((size_t)length, false);
+    *size = length;
+    if (!bytes) {
+        error_set(err, ERROR_MEMORY, __FILE__, __LINE__,
+                  "not enough memory to write %s: %lld bytes", path, (long long)length);
+        return NULL;
+    }
+    if (H5Fget_file_image(file, bytes, (size_t)length) == length) return bytes;
+    hdf5_wrote(-1, path, "what was appended", err);
+    H5free_memory(bytes);
+    return NULL;
+}
+
+// --- files on the disk --------------------------------------------------------------------------
+
+hid_t hdf5_disk_open(const char *path, Error *err)
+{
+    struct stat status;
+    if (!open_check(path, err)) return -1;
+    if (stat(path, &status) == 0 && status.st_size == 0) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__,
+                  "%s is empty: what wrote it ended before anything was on the disk", path);
+        return -1;
+    }
+    start();
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access, false, true);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    H5Pclose(access);
+    return check_opened(file, path, err);
+}
+
+hid_t hdf5_disk_create(const char *path, Error *err)
+{
+    start();
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access, false, true);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    H5Pclose(access);
+    hdf5_wrote(file < 0 ? -1 : 0, path, "the header", err);
+    return file;
+}

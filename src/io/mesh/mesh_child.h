@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// gmsh in a child process (base/child_process), so that a mesh that crashes it is an error like any
+// other. Called by io/mesh/mesh_read.
+#ifndef AMONTONS_IO_MESH_MESH_CHILD_H
+#define AMONTONS_IO_MESH_MESH_CHILD_H
+
+#include "io/mesh/mesh_raw.h"
+
+// The mesh, in this process where no child is wanted. The module is opened in this process, once
+// for all meshes: to load it takes a tenth of a second, to hand it on to a child some milliseconds.
+bool mesh_child_read(const MeshRawRequest *request, MeshFile *mesh, Error *err);
+
+#endif

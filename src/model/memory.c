@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// With n unknowns on the mesh and m of them on the interface: a reduction keeps factors of the mesh
+// and responses to all m of the unknowns that are left, where modes replace what is far
+// (reduction/far_patches). In space a sparse factor has n^(4/3) entries, and contact and its
+// certificate keep matrices of m x m.
+#include "model/memory.h"
+
+#include "reduction/far_patches.h"
+
+#include <math.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+// Bytes in the plane, for each unknown of the mesh and for each entry of a response: 4.5e9 at 480 x
+// 480 cells, 1.9e9 at 320 x 320 and at 800 contact nodes on 60 rows.
+static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36;
+
+// Numbers in space that are kept at once: matrices of m x m (one for each step size, their copies,
+// factors, certificate; fewer where contact is its own mirror image and solved on one side),
+// entries of a factor, and in a reduction columns of responses over those of a part's border.
+static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 23, SPACE_ENTRIES = 39,
+                    SPACE_COLUMNS = 12;
+static const double SPACE_TOGETHER = 1.2;   // two parts side by side over one: 0.9 to 1.16
+static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor
+
+double memory_there(void)
+{
+    struct rlimit room;
+    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
+        have = fmin(have, (double)room.rlim_cur);
+    return have;
+}
+
+double memory_expected(const MemorySizes *sizes, bool reduced)
+{
+    double n = sizes->unknowns, m = sizes->interface, parts = sizes->parts;
+    double of_part = n / parts, border = m / parts;
+    if (!sizes->space)
+        return reduced ? BYTES_FACTORS * of_part +
+                             BYTES_PRODUCTS * border * far_patches_left(of_part, border)
+                       : 0;
+    double squares = (parts > 1 ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m;
+    double factor = SPACE_ENTRIES * pow(n, 4.0 / 3);
+    double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
+    if (parts > 1) responses *= SPACE_TOGETHER;
+    return sizeof(double) * (reduced ? fmax(squares, responses) : squares + SPACE_FACTORS * factor);
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Memory: what a computer has, and what a run takes at most. Called by model/scene_mesh,
+// model/obtain and run/info/forecast.
+#ifndef AMONTONS_MODEL_MEMORY_H
+#define AMONTONS_MODEL_MEMORY_H
+
+#include <stdbool.h>
+
+typedef struct MemorySizes {
+    bool space;   // in three dimensions: else in two
+    double unknowns;   // of the mesh
+    double interface;   // of those on floor and rod
+    double parts;   // that the block is reduced in (reduction/mirror)
+} MemorySizes;
+
+double memory_there(void);   // of this computer, or what a limit leaves of it, bytes
+
+// What a run takes at most, about, bytes: on the reduced block and its reduction, or on the whole
+// mesh. 0: not known, as on the whole mesh in the plane.
+double memory_expected(const MemorySizes *sizes, bool reduced);
+
+#endif

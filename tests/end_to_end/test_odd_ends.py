@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Numbers and plug-ins that once ended the program, or let it end well with nothing."""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["AMONTONS_SOURCE"])
+sys.path.insert(0, str(SOURCE / "validation/hostile"))
+import cases  # noqa: E402
+
+PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
+PATIENCE = 60 * float(os.environ.get("AMONTONS_PATIENCE", 1))
+FIT = ("scene: scene.yaml\nset: {time.until: {U: 0.004}, output.history: false}\nsearch: {material.young: {log: [0.8, 1.2]}}\n"
+       "fit: {measured: measured.csv, designs: 4}\n")
+PLUGIN = """#include <stdlib.h>
+#include "amontons_friction.h"
+const char amontons_friction_far[40000] = {1};   // code lies pages behind the file's begin
+int amontons_friction_interface(void) { return 1; }
+double amontons_friction_coefficient(const AmontonsFriction *given, double speed)
+{ static int calls; if (++calls > 300) exit(0); (void)given; (void)speed; return 0.3; }
+double amontons_friction_slope(const AmontonsFriction *given, double speed) { (void)given; (void)speed; return 0; }
+"""
+AT_ONCE = "#include <stdlib.h>\n__attribute__((constructor)) static void go(void) { exit(0); }\n"
+
+
+class OddEnds(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons_odd_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        cases.put(self.folder, {"scene.yaml": cases.SCENE, "block.geo": cases.ROOT / "meshes/block.geo", "fit.yaml": FIT})
+
+    def call(self, *words):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, env=os.environ | {"AMONTONS_CACHE": ""}, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
+        return done.returncode, done.stdout
+
+    def test_measured_beyond_all_measure(self):
+        for value, error, words in (("1e155", "0.05", "at most 1e+30"), ("-1e300", "1", "at most"), ("0.35", "1e-200", "so many digits"),
+                                    ("0.35", "1e300", "at most"), ("0", "1e-300", "so many digits")):
+            (self.folder / "measured.csv").write_text(f"load.pressure,mu_max,mu_max_error\n0.003,{value},{error}\n")
+            status, said = self.call("fit", "fit.yaml", "-o", "fitted", "-q")
+            self.assertEqual(status, 2, said)
+            self.assertIn("measured.csv", said)
+            self.assertIn(words, said)
+
+    def test_a_bar_that_is_cut_in_its_first_run(self):
+        status, said = self.call("run", "scene.yaml", "-o", "out", "--to", "1%", "--within", "0.05s", "--set", "time.until.U=0.01")
+        self.assertEqual(status, 0, said)
+        self.assertIn("its first run was cut short", said)
+        self.assertNotIn("contact nodes, at pressures", said)
+
+    def build(self, name, text):
+        (self.folder / f"{name}.c").write_text(text)
+        subprocess.run(["cc", "-shared", "-fPIC", f"-I{SOURCE / 'src'}", f"{name}.c", "-o", f"{name}.so"], cwd=self.folder, check=True)
+
+    def test_plug_ins_that_end_the_program(self):
+        self.build("exits", PLUGIN)
+        self.build("at_once", AT_ONCE)
+        (self.folder / "cut.so").write_bytes((self.folder / "exits.so").read_bytes()[:20000])
+        for name, wanted, words in (("exits", 1, "ended the program in the middle of its work"), ("cut", 2, "cut.so"), ("at_once", 2, "at_once.so")):
+            status, said = self.call("run", "scene.yaml", "-o", name, "-q", "--trust", "--set",
+                                     f"friction={{law: plugin, file: {name}.so, mu_static: 0.3}}", "output.history=false")
+            self.assertEqual(status, wanted, said)
+            self.assertIn(words, said)
+            self.assertFalse((self.folder / name / "amontons.lock").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
