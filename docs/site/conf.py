@@ -51,7 +51,7 @@ def struct_fields(app, what, name, struct, options, lines):
     """`name: words` of python/structs.py as a list, in which nothing is markup."""
     if what == "class" and hasattr(struct, "_fields_"):
         lines[:] = [re.sub(r"([*_|`])", r"\\\1", line) for line in lines]
-        lines[:] = [re.sub(r"^([\w\\]+): ", r"- **\1**: ", line) for line in lines]
+        lines[:] = [re.sub(r"^([\w\\, ]+): ", r"- **\1**: ", line) for line in lines]
 
 
 def setup(app):

@@ -6,6 +6,7 @@
 #include "algebra/dense.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "io/files/own_list.h"
 #include "model/obtain.h"
 #include "run/checkpoint.h"
 #include "run/explicit_loop.h"
@@ -345,8 +346,10 @@ static bool hand_out_report(const Simulation *simulation, const RunReport *repor
     const RunOptions *options = &simulation->options;
     char *text = NULL;
     bool refused = report->failure && report->failure->code == ERROR_INPUT;   // leaves nothing
-    if (result_folder_is_settled(&simulation->folder) && !refused)
+    if (result_folder_is_settled(&simulation->folder) && !refused) {
+        TRY(own_list_make(simulation->folder.path, err));   // a run that failed before t = 0
         TRY(report_write(simulation->folder.path, report, err));
+    }
     if (!options->on_report) goto cleanup;
     TRY((text = report_text(options->folder ? options->folder : ".", report, err)));
     options->on_report(text, options->context);

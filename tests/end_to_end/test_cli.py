@@ -200,7 +200,7 @@ class Misuse(InFolder):
         self.assert_refused(["run", FIG1, "-o", "file/below"], "cannot make the folder")
         self.assert_refused(["run", FIG1, "-o", 300 * "x"], "too long")
         self.assert_refused(["stability", FIG1, "-o", "file"], "is a file, not a folder")
-        self.assert_refused(["sweep", SOURCE / "validation/pads/designs.yaml", "-o", "file"], "cannot make the folder")
+        self.assert_refused(["sweep", SOURCE / "validation/pads/designs.yaml", "-o", "file"], "is a file, not a folder")
 
     def test_a_geo_that_runs_commands(self):
         """Refused before gmsh sees it, however it is hidden; allowed with --trust."""

@@ -28,7 +28,7 @@ class DenseMap(unittest.TestCase):
         panel = {"map": {key: np.asarray(values, int).ravel().tolist() for key, values in points.items()}}
         plot = {"x": {"label": "x"}, "y": {"label": "y"}, "color": {"label": "c", "range": [0, 2]}, "panels": [panel]}
         (self.folder / "map.json").write_text(json.dumps(plot))
-        subprocess.run([PROGRAM, "render", "map.json", "--width", "60", "--dpi", "600"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "render", "map.json", "--overwrite", "--width", "60", "--dpi", "600"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
         pixels = np.asarray(Image.open(self.folder / "map.png").convert("RGB")).astype(int)
         height, width = pixels.shape[:2]
         inside = pixels[height // 4:height * 3 // 5, width // 5:width * 3 // 5]
@@ -42,7 +42,7 @@ class DenseMap(unittest.TestCase):
             plot = {"x": {"label": "x"}, "y": {"label": "y"}, "color": {"label": words, "range": [0, 2]},
                     "panels": [{"map": {"x": [0, 1, 0, 1], "y": [0, 0, 1, 1], "value": [0, 1, 2, 1]}}]}
             (self.folder / "map.json").write_text(json.dumps(plot))
-            subprocess.run([PROGRAM, "render", "map.json", "--dpi", "144", "--height", "50"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([PROGRAM, "render", "map.json", "--overwrite", "--dpi", "144", "--height", "50"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
             pixels = np.asarray(Image.open(self.folder / "map.png").convert("L"))
             name = pixels[:, -24:]   # the last 12 points of the width
             self.assertTrue((name < 128).any(), "the name is there")

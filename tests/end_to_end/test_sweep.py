@@ -332,7 +332,7 @@ class Sweep(unittest.TestCase):
             self.assertEqual(row["mu_M_error"], rows[k]["mu_M_error"])
         shown = done.stdout.split("mu_M, highest first; gain over the same point with")[1].split("\n\n")[0].splitlines()
         self.assertEqual(len(shown), 6)   # title, head, three rows, how many more
-        self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.1f} ")
+        self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.2f} ")
         self.assertIn("5 more in ranking.csv", shown[5])
         self.assertNotIn("look beyond", done.stdout)   # of two values one is always at an edge
         for name in ("ranking", "plot"):

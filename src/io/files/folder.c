@@ -11,6 +11,7 @@
 bool folder_make(const char *path, Error *err)
 {
     char part[PATH_MAX];
+    struct stat what;
     if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part)
         return REFUSE(err, "the path of the folder %.80s... is too long", path);
     for (char *slash = part + 1; *slash; slash++) {
@@ -24,6 +25,9 @@ bool folder_make(const char *path, Error *err)
         return FAULT(err, wrong_name ? ERROR_INPUT : ERROR_FILE, "cannot make the folder %s: %s",
                      path, strerror(errno));
     }
+    if (stat(part, &what) == 0 && !S_ISDIR(what.st_mode))
+        return REFUSE(err, "%s is a file, not a folder: choose another folder (-o), or move it away",
+                      path);
     return true;
 }
 

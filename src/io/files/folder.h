@@ -6,6 +6,7 @@
 #include "base/error.h"
 
 // Like `mkdir -p`: `path` and all that leads there; what is there already is left as it is.
+// ERROR_INPUT: `path` is a file, or leads through one.
 bool folder_make(const char *path, Error *err);
 
 // `given` as seen from the folder of `file` (NULL: the working folder). false: there is no room.

@@ -31,13 +31,10 @@ static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
 static const char *const ENDINGS[] = {"", ".part", ".part.part"};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
-// A file in its place or a folder that cannot be written to is told at once.
+// A folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
 {
-    struct stat what;
     if (!folder_make(folder, err)) return false;
-    if (stat(folder, &what) != 0 || !S_ISDIR(what.st_mode))
-        return REFUSE(err, "%s is a file, not a folder: choose another result folder (-o)", folder);
     if (access(folder, W_OK | X_OK) != 0)
         return FAULT(err, ERROR_FILE, "cannot write into %s: %s", folder, strerror(errno));
     return true;
