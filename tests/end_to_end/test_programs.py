@@ -97,7 +97,7 @@ class Programs(Driven):
                 ("load.program.U: rod.program holds", "load.program={U: [0, 1], factor: [1, 2]}",
                  "rod.program={t: [0, 1], factor: [1, 0]}"),
                 ("time.until.U: rod.program never takes the rod so far", "rod.program={t: [0, 1], factor: [1, 0]}"),
-                ("reduction.use: `always`", "load.program={t: [0, 1], factor: [1, 2]}", "reduction.use=always"),
+                ("reduction.use, as set: `always`", "load.program={t: [0, 1], factor: [1, 2]}", "reduction.use=always"),
                 ("time.until.slidings: 1.5 is no whole number", "time.until={U: 1, slidings: 1.5}")):
             with self.subTest(words):
                 self.assertIn(words, self.call("run", *settings, status=2, flags=("-q",)))

@@ -213,7 +213,7 @@ class Space(OwnCache):
         for text, says, more in (("0 0 0\n0 1 0\n1 0 0\n", "3 points at 2 different x and 2 different y: a height map is a grid", []),
                                  ("0 0 0\n0 1 0\n1 0 0\n0 1 1\n", "has two points at x = 0, y = 1", []),
                                  ("0 0 0\n0 1 0\n", "has 1 point along x; two or more", []),
-                                 ("0 0 0\n0 1\n", ":2:4: found `0 1`; wanted: three numbers, x, y and gap", []),
+                                 ("0 0 0\n0 1\n", ":2: 2 cells, the first row has 3", []),
                                  ("0 0 0\n0 0.2 0\n1 0 0\n1 0.2 0\n", "from y = 0 to 0.2, the contact from 0 to 0.5", []),
                                  ("0 0 0\n0 1 0\n1 0 0\n1 1 0\n", "the mesh is in the plane: there is no y", [flat])):
             path.write_text(text)

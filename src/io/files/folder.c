@@ -26,8 +26,8 @@ bool folder_make(const char *path, Error *err)
                      path, strerror(errno));
     }
     if (stat(part, &what) == 0 && !S_ISDIR(what.st_mode))
-        return REFUSE(err, "%s is a file, not a folder: choose another folder (-o), or move it away",
-                      path);
+        return REFUSE(
+            err, "%s is a file, not a folder: choose another folder (-o), or move it away", path);
     return true;
 }
 

@@ -84,6 +84,12 @@ bool open_is_there(const char *path)
     return lstat(path, &status) == 0;
 }
 
+bool open_holds_something(const char *path)
+{
+    struct stat status;
+    return lstat(path, &status) == 0 && !(S_ISREG(status.st_mode) && status.st_size == 0);
+}
+
 // What speaks against writing into the open file, or NULL.
 static const char *objection(const struct stat *status)
 {

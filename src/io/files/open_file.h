@@ -31,5 +31,7 @@ int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE]);
 
 // Whether `path` is there, be it a link that leads nowhere.
 bool open_is_there(const char *path);
+// The same but for empty files, as mktemp or a kill leaves them: they hold nothing of anybody's.
+bool open_holds_something(const char *path);
 
 #endif

@@ -138,7 +138,7 @@ bool own_list_has(const char *path, bool *has, Error *err)
 bool own_list_refuse_taken(const char *path, Error *err)
 {
     bool ours = false;
-    if (!open_is_there(path)) return true;
+    if (!open_holds_something(path)) return true;
     if (!own_list_has(path, &ours, err)) return false;
     return ours || REFUSE(err,
                           "%s is there, and is not in the list of what amontons wrote "

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whose a file is. A folder is ours if it is empty or has our list, amontons.files, of the files
 // that we wrote there; a file outside of such a folder is somebody's. Only what is listed is ever
-// written over or removed without `--overwrite`, and of an earlier result nothing else goes. A name
-// is listed before its file is made, so that a kill leaves none that is not.
+// written over or removed without `--overwrite`, and of an earlier result nothing else goes. A file
+// is listed before anything is written into it: what a kill leaves is listed, or empty, and an
+// empty file is nobody's.
 //
 // The list has one name a line, as seen from its folder: force.csv, or figures/force.png. Names
 // that begin with "amontons." (the list, locks) are ours everywhere.
@@ -30,7 +31,7 @@ bool own_list_make(const char *folder, Error *err);   // an empty list, where th
 // be read.
 bool own_list_has(const char *path, bool *has, Error *err);
 
-// ERROR_INPUT: `path` is there, and no list has it.
+// ERROR_INPUT: `path` is there and not empty, and no list has it.
 bool own_list_refuse_taken(const char *path, Error *err);
 
 // Lists `path` there, once more where it is listed. Without a list nothing is done.

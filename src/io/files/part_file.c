@@ -88,18 +88,12 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
     return part_file_replace(file, path, false, err);
 }
 
-// An empty file, as mktemp makes them, holds nothing of anybody's.
-static bool holds_something(const char *path)
-{
-    struct stat status;
-    return lstat(path, &status) == 0 && !(S_ISREG(status.st_mode) && status.st_size == 0);
-}
-
-// Listed as soon as the part is known to be ours: before anything is written into it.
+// Listed as soon as the part is known to be ours: before anything is written into it. A kill between
+// the two leaves an empty part, which is nobody's.
 bool part_file_replace(PartFile *file, const char *path, bool overwrite, Error *err)
 {
     TRY(name_part(file, path, err));
-    bool there = holds_something(path), listed = false;
+    bool there = open_holds_something(path), listed = false;
     if (there || open_is_there(file->part)) TRY(own_list_has(path, &listed, err));
     if (there && !listed && !overwrite) TRY(refuse_taken(path, err));
     TRY(create_part(file, path, listed || overwrite, LOCK_WAIT, err));

@@ -113,7 +113,7 @@ static bool refuse_taken(const char *path, void *context, Error *err)
         char name[PATH_SIZE];
         bool ours = false;
         snprintf(name, sizeof name, "%s%s", path, ENDINGS[k]);
-        if (!open_is_there(name)) continue;
+        if (!open_holds_something(name)) continue;
         if (!own_list_has(path, &ours, err)) return false;
         if (!ours) return own_list_refuse_taken(name, err);
     }

@@ -42,7 +42,8 @@ FIXTURE(result_write)
 {
     static const double x[NODES] = {0, 0.25, 0.5, 0.75, 1}, pad[NODES] = {0, 0, 1, 1, 1},
                         line[NODES] = {0};
-    const double kind[2] = {1, 2}, counts[2] = {0, 1}, U_start[2] = {0.9, 1}, U_stop[2] = {0.91, 1.01};
+    const double kind[2] = {1, 2}, counts[2] = {0, 1}, U_start[2] = {0.9, 1},
+                 U_stop[2] = {0.91, 1.01};
     ResultHead head = {.title = "t",
                        .units = "si",
                        .version = "0",
@@ -50,7 +51,8 @@ FIXTURE(result_write)
                        .states = 1,
                        .contact_count = NODES};
     Error err = {0};
-    for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k) head.nodes[k] = k == NODES_PAD ? pad : k == NODES_LINE ? line : x;
+    for (int32_t k = 0; k < RESULT_NODES_COUNT; ++k)
+        head.nodes[k] = k == NODES_PAD ? pad : k == NODES_LINE ? line : x;
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k) head.numbers[k] = 0.01 * (k + 1);
     snprintf(folder, sizeof folder, "/tmp/amontons_render_XXXXXX");
     if (!mkdtemp(folder) || !own_list_make(folder, &err)) return -1;

@@ -46,9 +46,8 @@ FIXTURE(make_folder)
 {
     fill_values();
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
-    if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
-    snprintf(folder, sizeof folder, "/tmp/amontons_field_XXXXXX");
-    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
+    snprintf(folder, sizeof folder, "%s", given ? given : "/tmp/amontons_field_XXXXXX");
+    return (given || mkdtemp(folder)) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)

@@ -24,9 +24,8 @@ static const double node_pad[NODES] = {0, 0, 1, 1, 2};
 FIXTURE(make_folder)
 {
     const char *given = getenv("AMONTONS_TEST_OUTPUT");
-    if (given) return snprintf(folder, sizeof folder, "%s", given) > 0 ? 0 : -1;
-    snprintf(folder, sizeof folder, "/tmp/amontons_result_XXXXXX");
-    return mkdtemp(folder) && own_list_make(folder, &(Error){0}) ? 0 : -1;
+    snprintf(folder, sizeof folder, "%s", given ? given : "/tmp/amontons_result_XXXXXX");
+    return (given || mkdtemp(folder)) && own_list_make(folder, &(Error){0}) ? 0 : -1;
 }
 
 FIXTURE(remove_folder)
