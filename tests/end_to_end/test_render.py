@@ -545,12 +545,11 @@ class Variants(unittest.TestCase):
             for name in ("mu_static", "mu_kinetic", "mu_macroscopic", "critical_length", "length"):
                 attributes.pop(name, None)
 
-        def infinite(data, _):
-            data["interface/slip_rate"][5:50] = np.inf
+        def no_curve(data, _):
             data["series/mu"] = data["series/mu"] * 0 + np.nan
 
         cases = {"nothing slips": dict(change=nothing_slips, tables=False), "holes": dict(change=holes),
-                 "no numbers": dict(change=no_numbers), "infinite": dict(change=infinite),
+                 "no numbers": dict(change=no_numbers), "no curve": dict(change=no_curve),
                  "two nodes": dict(nodes=2), "one node": dict(nodes=1), "many": dict(nodes=2000)}
         for name, options in cases.items():
             with self.subTest(name):
@@ -700,6 +699,13 @@ class Errors(unittest.TestCase):
         fixture.make(self.folder, change=narrow)
         self.expect(ERROR_FILE, "interface/slip_rate", "80", "81", figures=("slip-map",))
 
+    def test_infinite_numbers(self):
+        """No run writes them."""
+        def infinite(data, _):
+            data["interface/slip_rate"][5:50] = np.inf
+        fixture.make(self.folder, change=infinite)
+        self.expect(ERROR_FILE, "interface/slip_rate holds inf, beyond all measure", figures=("slip-map",))
+
     def test_fonts(self):
         fixture.make(self.folder)
         os.environ["AMONTONS_FONT"] = self.folder + "/proc/none.ttf"
@@ -712,15 +718,15 @@ class Errors(unittest.TestCase):
         with open(os.path.join(self.folder, "figures"), "w") as file:
             file.write("a file in the way")
         code, message = render(self.folder)
-        self.assertEqual(code, ERROR_FILE)
-        self.assertIn("figures/force.png", message)
+        self.assertEqual(code, ERROR_INPUT)
+        self.assertIn("figures is a file, not a folder", message)
 
     def test_name_is_taken(self):
         """A folder stands where the picture should: no half picture is left beside it."""
         fixture.make(self.folder)
         os.makedirs(path_of(self.folder, "force"))
         code, message = render(self.folder)
-        self.assertEqual(code, ERROR_FILE)
+        self.assertEqual(code, ERROR_INPUT)
         self.assertIn("force.png", message)
         self.assertEqual(os.listdir(os.path.join(self.folder, "figures")), ["force.png"])
 

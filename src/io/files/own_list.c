@@ -122,9 +122,10 @@ bool own_list_has(const char *path, bool *has, Error *err)
     *has = false;
     if (!name || !is_a_name(name)) return true;
     list_path(folder, list);
-    size_t length = (size_t)snprintf(line, sizeof line, "\n%s\n", name), kept = 0;
+    size_t length = (size_t)snprintf(line, sizeof line, "\n%s\n", name), kept = 1;
     int file = open_to_read(list, err);
     if (file < 0) return false;
+    bytes[0] = '\n';   // before the first line, too
     for (int64_t got; (got = transfer_read(file, bytes + kept, PATH_SIZE, -1)) > 0;) {
         size_t filled = kept + (size_t)got;
         if ((*has = memmem(bytes, filled, line, length))) break;

@@ -88,8 +88,8 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
     return part_file_replace(file, path, false, err);
 }
 
-// Listed as soon as the part is known to be ours: before anything is written into it. A kill between
-// the two leaves an empty part, which is nobody's.
+// Listed as soon as the part is known to be ours: before anything is written into it. A kill
+// between the two leaves an empty part, which is nobody's.
 bool part_file_replace(PartFile *file, const char *path, bool overwrite, Error *err)
 {
     TRY(name_part(file, path, err));

@@ -41,7 +41,7 @@ cleanup:
 FIXTURE(result_write)
 {
     static const double x[NODES] = {0, 0.25, 0.5, 0.75, 1}, pad[NODES] = {0, 0, 1, 1, 1},
-                        line[NODES] = {0};
+                        line[NODES] = {1, 1, 1, 1, 1};
     const double kind[2] = {1, 2}, counts[2] = {0, 1}, U_start[2] = {0.9, 1},
                  U_stop[2] = {0.91, 1.01};
     ResultHead head = {.title = "t",
