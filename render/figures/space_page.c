@@ -266,19 +266,25 @@ void space_page_floor(const Page *page, const SpacePage *space, const Block *blo
 
 // --- axes ----------------------------------------------------------------------------------------
 
-// Along `axis` from `start`: ticks go to `aside`, a direction on the page.
+// Along `axis` from `start`: ticks go to `aside`, a direction on the page. Where that is to the side
+// the name rises, beside the numbers that it passes: the axis may lean.
 static void draw_axis(const Page *page, const SpacePage *space, const Block *block, int32_t axis,
                       const double start[3], Point aside)
 {
     static const char *const names[] = {"x", "y", "z"};
     Axis own = figure_length_axis(space->view, names[axis], block->low[axis], block->high[axis]);
     Ticks ticks = axis_ticks(&own, TICKS_WANTED);
-    double point = page->point, at[3] = {start[0], start[1], start[2]}, widest = 0;
-    bool flat = fabs(aside.x) > fabs(aside.y);
+    double point = page->point, at[3] = {start[0], start[1], start[2]};
+    bool flat = fabs(aside.x) > fabs(aside.y), left = aside.x < 0;
     Stroke stroke = {.color = INK, .width = FRAME_WIDTH * point};
     TextStyle style = {.size = NUMBER_SIZE * point, .color = INK};
-    style.across = flat ? aside.x > 0 ? 0 : 1 : 0.5;
+    TextStyle name_style = {.size = LABEL_SIZE * point, .color = INK, .across = 0.5, .up = 1};
+    style.across = flat ? left ? 1 : 0 : 0.5;
     style.up = flat ? 0.5 : 1;
+    at[axis] = (block->low[axis] + block->high[axis]) / 2;
+    Point name = see_on_page(space, block, at[0], at[1], at[2]);
+    double half = text_width(page->text, name_style.size, own.label) / 2 + style.size;
+    double away = flat ? (TICK + NUMBER_GAP) * point : NAME_GAP * point;   // of the name
     for (int32_t k = 0; k < ticks.count; ++k) {
         char number[TICK_LABEL_SIZE];
         double offset = axis == 2 ? start[2] - block->low[2] : 0;   // the block's own heights
@@ -290,18 +296,15 @@ static void draw_axis(const Page *page, const SpacePage *space, const Block *blo
         end.x += NUMBER_GAP * point * aside.x;
         end.y += NUMBER_GAP * point * aside.y;
         text_draw(page->text, &style, end, number);
-        widest = fmax(widest, text_width(page->text, style.size, number));
+        if (!flat || fabs(end.y - name.y) > half) continue;
+        double outer = (end.x - name.x) / aside.x + text_width(page->text, style.size, number);
+        away = fmax(away, outer + NUMBER_GAP * point);
     }
-    at[axis] = (block->low[axis] + block->high[axis]) / 2;
-    Point name = see_on_page(space, block, at[0], at[1], at[2]);
-    double away = flat ? (TICK + 2 * NUMBER_GAP) * point + widest : NAME_GAP * point;
-    style.size = LABEL_SIZE * point;
-    if (flat) {   // beside numbers of any width the page has room for a line that rises
-        style.rising = true;
-        style.across = 0.5;
-        style.up = 0;
+    if (flat) {
+        name_style.rising = true;
+        name_style.up = left ? 0 : 1;
     }
-    text_draw(page->text, &style, (Point){name.x + away * aside.x, name.y + away * aside.y},
+    text_draw(page->text, &name_style, (Point){name.x + away * aside.x, name.y + away * aside.y},
               own.label);
 }
 
