@@ -29,9 +29,9 @@ static void key_of(Page *page, const ViewCurve *curve, const double *number,
         entries[count++] =
             (KeyEntry){KEY_RING, FIGURE_CURVE, "faster than ~{c}_{L}: no wave carries it"};
     if (number[NUMBER_WAVE_DAMPING] > 1) {
-        snprintf(damped, sizeof damped, "(waves run with eta1 and eta2 below %.2g of theirs)",
+        snprintf(damped, sizeof damped, "with %.2g times its eta1 and eta2 or less they would run",
                  1 / number[NUMBER_WAVE_DAMPING]);
-        entries[count++] = (KeyEntry){.words = "viscosity damps every wave of this block"};
+        entries[count++] = (KeyEntry){.words = "viscosity damps every wave of this block;"};
         entries[count++] = (KeyEntry){.words = damped};
     }
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
