@@ -18,6 +18,7 @@
 
 enum {
     TRIES_MAX = 1000,   // choices that limits refuse, one after the other
+    KNOWN_MAX = 200,   // choices of designs that are known, one after the other: no others are left
     REFUSED_MAX = 20,   // scenes that are refused before there is any design: the study is wrong
 };
 // Steps of a key's range: designs that are nearer are one, as no bar tells them apart. Of no fit.
@@ -228,8 +229,8 @@ static double on_lattice(const Search *search, double x, double least, double mo
 static bool choose(Search *search, bool *added, Error *err)
 {
     const StudySearch *keys = &search->study->search;
-    int32_t design = -1;
-    for (int32_t k = 0; k < TRIES_MAX && design < 0; k++) {
+    int32_t design = -1, repeated = 0;
+    for (int32_t k = 0; k < TRIES_MAX && repeated < KNOWN_MAX && design < 0; k++) {
         if (search->designs.count == 0 && search->refused >= REFUSED_MAX) {
             *err = search->refusal;
             return false;
@@ -245,12 +246,14 @@ static bool choose(Search *search, bool *added, Error *err)
         }
         TRY(search_add(search, x, &design, err));
         int32_t known = design < 0 ? designs_find(&search->designs, x) : design;
+        if (design < 0 && known >= 0) repeated++;
         if (design >= 0)
             search->designs.list[design].choice = number;
         else
             TRY(tell(search, number, known, err));
     }
     *added = design >= 0;
+    search->exhausted = search->exhausted || !*added;
     if (search->designs.count == 0)
         FAIL(
             err, ERROR_INPUT,
