@@ -38,9 +38,18 @@ static bool report_step(void *self, const Observation *seen, Error *err)
     return true;
 }
 
+// A run that fails before t = 0 has no answer and no error, and reports none.
+static void note_nothing(Simulation *simulation)
+{
+    simulation->drops = drops_none();
+    simulation->steady = steady_of(NULL, 0);
+    simulation->errors = (RunErrors){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
+    simulation->errors = (RunErrors){0};
     const Model *model = &simulation->model;
     const Recorder recorders[] = {{&simulation->events, events_record},
                                   {&simulation->drops, drops_record},
@@ -203,13 +212,14 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
     TRY(simulation);
     *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
+    note_nothing(simulation);
     simulation->scene = *scene;
     simulation->options = *options;
     simulation->deadline = deadline;
     simulation->scene.output.whole = options->whole_block;
     simulation->pressure = scene->load.pressure;
     simulation->started = simulation->checkpoint_at = clock_seconds();
-    dense_use_one_thread();
+    TRY(dense_begin(err));
     TRY(accept(simulation, &state, err));
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
@@ -372,7 +382,8 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     simulation->closed = true;
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
-    simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
+    if (simulation->recorders.count > 0)
+        simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     const Event *least = NULL;
     Answers answers = answers_to_report(simulation, &least);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
