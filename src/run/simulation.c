@@ -125,7 +125,7 @@ static bool record_step(Simulation *simulation, Error *err)
              "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
              "missing, time.energy_tolerance allows %g; %s",
              seen.t, seen.energy_error, simulation->scene.time.energy_tolerance,
-             simulation->warnings.count > 0 ? warned : usual);
+             simulation->ill_posed ? warned : usual);
 cleanup:
     simulation->timing.output += clock_seconds() - started;
     return error_is_clean(err);
@@ -230,17 +230,19 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                      "the block is not reduced, steps are those of the whole mesh: %s",
                      simulation->model.not_reduced);
     TRY(start_prepare_steps(simulation, err));
-    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
-    if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
-        warnings_add(&simulation->warnings,
-                     "material.plane means nothing here: the mesh is in space");
     Schedule load = scene_schedule(&scene->load.program);
-    if (simulation->model.mesh.warning[0])
-        warnings_add(&simulation->warnings, "gmsh made the mesh, but says: %s",
-                     simulation->model.mesh.warning);
+    int32_t before = simulation->warnings.count;
+    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);
+    simulation->ill_posed = warning || simulation->warnings.count > before;
+    if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
+        warnings_add(&simulation->warnings,
+                     "material.plane means nothing here: the mesh is in space");
+    if (simulation->model.mesh.warning[0])
+        warnings_add(&simulation->warnings, "gmsh made the mesh, but says: %s",
+                     simulation->model.mesh.warning);
     warnings_of_memory(&simulation->model, simulation->model.scales.load * schedule_largest(&load),
                        &simulation->warnings);
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,

@@ -80,6 +80,15 @@ class OddEnds(unittest.TestCase):
             said = self.call_bash(f'ulimit -v {kilobytes}; exec "$0" run scene.yaml -o out --overwrite -q --set reduction.use=always')
             self.assertIn(said[0], (0, 1), said)
 
+    def test_a_ledger_that_does_not_close(self):
+        """Is laid to an ill-posed problem only where the run was warned of that, not of something else."""
+        for setting, ill in (("contact={gap: 0.3 * abs(x - 0.5)}", False), ("material.eta1=0", True)):
+            status, said = self.call("run", "scene.yaml", "-o", "out", "--overwrite", "-q", "--set", setting, "time.energy_tolerance=1e-15")
+            self.assertEqual(status, 1, said)
+            self.assertIn("warning", said)
+            self.assertIn("the energy ledger does not close", said)
+            self.assertEqual("the problem is ill-posed" in said, ill, said)
+
     def call_bash(self, command):
         done = subprocess.run(["bash", "-c", command, PROGRAM], cwd=self.folder, env=os.environ | {"AMONTONS_CACHE": ""}, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
