@@ -147,7 +147,10 @@ class Fit(unittest.TestCase):
                 (good, text.replace("measured: measured.csv", "measured: [measured.csv, ./measured.csv]"), "measured: found .* each table once"),
                 (good[:2], text, "1 measurements cannot tell 2 keys"),
                 ([["series/mu", "series/mu_error"], ["1", "1"]], text, "a curve has one column without an error"),
-                ([good[0], ["-1", "0.4", "0.01"], good[1]], text, "load.pressure")):
+                ([*good, ["-1", "0.4", "0.01"]], text, r"measured.csv:4:1: .*load.pressure: found `-1`"),
+                ([*good, ["much", "0.4", "0.01"]], text, r"measured.csv:4:1: .*load.pressure: found `much`"),
+                ([*good, ["", "0.4", "0.01"]], text, "measured.csv:4:1: load.pressure: is empty"),
+                ([*good, ["0.003, title: x", "0.4", "0.01"]], text, "measured.csv:4:1: load.pressure: `0.003, title: x` is no plain value")):
             self.measure(rows)
             said = self.call("fit", study, "-o", "out", status=2).stderr
             self.assertRegex(said, wanted)

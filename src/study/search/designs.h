@@ -35,6 +35,7 @@ typedef struct Designs {
     int32_t aims;   // conditions, and once more for each result of `also`
     int32_t conditions;   // at which each design is computed: points of `vary`, or ...
     char *const *texts;   // ... [conditions] "load.pressure: 0.003", not owned; NULL: `vary`
+    char *const *origins;   // [conditions] where each text was read, not owned; NULL: not known
     Design *list;   // [DESIGNS_MAX] owned
     DesignPoint *points;   // [DESIGNS_MAX * aims] owned
     double near[STUDY_SEARCH_MAX];   // designs that differ by less are one; parts of a key's range

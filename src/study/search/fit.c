@@ -151,6 +151,7 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
     search->judge = (SearchJudge){take_results, judge_misfit, fit};
     if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
         return false;
+    search->designs.origins = fit->measured.origins;
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         search->designs.near[k] = NEAR_IN_RANGE;
     int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;

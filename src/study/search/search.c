@@ -119,13 +119,16 @@ static bool make_scene(Search *search, const StudyCase *trial, int32_t condition
                        Error *err)
 {
     Error refusal = {0};
-    *allowed = study_scene(search->study, &(PointChoice){.point = condition, .trial = trial},
+    const Designs *designs = &search->designs;
+    int32_t point = designs->texts ? 0 : condition;
+    *allowed = study_scene(search->study, &(PointChoice){.point = point, .trial = trial},
                            search->scene, &refusal);
     if (*allowed) return true;
     if (refusal.code != ERROR_INPUT) {
         *err = refusal;
         return false;
     }
+    if (designs->origins) error_context(&refusal, "%s", designs->origins[condition]);
     if (search->refused == 0) search->refusal = refusal;
     return true;
 }
@@ -146,7 +149,7 @@ static bool is_allowed(Search *search, const double *x, bool *allowed, Error *er
     StudyCase first = trial;
     for (int32_t c = 1; c < designs->conditions && *allowed; c++) {
         if (designs->texts) trial.map = yaml_next(document, trial.map);
-        TRY(make_scene(search, &trial, designs->texts ? 0 : c, allowed, err));
+        TRY(make_scene(search, &trial, c, allowed, err));
     }
     if (*allowed) TRY(make_scene(search, &first, 0, allowed, err));
     search->refused += !*allowed;
