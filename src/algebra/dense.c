@@ -61,10 +61,11 @@ void dense_use_one_thread(void)
     if (blas_thread_shutdown_) blas_thread_shutdown_();
 }
 
+static const size_t BUFFER = (size_t)128 << 20;   // of OpenBLAS for processors of today
+static atomic_bool has_buffer;   // OpenBLAS keeps it as long as the process lasts
+
 bool dense_begin(Error *err)
 {
-    static const size_t BUFFER = (size_t)128 << 20;   // of OpenBLAS for processors of today
-    static atomic_bool has_buffer;   // of the process
     double one = 1;
     dense_use_one_thread();
     if (has_buffer) return true;

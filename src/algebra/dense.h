@@ -12,7 +12,7 @@
 // as much.
 void dense_use_one_thread(void);
 // The same, and OpenBLAS has the buffer that its products are packed in: it takes one at the first
-// call, keeps it, and where there is no room for it asks again for ever. ERROR_MEMORY: there is none.
+// call and keeps it; where there is no room it asks again for ever. ERROR_MEMORY: there is none.
 bool dense_begin(Error *err);
 
 // Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.

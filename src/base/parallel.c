@@ -10,8 +10,8 @@
 
 #include <stdatomic.h>
 
-// Address space for one thread more: its stack, what malloc sets aside for it, and OpenBLAS's buffer
-// of 128 MB, for which OpenBLAS waits for ever where it gets none.
+// Address space for one thread more: its stack, what malloc sets aside for it, and the buffer of
+// 128 MB that OpenBLAS asks for again and again where it gets none.
 static const size_t THREAD_ROOM = (size_t)256 << 20;
 
 static _Thread_local int32_t left_to_piece;   // threads; 0: not within a piece

@@ -406,6 +406,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
         if (!hand_out_report(simulation, &report, err)) return false;
     }
     summary_fill(simulation, &counters, &answers, summary);
+    summary->bar_own_mu_M = simulation_answers(simulation).mu_M.value;
     return true;
 }
 

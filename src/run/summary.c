@@ -146,7 +146,6 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
     summary->bar_window = simulation->scene.accuracy.window;
     summary->bar_ended = levels->ended;
     const Scene *scene = &simulation->scene;
-    summary->bar_own_mu_M = simulation_answers(simulation).mu_M.value;
     summary->bar_goes_on = scene->time.until_periodic || scene->time.until_slidings > 0 ||
                            scene->time.until_mu_below > 0;
 }
