@@ -107,6 +107,7 @@ typedef struct RunSummary {
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
     bool bar_goes_on;   // its runs go on where time.until would have ended the scene's own
+    double bar_own_mu_M;   // of the scene's own run alone, to which the bar does not belong; NaN
     const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted, period;   // seen; in mu_M; they repeat after so many, or 0

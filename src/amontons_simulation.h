@@ -39,6 +39,7 @@ typedef struct RunForecast {
     bool held;   // the reduction is in the cache
     double mesh;   // processor time to read the mesh now, s
     double memory;   // bytes at most, about; 0: not known, as on the full mesh in the plane
+    char mesh_moved[MESH_MOVED_SIZE];   // as in RunSummary
 } RunForecast;
 bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err);
 

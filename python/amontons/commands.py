@@ -87,7 +87,8 @@ def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: P
 
 def forecast(scene: Any, settings: Settings | None = None, *, trust: bool = False) -> Answer:
     """How large a run would be: `amontons run --dry-run`. Attributes: those of RunForecast
-    (elements, contact_nodes, unknowns, reduced, held; mesh: processor seconds to read it; memory: bytes)."""
+    (elements, contact_nodes, unknowns, reduced, held; mesh: processor seconds to read it; memory: bytes; mesh_moved: how
+    the mesh was scaled and moved)."""
     read = Scene(scene, settings, trust)
     expected = c.RunForecast()
     call(lib.amontons_forecast, read, ctypes.byref(expected))

@@ -13,14 +13,24 @@ from ._library import Owner, Scene, c_text, c_text_or_none, call, lib, raise_err
 from .results import Answer
 
 
+class _Memory:
+    """The library's simulation: destroyed when neither its Simulation nor an array over it is left."""
+
+    def __init__(self, *given: Any) -> None:
+        self.handle = ctypes.c_void_p()
+        self.given = given   # what the library was handed at creation
+
+    def __del__(self) -> None:
+        if lib is not None and self.handle:
+            lib.amontons_simulation_destroy(self.handle)
+
+
 def _view(owner: Any, pointer: Any, kind: Any, *shape: int) -> np.ndarray:
     """A read-only array over memory of the library, which lives as long as `owner`."""
     count = int(np.prod(shape))
     buffer = (kind * max(count, 1)).from_address(ctypes.cast(pointer, ctypes.c_void_p).value)
     buffer.owner = owner   # numpy keeps the buffer, the buffer keeps the simulation
-    array = np.frombuffer(buffer, dtype=kind, count=count).reshape(shape)
-    array.flags.writeable = False
-    return array
+    return np.frombuffer(memoryview(buffer).toreadonly(), dtype=kind, count=count).reshape(shape)
 
 
 class Simulation(Owner):
@@ -41,40 +51,32 @@ class Simulation(Owner):
 
     def __init__(self, scene: Any, settings: Mapping[str, Any] | None = None, folder: Any = None, *,
                  overwrite: bool = False, whole_block: bool = False, trust: bool = False) -> None:
-        self._handle = ctypes.c_void_p()
         self._scene = Scene(scene, settings, trust)
         self._options = c.RunOptions(folder=c_text_or_none(folder), overwrite=overwrite, whole_block=whole_block)
         self._finished = ctypes.c_bool(False)
         self._block: c.BlockView | None = None
         self.step = c.StepView()
-        try:
-            call(lib.amontons_simulation_create, self._scene, ctypes.byref(self._options),
-                 ctypes.byref(self._handle))
-        except BaseException:
-            self._destroy()
-            raise
-        lib.amontons_simulation_view(self._handle, ctypes.byref(self.step))
+        self._memory: _Memory | None = None
+        memory = _Memory(self._scene, self._options)
+        call(lib.amontons_simulation_create, self._scene, ctypes.byref(self._options), ctypes.byref(memory.handle))
+        self._memory = memory
+        self.step.memory = memory   # its contact points there
+        lib.amontons_simulation_view(memory.handle, ctypes.byref(self.step))
         contact = self.step.contact
         n, directions = contact.count, contact.tangents
         vector = (n,) if directions == 1 else (n, directions)
-        self.x = _view(self, contact.x, ctypes.c_double, n)
-        self.y = _view(self, contact.y, ctypes.c_double, n) if contact.y else None
-        self.slip_rate = _view(self, contact.slip_rate, ctypes.c_double, *vector)
-        self.slip = _view(self, contact.slip, ctypes.c_double, *vector)
-        self.pressure = _view(self, contact.pressure, ctypes.c_double, n)
-        self.shear = _view(self, contact.shear, ctypes.c_double, *vector)
-        self.status = _view(self, contact.status, ctypes.c_uint8, n)
+        self.x = _view(self._memory, contact.x, ctypes.c_double, n)
+        self.y = _view(self._memory, contact.y, ctypes.c_double, n) if contact.y else None
+        self.slip_rate = _view(self._memory, contact.slip_rate, ctypes.c_double, *vector)
+        self.slip = _view(self._memory, contact.slip, ctypes.c_double, *vector)
+        self.pressure = _view(self._memory, contact.pressure, ctypes.c_double, n)
+        self.shear = _view(self._memory, contact.shear, ctypes.c_double, *vector)
+        self.status = _view(self._memory, contact.status, ctypes.c_uint8, n)
         remembered = (n,) if contact.states == 1 else (n, contact.states)
-        self.state = _view(self, contact.state, ctypes.c_double, *remembered) if contact.state else None
-
-    def _destroy(self) -> None:
-        if lib is not None and self._handle:
-            lib.amontons_simulation_destroy(self._handle)
-            self._handle = ctypes.c_void_p()
+        self.state = _view(self._memory, contact.state, ctypes.c_double, *remembered) if contact.state else None
 
     def __del__(self) -> None:
-        if hasattr(self, "_handle"):
-            self._destroy()
+        self._memory = None   # arrays that are left keep it
 
     @property
     def finished(self) -> bool:
@@ -84,9 +86,9 @@ class Simulation(Owner):
     @property
     def _open(self) -> Any:
         """The handle, for every function that takes one: NULL would crash the library."""
-        if not self._handle:
+        if not self._memory:
             raise ValueError("this simulation is closed")
-        return self._handle
+        return self._memory.handle
 
     def advance(self) -> c.StepView:
         """One accepted step, also beyond the scene's end where there is room for one."""
@@ -149,26 +151,26 @@ class Simulation(Owner):
     def position(self) -> np.ndarray:
         """[nodes, 2] x and z of all nodes of the mesh, undeformed, length."""
         block = self._look()
-        return _view(self, block.position, ctypes.c_double, block.nodes, block.dimensions)
+        return _view(self._memory, block.position, ctypes.c_double, block.nodes, block.dimensions)
 
     @property
     def displacement(self) -> np.ndarray:
         """[nodes, 2] of all nodes of the mesh, length: a copy, recovered when asked for (whole_block=True)."""
         block = self._look()
-        return _view(self, block.displacement, ctypes.c_double, block.nodes, block.dimensions).copy()
+        return _view(self._memory, block.displacement, ctypes.c_double, block.nodes, block.dimensions).copy()
 
     @property
     def velocity(self) -> np.ndarray:
         """[nodes, 2] of all nodes of the mesh: a copy, recovered when asked for (whole_block=True)."""
         block = self._look()
-        return _view(self, block.velocity, ctypes.c_double, block.nodes, block.dimensions).copy()
+        return _view(self._memory, block.velocity, ctypes.c_double, block.nodes, block.dimensions).copy()
 
     @property
     def elements(self) -> list[np.ndarray]:
         """The node numbers of each element, from 0, corners first, in gmsh's order."""
         block = self._look()
-        first = _view(self, block.first_node, ctypes.c_int32, block.elements + 1)
-        nodes = _view(self, block.element_nodes, ctypes.c_int32, int(first[-1]))
+        first = _view(self._memory, block.first_node, ctypes.c_int32, block.elements + 1)
+        nodes = _view(self._memory, block.element_nodes, ctypes.c_int32, int(first[-1]))
         return np.split(nodes, first[1:-1])
 
     def finish(self) -> Answer:

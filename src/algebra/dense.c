@@ -9,9 +9,11 @@
 
 #include "algebra/lanes.h"
 #include "algebra/room.h"
+#include "base/system.h"
 
 #include <cblas.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 // Rows that dense_apply_each takes at a time: half a megabyte, and whole vectors of the processor,
@@ -57,6 +59,23 @@ void dense_use_one_thread(void)
     if (openblas_get_num_threads() == 1) return;   // to set it again would start them again
     openblas_set_num_threads(1);
     if (blas_thread_shutdown_) blas_thread_shutdown_();
+}
+
+static const size_t BUFFER = (size_t)128 << 20;   // of OpenBLAS for processors of today
+static atomic_bool has_buffer;   // OpenBLAS keeps it as long as the process lasts
+
+bool dense_begin(Error *err)
+{
+    double one = 1;
+    dense_use_one_thread();
+    if (has_buffer) return true;
+    if (!system_has_room(BUFFER))
+        return FAULT(err, ERROR_MEMORY,
+                     "no memory for products of matrices: OpenBLAS needs %zu MB in one piece "
+                     "(ulimit -v)",
+                     BUFFER >> 20);
+    has_buffer = dense_cholesky(&one, 1);
+    return true;
 }
 
 // A = L L'. LAPACK stops at the first pivot that is not above 0, which is the test for definiteness

@@ -3,12 +3,17 @@
 #ifndef AMONTONS_ALGEBRA_DENSE_H
 #define AMONTONS_ALGEBRA_DENSE_H
 
+#include "base/error.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
 // Ends BLAS's threads: at these sizes they gain nothing, and beside another process they cost twice
 // as much.
 void dense_use_one_thread(void);
+// The same, and OpenBLAS has the buffer that its products are packed in: it takes one at the first
+// call and keeps it; where there is no room it asks again for ever. ERROR_MEMORY: there is none.
+bool dense_begin(Error *err);
 
 // Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.
 // false: `a` is not positive definite (nothing else can go wrong).

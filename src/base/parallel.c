@@ -10,6 +10,10 @@
 
 #include <stdatomic.h>
 
+// Address space for one thread more: its stack, what malloc sets aside for it, and the buffer of
+// 128 MB that OpenBLAS asks for again and again where it gets none.
+static const size_t THREAD_ROOM = (size_t)256 << 20;
+
 static _Thread_local int32_t left_to_piece;   // threads; 0: not within a piece
 
 typedef struct Work {
@@ -58,6 +62,7 @@ void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t
 {
     int32_t workers = memory_may_fail() ? 1 : parallel_workers(), made = 1;
     int32_t wanted = count < workers ? count : workers;
+    while (wanted > 1 && !system_has_room((size_t)(wanted - 1) * THREAD_ROOM)) wanted--;
     Work work = {piece, context, count, wanted > 0 ? workers / wanted : 1, 0};
     Helper helpers[PARALLEL_WORKERS_MAX];
     for (; made < wanted; made++) {

@@ -101,6 +101,15 @@ int64_t system_address_space(void)
     return (int64_t)pages * sysconf(_SC_PAGESIZE);
 }
 
+bool system_has_room(size_t bytes)
+{
+    void *room = mmap(NULL, bytes, PROT_READ | PROT_WRITE,
+                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) return false;
+    munmap(room, bytes);
+    return true;
+}
+
 void system_use_large_pages(void *array, size_t bytes)
 {
 #ifdef MADV_HUGEPAGE

@@ -35,6 +35,8 @@ bool system_object_path(const void *address, char *path, size_t size);
 // --- memory --------------------------------------------------------------------------------------
 
 int64_t system_address_space(void);   // bytes that this process has mapped; 0: not known
+// Whether so much more could be mapped (ulimit -v, vm.overcommit_memory).
+bool system_has_room(size_t bytes);
 void system_use_large_pages(void *array, size_t bytes);   // where there are some
 void system_give_back_memory(void);   // what is freed, and the C library keeps
 

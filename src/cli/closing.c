@@ -210,8 +210,18 @@ static void print_bar(const RunSummary *summary)
         summary->bar_runs, summary->bar_runs == 1 ? "" : "s", summary->bar_meshes,
         summary->bar_meshes == 1 ? "" : "es", summary->bar_nodes, 100 * summary->bar_window);
     if (summary->bar_goes_on)
-        say("                  each goes on until its own answer is known: periodic, slidings and "
-            "mu_below of time.until do not end it\n");
+        say("%seach goes on until its own answer is known: periodic, slidings and mu_below of "
+            "time.until do not end it\n",
+            INDENT);
+    double off = fabs(summary->bar_own_mu_M - summary->mu_M);   // NaN: one of them has none
+    if (!summary->bar_goes_on && !(off > summary->mu_M_error)) return;
+    say("%smu_M and mu_hold are of those runs, which go further than this one; the rest is of this "
+        "one",
+        INDENT);
+    if (isnan(summary->bar_own_mu_M))
+        say(", which has no mu_M of its own\n");
+    else
+        say(", whose own mu_M is %.4f\n", summary->bar_own_mu_M);
 }
 
 static void print_critical_length(const RunSummary *summary)

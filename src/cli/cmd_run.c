@@ -139,6 +139,7 @@ static int show_forecast(const Scene *scene)
     if (!amontons_forecast(scene, &size, &err)) return report_error(&err);
     say("%d elements, %d contact nodes, %d unknowns\n", size.elements, size.contact_nodes,
         size.unknowns);
+    if (*size.mesh_moved) say("mesh %s\n", size.mesh_moved);
     say("%s\n", !size.reduced ? "not reduced: steps are those of the whole mesh"
                 : size.held   ? "reduced before stepping; the reduction is in the cache"
                               : "reduced before stepping; the reduction is not in the cache");

@@ -94,7 +94,7 @@ Answers answers_of(const Drops *drops)
     Answers answers = {.mu_M_low = NAN,
                        .mu_M_high = NAN,
                        .mu_M_spread = NAN,
-                       .mu_max = drops->mu_max,
+                       .mu_max = isfinite(drops->mu_max) ? drops->mu_max : (double)NAN,
                        .mu_M_known_to = NAN,
                        .mu_hold_known_to = NAN,
                        .mu_max_known_to = NAN,

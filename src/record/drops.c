@@ -24,19 +24,24 @@ static int32_t state_size(const Drops *drops)
     return 2 * drops->stretches.count;
 }
 
+Drops drops_none(void)
+{
+    return (Drops){.settled = -1,
+                   .mu_static = NAN,
+                   .rising = NOTHING_SEEN,
+                   .top = -INFINITY,
+                   .mu_max = -INFINITY};
+}
+
 bool drops_create(const Interface *interface, const Events *events, double tolerance, Drops *drops,
                   Error *err)
 {
-    *drops = (Drops){.events = events,
-                     .tolerance = tolerance,
-                     .pad_count = interface->pad_count,
-                     .pad_name = interface->pad_name,
-                     .room = FIRST_ROOM,
-                     .settled = -1,
-                     .mu_static = NAN,
-                     .rising = NOTHING_SEEN,
-                     .top = -INFINITY,
-                     .mu_max = -INFINITY};
+    *drops = drops_none();
+    drops->events = events;
+    drops->tolerance = tolerance;
+    drops->pad_count = interface->pad_count;
+    drops->pad_name = interface->pad_name;
+    drops->room = FIRST_ROOM;
     if (!stretches_create(interface, &drops->stretches, err)) return false;
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);

@@ -56,6 +56,7 @@ typedef struct Drops {
 
 extern const double LEAST_DROP;
 
+Drops drops_none(void);   // before anything is recorded: every answer of it is NaN
 bool drops_create(const Interface *interface, const Events *events, double tolerance, Drops *drops,
                   Error *err);
 void drops_destroy(Drops *drops);

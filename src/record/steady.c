@@ -71,12 +71,13 @@ void steady_answer(const Steady *steady, Answers *answers)
 
 const char *steady_words(const Steady *steady, const Answers *answers)
 {
+    if (!steady->events) return "none: the run failed before its first step";
     if (answers->steady) return "steady sliding";
     if (!isnan(answers->mu_M.value)) return "peaks";
     if (steady->slides) return "none: the block slides slowly, and F_T/F_N is not steady yet";
     if (answers->peaks > 0)
         return "none: what slidings of the whole block there were belong to the start or run-in";
-    if (steady->events && steady->events->kinds[EVENT_LEADING] > 0)
+    if (steady->events->kinds[EVENT_LEADING] > 0)
         return "none: the block slid from the start on, and not once from rest";
     if (answers->regime.count > 0) return "none: only parts of the block slid in this run";
     return "none: the block as a whole did not slide in this run";

@@ -13,6 +13,7 @@
 #include "run/accuracy_figure.h"
 #include "run/accuracy_state.h"
 #include "run/level_scene.h"
+#include "run/summary.h"
 #include "run/warnings.h"
 
 #include <math.h>
@@ -323,7 +324,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
 {
     NUMBERS_HAVE_A_POINT;
     if (!(scene->accuracy.mu > 0)) return simulation_run(scene, options, summary, err);
-    *summary = (RunSummary){.mu_M = NAN};
+    *summary = summary_none();
     ResultFolder folder = {0};
     Accuracy *accuracy = NEW_ARRAY(Accuracy, 1, err);
     TRY(accuracy);

@@ -163,7 +163,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
     steady_write_json(&simulation->steady, report->answers, json);
     write_slip(json, report->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);
-    if (simulation->model.interface.dim > 2) turning_write_json(&simulation->turning, json);
+    if (simulation->turning.contact && simulation->model.interface.dim > 2)
+        turning_write_json(&simulation->turning, json);
     if (simulation->readings.course) program_results_json(&simulation->readings, json);
     const Model *model = &simulation->model;
     const Material *material =

@@ -38,9 +38,18 @@ static bool report_step(void *self, const Observation *seen, Error *err)
     return true;
 }
 
+// A run that fails before t = 0 has no answer and no error, and reports none.
+static void note_nothing(Simulation *simulation)
+{
+    simulation->drops = drops_none();
+    simulation->steady = steady_of(NULL, 0);
+    simulation->errors = (RunErrors){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
+    simulation->errors = (RunErrors){0};
     const Model *model = &simulation->model;
     const Recorder recorders[] = {{&simulation->events, events_record},
                                   {&simulation->drops, drops_record},
@@ -116,7 +125,7 @@ static bool record_step(Simulation *simulation, Error *err)
              "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
              "missing, time.energy_tolerance allows %g; %s",
              seen.t, seen.energy_error, simulation->scene.time.energy_tolerance,
-             simulation->warnings.count > 0 ? warned : usual);
+             simulation->ill_posed ? warned : usual);
 cleanup:
     simulation->timing.output += clock_seconds() - started;
     return error_is_clean(err);
@@ -203,13 +212,14 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
     TRY(simulation);
     *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
+    note_nothing(simulation);
     simulation->scene = *scene;
     simulation->options = *options;
     simulation->deadline = deadline;
     simulation->scene.output.whole = options->whole_block;
     simulation->pressure = scene->load.pressure;
     simulation->started = simulation->checkpoint_at = clock_seconds();
-    dense_use_one_thread();
+    TRY(dense_begin(err));
     TRY(accept(simulation, &state, err));
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
@@ -220,17 +230,19 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                      "the block is not reduced, steps are those of the whole mesh: %s",
                      simulation->model.not_reduced);
     TRY(start_prepare_steps(simulation, err));
-    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
-    if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
-        warnings_add(&simulation->warnings,
-                     "material.plane means nothing here: the mesh is in space");
     Schedule load = scene_schedule(&scene->load.program);
-    if (simulation->model.mesh.warning[0])
-        warnings_add(&simulation->warnings, "gmsh made the mesh, but says: %s",
-                     simulation->model.mesh.warning);
+    int32_t before = simulation->warnings.count;
+    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);
+    simulation->ill_posed = warning || simulation->warnings.count > before;
+    if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
+        warnings_add(&simulation->warnings,
+                     "material.plane means nothing here: the mesh is in space");
+    if (simulation->model.mesh.warning[0])
+        warnings_add(&simulation->warnings, "gmsh made the mesh, but says: %s",
+                     simulation->model.mesh.warning);
     warnings_of_memory(&simulation->model, simulation->model.scales.load * schedule_largest(&load),
                        &simulation->warnings);
     warnings_of_shape(scene, simulation->model.length, simulation->model.height,
@@ -372,7 +384,8 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     simulation->closed = true;
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
-    simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
+    if (simulation->recorders.count > 0)
+        simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     const Event *least = NULL;
     Answers answers = answers_to_report(simulation, &least);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
@@ -393,6 +406,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
         if (!hand_out_report(simulation, &report, err)) return false;
     }
     summary_fill(simulation, &counters, &answers, summary);
+    summary->bar_own_mu_M = simulation_answers(simulation).mu_M.value;
     return true;
 }
 

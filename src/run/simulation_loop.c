@@ -4,6 +4,7 @@
 
 #include "run/checkpoint.h"
 #include "run/rewind.h"
+#include "run/summary.h"
 
 #include <math.h>
 
@@ -41,7 +42,7 @@ bool simulation_loop(Simulation *simulation, Error *err)
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
 {
     Simulation *simulation = NULL;
-    *summary = (RunSummary){.mu_M = NAN};
+    *summary = summary_none();
     TRY(amontons_simulation_create(scene, options, &simulation, err));
     TRY(simulation_loop(simulation, err));
     TRY(amontons_simulation_finish(simulation, summary, err));

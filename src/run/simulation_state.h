@@ -70,6 +70,7 @@ struct Simulation {
     RunTiming timing;
     RunErrors errors;
     RunWarnings warnings;
+    bool ill_posed;   // or not resolved: the run was warned that steps may not close the ledger
     const Levels *levels;   // several meshes and runs, of which this is one; NULL: it is alone
     char identity[HASH_TEXT_SIZE];   // of scene, bulk and interface; empty: not asked for yet
     bool closed;   // simulation_finish has been called

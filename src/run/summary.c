@@ -174,6 +174,32 @@ static void note_program(const ProgramReadings *readings, RunSummary *summary)
     memcpy(summary->healing, &sums.healing, sizeof summary->healing);
 }
 
+RunSummary summary_none(void)
+{
+    RunSummary none = {0};
+    double *const numbers[] = {&none.mu_M,
+                               &none.mu_hold,
+                               &none.mu_max,
+                               &none.mu_steady,
+                               &none.mu_M_error,
+                               &none.mu_hold_error,
+                               &none.mu_M_known_to,
+                               &none.mu_hold_known_to,
+                               &none.mu_max_known_to,
+                               &none.mu_M_spread,
+                               &none.run_in_drift,
+                               &none.run_in_drops_left,
+                               &none.critical_length,
+                               &none.slip_length,
+                               &none.slip_cells,
+                               &none.energy_error,
+                               &none.moment_error,
+                               &none.complementarity_error};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = NAN;
+    for (int32_t k = 0; k < 3; k++) none.mu_M_parts[k] = none.mu_hold_parts[k] = NAN;
+    return none;
+}
+
 // counters, answers: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary)

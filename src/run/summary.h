@@ -10,6 +10,7 @@
 // t_end: when the scene ends, time.
 StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
                    double t_end);
+RunSummary summary_none(void);   // of a run that has no answers yet
 RunCounters summary_count(const Simulation *simulation);
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary);

@@ -299,14 +299,48 @@ void warnings_of_units(const Model *model, RunWarnings *warnings)
 // Of a gap: over the block's height; its slope, whose square is the error of pressing along z.
 static const double GAP_LARGE = 0.5, GAP_STEEP = 0.2;
 
+typedef struct Slope {
+    double steepest;
+    double at[2];   // x and y, half way between the nodes
+} Slope;
+
+// From contact node a to b, if one of them has a gap that may close.
+static void note_slope(const Interface *interface, double reach, int32_t a, int32_t b, Slope *slope)
+{
+    const double *gap = interface->gap, *x = interface->x, *y = interface->y;
+    double way = hypot(x[b] - x[a], y ? y[b] - y[a] : 0);
+    double found = fabs(gap[b] - gap[a]) / way;
+    if (fmin(gap[a], gap[b]) > reach || !(found > slope->steepest)) return;
+    *slope = (Slope){found, {0.5 * (x[a] + x[b]), y ? 0.5 * (y[a] + y[b]) : 0}};
+}
+
+// Between neighbours of a pad in the plane, in space between any two nodes of a face.
+static Slope steepest_floor(const Interface *interface, double reach)
+{
+    const ContactFaces *faces = &interface->faces;
+    Slope slope = {.steepest = GAP_STEEP};
+    int32_t count = interface->contact_count;
+    for (int32_t i = 1; i < count && interface->dim == 2; i++)
+        if (interface->pad[i] == interface->pad[i - 1])
+            note_slope(interface, reach, i - 1, i, &slope);
+    for (int32_t f = 0; f < faces->count; f++) {
+        const int32_t *point = &faces->point[(int64_t)f * faces->width];
+        int32_t points = contact_face_points(faces, f);
+        for (int32_t a = 0; a < points; a++)
+            for (int32_t b = 0; b < a; b++)
+                if (point[a] < count && point[b] < count)   // the others are corners of T6
+                    note_slope(interface, reach, point[a], point[b], &slope);
+    }
+    return slope;
+}
+
 void warnings_of_gaps(const Model *model, RunWarnings *warnings)
 {
     const Interface *interface = &model->interface;
     const double *gap = interface->gap;
-    double largest = 0, least = INFINITY, steepest = GAP_STEEP, at = 0;
-    int32_t count = interface->contact_count;
+    double largest = 0, least = INFINITY;
     if (!gap) return;
-    for (int32_t i = 0; i < count; i++) {
+    for (int32_t i = 0; i < interface->contact_count; i++) {
         largest = fmax(largest, gap[i]);
         least = fmin(least, gap[i]);
     }
@@ -318,22 +352,16 @@ void warnings_of_gaps(const Model *model, RunWarnings *warnings)
     // What the block may come to touch: as far as the mean pressure presses it down, times 10.
     double pressure = model->scales.load / (model->length * model->breadth);
     double reach = least + 10 * pressure / model->materials.mean.young * model->height;
-    for (int32_t i = 1; i < count && interface->dim == 2; i++) {
-        double way = interface->x[i] - interface->x[i - 1];
-        double slope = fabs(gap[i] - gap[i - 1]) / way;
-        bool touches = fmin(gap[i], gap[i - 1]) <= reach &&
-                       interface->pad[i] == interface->pad[i - 1];
-        if (!touches || slope <= steepest) continue;
-        steepest = slope;
-        at = 0.5 * (interface->x[i] + interface->x[i - 1]);
-    }
-    if (steepest > GAP_STEEP)
+    Slope slope = steepest_floor(interface, reach);
+    char across[40] = "";
+    if (interface->y) snprintf(across, sizeof across, ", y = %.4g", slope.at[1]);
+    if (slope.steepest > GAP_STEEP)
         warnings_add(
             warnings,
-            "the floor is steep where the block may touch it: a slope of %.2g at x = %.4g; "
+            "the floor is steep where the block may touch it: a slope of %.2g at x = %.4g%s; "
             "nodes come down along z and are pressed along z, an error of the square of "
             "the slope, %.0f %%",
-            steepest, at, 100 * fmin(steepest * steepest, 1));
+            slope.steepest, slope.at[0], across, 100 * fmin(slope.steepest * slope.steepest, 1));
 }
 
 void warnings_of_states(const Model *model, RunWarnings *warnings)

@@ -90,6 +90,9 @@ class Accuracy(unittest.TestCase):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         report = self.report()
         self.assertEqual(len(report["results"]["drops"]["list"]), 1)      # the run in full
+        own, = report["results"]["peaks"]
+        self.assertIn("mu_M and mu_hold are of those runs, which go further than this one", ended.stdout)
+        self.assertIn(f"whose own mu_M is {own['mu']:.4f}", ended.stdout)
         for level in report["accuracy"]["levels"]:
             self.assertTrue(all(run["peaks"] >= 8 for run in level["runs"]), level["runs"])
 

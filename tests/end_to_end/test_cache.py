@@ -253,6 +253,12 @@ class DryRun(Cached):
         self.assertIn("reduced before stepping; the reduction is in the cache", self.say())
         self.assertIn("not reduced: steps are those of the whole mesh", self.say("reduction.use=never"))
 
+    def test_says_how_the_mesh_was_moved(self):
+        """In the words of `info`; nothing where the mesh stands as it was drawn."""
+        self.assertNotIn("moved", self.say())
+        self.assertIn("mesh coordinates times 2\n", self.say("mesh.scale=2"))
+        self.assertIn("mesh moved by (0.5, 0)\n", self.say("mesh.shift=[0.5, 0]"))
+
 
 class Refused(Cached):
     def refused(self, *settings, **environment):

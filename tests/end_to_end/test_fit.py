@@ -94,15 +94,31 @@ class Fit(unittest.TestCase):
         self.assertIn("material.density: anything from 0.8 to 1.25 fits", said)
         self.assertRegex(said, r"the data know .*critical_velocity.* to \S+ %.* material.density.* (to a factor of|not at all)")
 
-    def test_a_curve(self):
-        """F_T/F_N over the way of the rod while it rises tells Young's modulus."""
+    def measure_curve(self, error=0.004):
+        """F_T/F_N over the way of the rod while it rises, with Young's modulus 0.8."""
         self.call("sweep", HEAD + "  output.history: true\nvary: {material.young: [0.8]}\n", "-q", "-o", "truth")
         import h5py
         folder = next((self.folder / "truth/points").iterdir())
         with h5py.File(folder / "history.h5") as file:
             way, mu = file["series/rod_displacement"][:], file["series/mu"][:]
         head = ["series/rod_displacement", "series/mu", "series/mu_error"]
-        self.measure([head, *[[way[k], mu[k] + by, 0.004] for k, by in ((8, 0.002), (12, -0.003), (16, 0.001))]])
+        self.measure([head, *[[way[k], mu[k] + by * error, error] for k, by in ((8, 0.5), (12, -0.75), (16, 0.25))]])
+
+    def test_no_design_twice(self):
+        """The chooser settles on the best it has: what is nearer than half a per cent of the range is not computed again. A
+        search that has no more designs ends, and says so."""
+        self.measure_curve(error=0.0004)
+        study = HEAD + "  output.history: true\nsearch: {material.young: {log: [0.3, 3]}}\nfit: {measured: measured.csv, designs: 20}\n"
+        self.assertNotIn("fewer designs", self.call("fit", study, "-q", "-j", "2", "-o", "out").stdout)
+        places = [math.log10(float(row["material.young"])) for row in self.table("out/sweep.csv")]
+        chosen = sorted(places[:20])
+        self.assertGreater(min(b - a for a, b in zip(chosen, chosen[1:])), 0.0049)
+        few = study.replace("material.young: {log: [0.3, 3]}", "mesh.set.nz: {whole: [4, 8]}")
+        self.assertIn("fewer designs than asked for", self.call("fit", few, "-j", "2", "-o", "few").stdout)
+        self.assertEqual(len(self.table("few/sweep.csv")), 5)
+
+    def test_a_curve(self):
+        self.measure_curve()
         study = HEAD + "  output.history: true\nsearch: {material.young: {log: [0.3, 3]}}\nfit: {measured: [measured.csv], designs: 8}\n"
         value, low, high = self.regions(self.call("fit", study, "-j", "2", "-o", "out").stdout)["material.young"]
         self.assertTrue(low < 0.8 < high and high - low < 0.2, (value, low, high))
@@ -131,7 +147,10 @@ class Fit(unittest.TestCase):
                 (good, text.replace("measured: measured.csv", "measured: [measured.csv, ./measured.csv]"), "measured: found .* each table once"),
                 (good[:2], text, "1 measurements cannot tell 2 keys"),
                 ([["series/mu", "series/mu_error"], ["1", "1"]], text, "a curve has one column without an error"),
-                ([good[0], ["-1", "0.4", "0.01"], good[1]], text, "load.pressure")):
+                ([*good, ["-1", "0.4", "0.01"]], text, r"measured.csv:4:1: .*load.pressure: found `-1`"),
+                ([*good, ["much", "0.4", "0.01"]], text, r"measured.csv:4:1: .*load.pressure: found `much`"),
+                ([*good, ["", "0.4", "0.01"]], text, "measured.csv:4:1: load.pressure: is empty"),
+                ([*good, ["0.003, title: x", "0.4", "0.01"]], text, "measured.csv:4:1: load.pressure: `0.003, title: x` is no plain value")):
             self.measure(rows)
             said = self.call("fit", study, "-o", "out", status=2).stderr
             self.assertRegex(said, wanted)

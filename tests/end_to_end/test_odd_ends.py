@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Numbers and plug-ins that once ended the program, or let it end well with nothing."""
+"""Numbers, limits and plug-ins that once ended the program, or let it end well with nothing."""
+import csv
+import json
 import os
 import shutil
 import subprocess
@@ -52,6 +54,45 @@ class OddEnds(unittest.TestCase):
         self.assertEqual(status, 0, said)
         self.assertIn("its first run was cut short", said)
         self.assertNotIn("contact nodes, at pressures", said)
+
+    def test_a_run_that_fails_before_its_first_step(self):
+        """Has no answer and no error: neither is 0."""
+        failing = ("--set", "time.step_min=1e3", "-q")
+        self.assertEqual(self.call("run", "scene.yaml", "-o", "out", *failing)[0], 1)
+        report = json.loads((self.folder / "out/run.json").read_text())
+        self.assertEqual(report["status"], "failed")
+        results = report["results"]
+        for name in ("mu_M", "mu_M_error", "mu_M_known_to", "mu_hold", "mu_hold_error", "mu_max", "mu_max_known_to", "mu_steady", "mu_steady_error",
+                     "mu_first_pad"):
+            self.assertIsNone(results[name], name)
+        self.assertEqual(results["mu_M_is"], "none: the run failed before its first step")
+        self.assertFalse(results["run_in"]["over"])
+        self.assertEqual(set(report["errors"].values()), {None})
+        (self.folder / "study.yaml").write_text("scene: scene.yaml\nvary: {time.step_min: [1e3]}\nrecord: [mu_M, mu_hold, mu_max]\n")
+        self.call("sweep", "study.yaml", "-o", "swept", "-q")
+        with open(self.folder / "swept/sweep.csv", newline="") as file:
+            row, = csv.DictReader(file)
+        self.assertEqual([row[name] for name in ("mu_M", "mu_hold", "mu_max", "status")], ["", "", "", "failed"])
+
+    def test_little_address_space(self):
+        """OpenBLAS waits for ever for the buffer of a thread that cannot have one: no such thread is made."""
+        for kilobytes in (195000, 215000, 240000, 280000, 350000):
+            said = self.call_bash(f'ulimit -v {kilobytes}; exec "$0" run scene.yaml -o out --overwrite -q --set reduction.use=always')
+            self.assertIn(said[0], (0, 1), said)
+
+    def test_a_ledger_that_does_not_close(self):
+        """Is laid to an ill-posed problem only where the run was warned of that, not of something else."""
+        for setting, ill in (("contact={gap: 0.3 * abs(x - 0.5)}", False), ("material.eta1=0", True)):
+            status, said = self.call("run", "scene.yaml", "-o", "out", "--overwrite", "-q", "--set", setting, "time.energy_tolerance=1e-15")
+            self.assertEqual(status, 1, said)
+            self.assertIn("warning", said)
+            self.assertIn("the energy ledger does not close", said)
+            self.assertEqual("the problem is ill-posed" in said, ill, said)
+
+    def call_bash(self, command):
+        done = subprocess.run(["bash", "-c", command, PROGRAM], cwd=self.folder, env=os.environ | {"AMONTONS_CACHE": ""}, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
+        return done.returncode, done.stdout
 
     def build(self, name, text):
         (self.folder / f"{name}.c").write_text(text)

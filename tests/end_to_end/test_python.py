@@ -191,6 +191,27 @@ class Run(InFolder):
             with self.assertRaisesRegex(ValueError, "closed"):
                 call()
 
+    def test_arrays_outlive_their_simulation(self):
+        """They keep the library's memory, as a step's contact does; nobody can write there."""
+        simulation = amontons.Simulation(FIG1, SMALL)
+        for _ in range(5):
+            step = simulation.advance()
+        arrays = [simulation.x, simulation.pressure, simulation.slip_rate, simulation.status]
+        kept, first = [array.copy() for array in arrays], step.contact.pressure[0]
+        simulation.__del__()
+        again = [amontons.Simulation(FIG1, SMALL) for _ in range(3)]   # takes what was freed
+        for array, before in zip((simulation.x, simulation.pressure, *arrays[2:]), kept):
+            np.testing.assert_array_equal(array, before)
+        del simulation, again
+        for array, before in zip(arrays, kept):
+            np.testing.assert_array_equal(array, before)
+            with self.assertRaises(ValueError):
+                array.flags.writeable = True
+        contact = step.contact
+        del arrays, step, array
+        gc.collect()
+        self.assertEqual(contact.pressure[0], first)
+
     def test_what_a_callback_raises_comes_through(self):
         def give_up(step):
             if step.U > 1e-3:

@@ -150,7 +150,7 @@ time: {{until: {{U: 3.5e-3}}}}
             self.assertEqual((file.attrs["states"], file.attrs["state_unit"]), ("theta", "time"))
         row = int(np.argmax(np.log(theta).std(axis=1)))
         self.assertGreater(theta[row].max() / theta[row].min(), 30)
-        subprocess.run([test_film.PROGRAM, "render", folder / "cube", "--figure", "contact-plane", "--of", "theta", "--at", f"U={U[row]!r}",
+        subprocess.run([test_film.PROGRAM, "render", folder / "cube", "--figure", "contact-plane", "--of", "theta", "--at", f"U={float(U[row])!r}",
                         "--warnings", "none"], check=True)
         picture = read_picture(str(folder / "cube"), "contact-plane-theta")
         frame = Frame(picture)

@@ -21,6 +21,7 @@ bool amontons_forecast(const Scene *scene, RunForecast *forecast, Error *err)
                               .held = model.from_cache,
                               .mesh = clock_processor_seconds() - begun,
                               .memory = model.memory};
+    mesh_move_text(&model.mesh, forecast->mesh_moved);
 cleanup:
     model_destroy(&model);
     return error_is_clean(err);

@@ -281,7 +281,7 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
     StaticSolution solution = {0};
     ResultFolder place = {0};
     *summary = (StaticSummary){0};
-    dense_use_one_thread();
+    TRY(dense_begin(err));
     if (friction_remembers(&scene->friction, 0))
         FAIL(err, ERROR_INPUT,
              "%s: friction.law: what holds at rest goes by what the contacts remember; `%s` is for "

@@ -276,7 +276,7 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
                                 .mu_M_spread = NAN,
                                 .l_sc_seen = NAN,
                                 .l_c_seen = NAN};
-    dense_use_one_thread();
+    TRY(dense_begin(err));
     TRY(check_scene(scene, err));
     TRY(check_options(scene, options, err));
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));

@@ -61,10 +61,16 @@ int32_t designs_add(Designs *designs, const double *x, int32_t choice)
 
 int32_t designs_find(const Designs *designs, const double *x)
 {
+    const StudySearch *search = &designs->study->search;
     for (int32_t d = 0; d < designs->count; d++) {
         bool same = true;
-        for (int32_t k = 0; k < designs->study->search.key_count; k++)
-            same = same && designs->list[d].x[k] == x[k];
+        for (int32_t k = 0; k < search->key_count && same; k++) {
+            const SearchKey *key = &search->keys[k];
+            double other = designs->list[d].x[k];
+            double by = key->scale == SEARCH_LOG ? log(x[k] / other) / log(key->most / key->least)
+                                                 : (x[k] - other) / (key->most - key->least);
+            same = x[k] == other || (key->scale != SEARCH_WHOLE && fabs(by) <= designs->near[k]);
+        }
         if (same) return d;
     }
     return -1;

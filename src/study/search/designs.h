@@ -35,8 +35,10 @@ typedef struct Designs {
     int32_t aims;   // conditions, and once more for each result of `also`
     int32_t conditions;   // at which each design is computed: points of `vary`, or ...
     char *const *texts;   // ... [conditions] "load.pressure: 0.003", not owned; NULL: `vary`
+    char *const *origins;   // [conditions] where each text was read, not owned; NULL: not known
     Design *list;   // [DESIGNS_MAX] owned
     DesignPoint *points;   // [DESIGNS_MAX * aims] owned
+    double near[STUDY_SEARCH_MAX];   // designs that differ by less are one; parts of a key's range
 } Designs;
 
 // conditions, texts: of what was measured; 0, NULL: the points of `vary`.
@@ -46,7 +48,8 @@ void designs_destroy(Designs *designs);   // zeroed is fine
 
 // Adds one; its index. x: as from the chooser or a section, rounded here to what is written.
 int32_t designs_add(Designs *designs, const double *x, int32_t choice);
-int32_t designs_find(const Designs *designs, const double *x);   // with the same values; -1: none
+// The first design that differs from x by no more than `near` in any key; -1: none.
+int32_t designs_find(const Designs *designs, const double *x);
 // Whole numbers, three digits; of a fit five.
 void designs_round(const Study *study, double *x);
 // "[{mesh.set.n: 4, ...}, ...]" of [count] designs (memory_free): one a design, or one for each of

@@ -18,6 +18,10 @@
 
 enum { ROUNDS_MAX = 6 };
 static const double FAR = 5;   // thresholds above the least misfit, where designs count half
+// Designs that differ by less in every key are computed once: the responses learn nothing from the
+// second. Parts of a key's range while it is searched; of its region, whose ends may still move by
+// twice that (STAYS), when the region is known.
+static const double NEAR_IN_RANGE = 5e-3, NEAR_IN_REGION = 0.05;
 
 // --- what a design is worth ---------------------------------------------------------------------
 
@@ -122,6 +126,9 @@ static bool refine_regions(Fit *fit, Error *err)
         find_best(fit);
         fit_find_regions(fit, &stays);
         if ((stays && round > 0) || round == ROUNDS_MAX) break;
+        for (int32_t k = 0; k < fit->response.keys; k++)
+            fit->search.designs.near[k] = NEAR_IN_REGION *
+                                          (fit->regions[k].high - fit->regions[k].low);
         if (!add_place(fit, fit->best, err)) return false;
         for (int32_t k = 0; k < fit->response.keys; k++) {
             if (!add_place(fit, fit->regions[k].low_place, err)) return false;
@@ -144,6 +151,9 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
     search->judge = (SearchJudge){take_results, judge_misfit, fit};
     if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
         return false;
+    search->designs.origins = fit->measured.origins;
+    for (int32_t k = 0; k < search->study->search.key_count; k++)
+        search->designs.near[k] = NEAR_IN_RANGE;
     int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;
     if (!(fit->found = NEW_ARRAY(double, room, err))) return false;
     if (!(fit->own = NEW_ARRAY(double, room, err))) return false;

@@ -150,6 +150,7 @@ static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
     fprintf(out, "  %.2g %% of the errors' squares are the program's own%s\n",
             100 * summary->own_share,
             summary->own_share > 0.2 ? "; a smaller accuracy.mu makes regions smaller" : "");
+    search_print_exhausted(&fit->search, out);
     if (fit->search.refused > 0)
         fprintf(out, "  %d more designs have no scene, the first: %s\n", fit->search.refused,
                 fit->search.refusal.message);

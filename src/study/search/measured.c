@@ -158,11 +158,43 @@ static void write_condition(const Table *table, int32_t row, int32_t k, FILE *ou
     fprintf(out, "%s%s", *column->unit ? " " : "", column->unit);
 }
 
+// One plain value: a cell with more in it would set other keys of the scene, too.
+static bool check_condition(const Table *table, int32_t row, Error *err)
+{
+    for (int32_t k = 0; k < table->csv.columns; k++) {
+        const char *cell = csv_cell(&table->csv, row, k);
+        if (table->columns[k].kind != COLUMN_CONDITION) continue;
+        if (!*cell)
+            return csv_refuse(&table->csv, row, k, err,
+                              "is empty: what was it when this was measured?");
+        bool decimal = table->csv.decimal_comma && isfinite(csv_value(&table->csv, row, k));
+        if (!decimal && strpbrk(cell, ",:{}[]#&*!|>'\"%@`\n"))
+            return csv_refuse(&table->csv, row, k, err, "`%.40s` is no plain value", cell);
+    }
+    return true;
+}
+
+// "measured.csv:3:1", of the row's only condition; of several "measured.csv:3".
+static void place_of_row(const Table *table, int32_t row, char *place, size_t size)
+{
+    int32_t count = 0, column = 0;
+    for (int32_t k = 0; k < table->csv.columns; k++)
+        if (table->columns[k].kind == COLUMN_CONDITION) count++, column = k;
+    Error found = {0};
+    csv_refuse(&table->csv, row, column, &found, "%s", "");   // it knows where a cell begins
+    const char *end = strstr(found.message, ": ");
+    int length = end ? (int)(end - found.message) : 0;
+    if (count == 1 && length > 0)
+        snprintf(place, size, "%.*s", length, found.message);
+    else
+        snprintf(place, size, "%s:%d", table->path, table->csv.line[row + 1]);
+}
+
 // "load.pressure: 0.003, mesh.set.length: 1"; one that was there before is the same.
 static bool find_condition(Measured *measured, const Table *table, int32_t row, int32_t *found,
                            Error *err)
 {
-    char *text = NULL;
+    char *text = NULL, origin[SCENE_TEXT_SIZE];
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
@@ -173,8 +205,11 @@ static bool find_condition(Measured *measured, const Table *table, int32_t row, 
         if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
     TRY(memory_grow(&measured->conditions, measured->condition_count, &measured->condition_room,
                     sizeof *measured->conditions, err));
-    TRY(measured->conditions[measured->condition_count] = memory_text(text, err));
+    TRY(memory_resize(&measured->origins, *found, *found + 1, sizeof *measured->origins, err));
+    TRY(measured->conditions[*found] = memory_text(text, err));
     measured->condition_count++;
+    place_of_row(table, row, origin, sizeof origin);
+    TRY(measured->origins[*found] = memory_text(origin, err));
 cleanup:
     free(text);
     return error_is_clean(err);
@@ -200,6 +235,7 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
 {
     Datum datum = {0};
     int32_t along = -1;
+    if (!check_condition(table, row, err)) return false;
     if (!find_condition(measured, table, row, &datum.condition, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++)
         if (table->columns[k].kind == COLUMN_ALONG) along = k;
@@ -281,8 +317,9 @@ bool measured_read(const Study *study, Measured *measured, Error *err)
 
 void measured_destroy(Measured *measured)
 {
-    for (int32_t k = 0; k < measured->condition_count; k++) memory_free(measured->conditions[k]);
-    memory_free_all(measured->conditions, measured->list);
+    for (int32_t k = 0; k < measured->condition_count; k++)
+        memory_free_all(measured->conditions[k], measured->origins[k]);
+    memory_free_all(measured->conditions, measured->origins, measured->list);
     *measured = (Measured){0};
 }
 

@@ -27,6 +27,7 @@ typedef struct Measured {
     Datum *list;   // [room] owned
     int32_t condition_count, condition_room;
     char **conditions;   // [condition_room] "load.pressure: 0.003, mesh.set.length: 1"; owned
+    char **origins;   // [condition_count] file, row and column of each, "measured.csv:3:1"; owned
 } Measured;
 
 // The tables that `fit: measured` names, seen from the study.

@@ -172,6 +172,7 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
     print_open(search, best, out);
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         print_section(search, best, k, out);
+    search_print_exhausted(search, out);
     if (search->refused > 0)
         fprintf(out, "  %d more have no scene, the first: %s\n", search->refused,
                 search->refusal.message);

@@ -18,6 +18,7 @@
 
 enum {
     TRIES_MAX = 1000,   // choices that limits refuse, one after the other
+    KNOWN_MAX = 200,   // choices of designs that are known, one after the other: no others are left
     REFUSED_MAX = 20,   // scenes that are refused before there is any design: the study is wrong
 };
 // Steps of a key's range: designs that are nearer are one, as no bar tells them apart. Of no fit.
@@ -118,13 +119,16 @@ static bool make_scene(Search *search, const StudyCase *trial, int32_t condition
                        Error *err)
 {
     Error refusal = {0};
-    *allowed = study_scene(search->study, &(PointChoice){.point = condition, .trial = trial},
+    const Designs *designs = &search->designs;
+    int32_t point = designs->texts ? 0 : condition;
+    *allowed = study_scene(search->study, &(PointChoice){.point = point, .trial = trial},
                            search->scene, &refusal);
     if (*allowed) return true;
     if (refusal.code != ERROR_INPUT) {
         *err = refusal;
         return false;
     }
+    if (designs->origins) error_context(&refusal, "%s", designs->origins[condition]);
     if (search->refused == 0) search->refusal = refusal;
     return true;
 }
@@ -145,7 +149,7 @@ static bool is_allowed(Search *search, const double *x, bool *allowed, Error *er
     StudyCase first = trial;
     for (int32_t c = 1; c < designs->conditions && *allowed; c++) {
         if (designs->texts) trial.map = yaml_next(document, trial.map);
-        TRY(make_scene(search, &trial, designs->texts ? 0 : c, allowed, err));
+        TRY(make_scene(search, &trial, c, allowed, err));
     }
     if (*allowed) TRY(make_scene(search, &first, 0, allowed, err));
     search->refused += !*allowed;
@@ -228,8 +232,8 @@ static double on_lattice(const Search *search, double x, double least, double mo
 static bool choose(Search *search, bool *added, Error *err)
 {
     const StudySearch *keys = &search->study->search;
-    int32_t design = -1;
-    for (int32_t k = 0; k < TRIES_MAX && design < 0; k++) {
+    int32_t design = -1, repeated = 0;
+    for (int32_t k = 0; k < TRIES_MAX && repeated < KNOWN_MAX && design < 0; k++) {
         if (search->designs.count == 0 && search->refused >= REFUSED_MAX) {
             *err = search->refusal;
             return false;
@@ -245,12 +249,14 @@ static bool choose(Search *search, bool *added, Error *err)
         }
         TRY(search_add(search, x, &design, err));
         int32_t known = design < 0 ? designs_find(&search->designs, x) : design;
+        if (design < 0 && known >= 0) repeated++;
         if (design >= 0)
             search->designs.list[design].choice = number;
         else
             TRY(tell(search, number, known, err));
     }
     *added = design >= 0;
+    search->exhausted = search->exhausted || !*added;
     if (search->designs.count == 0)
         FAIL(
             err, ERROR_INPUT,

@@ -31,6 +31,7 @@ struct Search {
     int32_t start;   // design of the scene as it is; -1: none
     int32_t side_by_side;   // designs of a round
     int32_t planned, told, computed;   // points: expected, shown, computed
+    bool exhausted;   // the chooser found no new design, so there are fewer than was asked for
     int32_t refused;   // designs whose scene was
     Error refusal;   // the first of them
     int32_t failed;   // points

@@ -26,6 +26,14 @@ cleanup:
     return error_is_clean(err);
 }
 
+void search_print_exhausted(const Search *search, FILE *out)
+{
+    if (search->exhausted)
+        fprintf(out,
+                "  fewer designs than asked for: all others that were tried are so near one that "
+                "was computed that they count as it, or are not allowed\n");
+}
+
 // JSON is YAML.
 bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err)
 {

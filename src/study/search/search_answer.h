@@ -15,6 +15,8 @@ typedef struct SearchAnswer {
 
 bool search_answer_begin(SearchAnswer *answer, Error *err);
 bool search_answer_end(const Search *search, SearchAnswer *answer, Error *err);
+// A line if there were no further designs to compute.
+void search_print_exhausted(const Search *search, FILE *out);
 // DIR/best.yaml, a scene to be run, of a design at a condition; figures/best.png: its mesh and rod.
 bool search_leave_best(const Search *search, int32_t design, int32_t condition, Error *err);
 

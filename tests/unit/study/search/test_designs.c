@@ -122,6 +122,21 @@ TEST_BETWEEN(test_the_best, begin, end)
     assert_int_equal(designs_find(designs, x[2]), -1);
 }
 
+// Keys 1 to 12 in whole numbers and 0.01 to 1 by ratios: a per cent of the second is a ratio of
+// 1.047.
+TEST_BETWEEN(test_near_designs_are_one, begin, end)
+{
+    Designs *designs = *state;
+    double x[][2] = {{3, 0.1}, {3, 0.104}, {3, 0.106}, {4, 0.1}};
+    designs_add(designs, x[0], 0);
+    assert_int_equal(designs_find(designs, x[1]), -1);
+    designs->near[0] = 0.5;   // whole numbers are told apart in any case
+    designs->near[1] = 0.01;
+    assert_int_equal(designs_find(designs, x[1]), 0);
+    assert_int_equal(designs_find(designs, x[2]), -1);
+    assert_int_equal(designs_find(designs, x[3]), -1);
+}
+
 // 0.32 +- 0.04, 0.30 +- 0.01, 0.285 +- 0.1, and 0.40 of which no bar is known. The highest for sure
 // is the second (0.29); with a smaller bar the first might be it. Of the lowest: sure of 0.36,
 // 0.31, 0.385, 0.80; the third might be it, at 0.285.
