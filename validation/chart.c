@@ -3,6 +3,8 @@
 //
 //   amontons_chart OUT.png < description
 //
+// What is there under that name goes: a report is made anew as a whole.
+//
 // The description holds, for each chart: title, label of x, label of y (a line each), a line with 1
 // or 0 (logarithmic or not) and the number of curves, and for each curve a line with its number of
 // points and its name, then a line "x y" for each point.
@@ -210,7 +212,8 @@ static bool make_page(const char *path, Error *err)
     if (!charts) goto cleanup;
     TRY(read_charts(charts, &count, err));
     int32_t columns = count < COLUMNS ? count : COLUMNS, rows = (count - 1) / COLUMNS + 1;
-    PictureStyle style = {.width = columns * COLUMN_MM, .dpi = WIDTH / COLUMN_MM * 25.4};
+    PictureStyle style = {
+        .width = columns * COLUMN_MM, .dpi = WIDTH / COLUMN_MM * 25.4, .overwrite = true};
     PageDef def = {.style = &style, .height = (double)(rows * HEIGHT) / (columns * WIDTH)};
     TRY(page_begin(&page, &def, err));
     for (int32_t k = 0; k < count; k++) {

@@ -33,7 +33,7 @@ def draw(path, title, x_label, y_label, curves, guide=None):
             "y": {"label": y_label, "scale": "log"}, "series": series}
     file = path.with_suffix(".yaml")
     file.write_text(json.dumps(plot, indent=1, ensure_ascii=False) + "\n")
-    subprocess.run([str(PROGRAM), "render", str(file)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([str(PROGRAM), "render", str(file), "--overwrite"], check=True, stdout=subprocess.DEVNULL)
 
 
 def draw_page(page, figures):

@@ -73,7 +73,7 @@ def curve(law, rows, key, shift=1.0):
 def draw(name, folder, **content):
     path = folder / f"{name}.yaml"
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False), encoding="utf-8")
-    subprocess.run([PROGRAM, "render", path, "--dpi", "200"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([PROGRAM, "render", path, "--dpi", "200", "--overwrite"], check=True, stdout=subprocess.DEVNULL)
     path.unlink()
 
 

@@ -122,7 +122,7 @@ class Study:
         path = self.folder / "figures" / f"{name}.yaml"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(content, indent=1, ensure_ascii=False), encoding="utf-8")
-        subprocess.run([self.program, "render", path, "--title", "none"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([self.program, "render", path, "--title", "none", "--overwrite"], check=True, stdout=subprocess.DEVNULL)
 
     def table(self, title, head, rows):
         self.lines += [f"### {title}", "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]

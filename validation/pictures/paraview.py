@@ -112,7 +112,7 @@ def main():
     parser.add_argument("-o", "--output", type=Path, default=Path("both.png"))
     words = parser.parse_args()
     program = os.environ.get("AMONTONS_BIN", SOURCE / "build/bin") + "/amontons"
-    subprocess.run([program, "render", words.result, "--figure", "field", "--of", words.of, "--at", words.at],
+    subprocess.run([program, "render", words.result, "--overwrite", "--figure", "field", "--of", words.of, "--at", words.at],
                    check=True, stdout=subprocess.DEVNULL)
     ours = np.array(Image.open(words.result / f"figures/field-{words.of}.png").convert("RGB")).astype(int)
     path = nearest_file(words.result, words.at)
