@@ -66,7 +66,11 @@ class Abi(unittest.TestCase):
         # What FILE has inside is the C library's, and differs from version to version.
         known = self.folder / "known.ini"
         known.write_text("[suppress_type]\nname = _IO_FILE\n")
-        return run("abidiff", "--suppressions", known, RECORD, now, status=(0, CHANGED, CHANGED | BROKEN))
+        done = run("abidiff", "--suppressions", known, RECORD, now, status=(0, 1, CHANGED, CHANGED | BROKEN))
+        if "incompatible format version" in done.stdout + done.stderr:
+            self.skipTest("the abidw here writes another format than the record's")
+        self.assertNotEqual(done.returncode, 1, done.stdout + done.stderr)
+        return done
 
     def test_is_the_recorded_one(self):
         done = self.compare(describe(self.folder))
