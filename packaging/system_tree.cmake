@@ -28,3 +28,9 @@ file(COPY ${SOURCE}/debian/copyright DESTINATION ${documents})
 file(WRITE ${documents}/changelog "amontons (${VERSION}) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n"
      " -- ${MAINTAINER}  ${DATE}\n")
 execute_process(COMMAND gzip -9nf ${documents}/changelog COMMAND_ERROR_IS_FATAL ANY)
+# Where lintian is overruled, with the reason.
+set(overrides ${SOURCE}/debian/${PACKAGE}.lintian-overrides)
+if(EXISTS ${overrides})
+    file(COPY ${overrides} DESTINATION ${root}/share/lintian/overrides)
+    file(RENAME ${root}/share/lintian/overrides/${PACKAGE}.lintian-overrides ${root}/share/lintian/overrides/${PACKAGE})
+endif()
