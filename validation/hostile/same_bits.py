@@ -138,7 +138,8 @@ def exact_cases(place):
     yield "umask 077", place.run(shell='umask 077; exec "$@"')
     for threads in ("1", "2", "7"):
         yield f"OPENBLAS_NUM_THREADS {threads}", place.run(env={"OPENBLAS_NUM_THREADS": threads})
-    yield "no environment", place.run(shell='exec env -i AMONTONS_CACHE= "$@"')
+    yield "no environment but the choice of kernels", place.run(
+        shell='exec env -i AMONTONS_CACHE= ${OPENBLAS_CORETYPE:+OPENBLAS_CORETYPE="$OPENBLAS_CORETYPE"} "$@"')
 
 
 def memory_cases(place):
