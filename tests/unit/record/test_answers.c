@@ -132,6 +132,22 @@ TEST(test_trend)
     hand_drops_end(&hand);
 }
 
+// By turns at a higher and a lower mu, each time further apart (a block with a hole on a soft
+// machine, whose drops settled elsewhere after twenty of them): rounds agree within 1 %, their mean
+// has no trend, and the run-in is not over.
+TEST(test_alternation_that_grows)
+{
+    static const double apart[] = {0.004, 0.0046, 0.0053, 0.0059, 0.0063, 0.007, 0.0074, 0.0081};
+    HandDrops hand;
+    hand_drops_begin(&hand, 1);
+    drop(&hand, 0.43, 0.1, ACROSS);
+    for (int32_t k = 0; k < 8; k++)
+        drop(&hand, 0.412 + (k % 2 ? apart[k] : -apart[k]), 0.1, ACROSS);
+    Answers found = answers_of(&hand.drops);
+    assert_true(found.regime.run_in == RUN_IN_TREND && !found.enough && found.period == 0);
+    hand_drops_end(&hand);
+}
+
 // mu alone comes back, the load is shared out otherwise each time: no period.
 TEST(test_shares_move)
 {
