@@ -245,6 +245,14 @@ void warnings_of_bar(const Levels *levels, RunWarnings *warnings)
 void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
 {
     const Level *last = &levels->list[levels->count - 1];
+    int32_t other = 0;
+    while (levels->list[other].other_drops) other++;
+    if (other > 0)
+        warnings_add(warnings,
+                     "on meshes of up to %d contact nodes %s load drops than on finer ones: they "
+                     "have no part in the answers",
+                     levels->list[other - 1].contact_nodes,
+                     last->pads > 1 ? "other pads slide at" : "there are other kinds of");
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         if (last->answer[kind].apart)
             warnings_add(warnings,
