@@ -95,6 +95,7 @@ Answers answers_of(const Drops *drops)
                        .mu_M_high = NAN,
                        .mu_M_spread = NAN,
                        .mu_max = drops->mu_max,
+                       .mu_max_jump = drops->mu_max - drops->mu_beside,
                        .mu_M_known_to = NAN,
                        .mu_hold_known_to = NAN,
                        .mu_max_known_to = NAN,

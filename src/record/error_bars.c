@@ -353,7 +353,7 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_M_known_to = hypot(usual * answers->mu_M.value, known(answers->mu_M.error));
     answers->mu_hold_known_to =
         hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
-    answers->mu_max_known_to = fabs(usual * answers->mu_max);
+    answers->mu_max_known_to = hypot(usual * answers->mu_max, answers->mu_max_jump);
 }
 
 // No run of the last level had a peak: its mu_M is that of steady sliding.

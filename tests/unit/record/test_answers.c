@@ -18,6 +18,10 @@ TEST(test_nothing)
     assert_true(isnan(found.critical_length) && isnan(found.mu_M_low));
     assert_true(found.period == 0 && found.peaks == 0 && !found.enough);
     assert_near("largest", found.mu_max, 0.3, 0);
+    assert_near("two steps", found.mu_max_jump, 0, 0);
+    see(&hand, 0.8, REST);   // one step, as where the rod hits the block
+    see(&hand, 0.25, REST);
+    assert_near("above its neighbours", answers_of(&hand.drops).mu_max_jump, 0.501, 1e-15);
     hand_drops_end(&hand);
 }
 
