@@ -61,7 +61,7 @@ typedef struct Level {
     LevelRun runs[LEVEL_RUNS_MAX];
     ErrorBar answer[ANSWER_KINDS];
     double seconds;   // wall time
-    double making;   // of them for mesh and basis, which are made once
+    double making;   // of them for mesh and basis, where these are made once
 } Level;
 
 // A run that time or the caller ended before its answer was known. It has no part in any bar.

@@ -23,7 +23,7 @@ static const double STEP = 1.189207115002721;   // of cell size from level to le
 // the levels of a search tell of it says less: times of short runs are noise.
 static const double GROWTH[] = {2, 4};
 
-// One more run on its mesh, whose basis is there, s.
+// One more run on its mesh, s.
 static double seconds_of_run(const Level *level)
 {
     return (level->seconds - level->making) / level->run_count;

@@ -3,11 +3,13 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/cache/cache_folder.h"
 #include "model/step_rule.h"
 #include "run/level_scene.h"
 #include "run/one_mesh.h"
 #include "scene/programs.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -49,7 +51,7 @@ double accuracy_full(const Accuracy *accuracy, double times)
 {
     double most = FULL_SHARE * accuracy->scene->accuracy.within;
     double stepping = times * accuracy->stepping;
-    return most > 0 ? fmin(stepping, most) : stepping;
+    return times * accuracy->making + (most > 0 ? fmin(stepping, most) : stepping);
 }
 
 double accuracy_seconds_left(const Accuracy *accuracy)
@@ -167,9 +169,16 @@ static void show_stage(const char *stage, void *context)
 
 // --- what time allows ---------------------------------------------------------------------------
 
-// The run in full goes to the scene's end at the same pace, unless an event ends it before. Mesh and
-// basis are there. Output is not in it, and where it would take more than its share it is cut
-// short.
+// Mesh and basis of a run that is made are there for the next one.
+static bool keeps_model(const Simulation *simulation)
+{
+    char path[PATH_MAX];
+    return simulation->model.is_reduced && simulation->scene.reduction.cache &&
+           cache_folder_path(path);
+}
+
+// The run in full goes to the scene's end at the same pace, unless an event ends it before. Output
+// is not in it, and where it would take more than its share it is cut short.
 static void expect_full(Accuracy *accuracy, const Simulation *simulation, double stepping)
 {
     const Scene *scene = accuracy->scene;
@@ -259,7 +268,10 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     levels_add_run(&accuracy->levels, pressure, simulation->seen.U, &answers,
                    simulation->control.counters.accepted);
     accuracy->members++;
-    level->making += begun - started;
+    if (keeps_model(simulation))
+        level->making += begun - started;
+    else
+        accuracy->making = begun - started;
     expect_full(accuracy, simulation, clock_seconds() - begun);
 cleanup:
     if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);

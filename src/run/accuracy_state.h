@@ -23,6 +23,7 @@ typedef struct Accuracy {
     int32_t members;   // whole runs behind the bar, but for that in full
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
     double stepping;   // expected of the run in full, s; 0: no run is whole
+    double making;   // likewise of its mesh and basis; 0: the cache has them
     bool out_of_time;
     char passed_over[400];   // why the last mesh that failed was passed over; "": none was
     Answers so_far;   // of the run under way
