@@ -155,11 +155,11 @@ TEST(test_no_trend)
         }
         SeriesTrend trends[] = {series_trend(items, 5, 2, false), series_trend(items, 9, 2, false),
                                 series_trend(items, 36, 1, true)};
-        for (int32_t t = 0; t < 3; t++)
-            found[t] += series_trend_stands_out(&trends[t]);
+        for (int32_t t = 0; t < 3; t++) found[t] += series_trend_stands_out(&trends[t]);
     }
     assert_near("blocks", found[2] / (double)trials, 0.05, 4 * sqrt(0.05 * 0.95 / trials));
-    for (int32_t t = 0; t < 2; t++) assert_true(found[t] > 0.05 * trials && found[t] < 0.10 * trials);
+    for (int32_t t = 0; t < 2; t++)
+        assert_true(found[t] > 0.05 * trials && found[t] < 0.10 * trials);
 }
 
 // --- mean and decile ----------------------------------------------------------------------------
