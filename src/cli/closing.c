@@ -106,7 +106,7 @@ static void print_mu_M(const RunSummary *summary)
 static void print_mu_steady(const RunSummary *summary)
 {
     if (isnan(summary->mu_steady) || strcmp(summary->mu_M_is, STEADY) == 0) return;
-    say("  mu_steady       %.3f: at the end the block slides steadily, its drops have ceased\n",
+    say("  mu_steady       %.3f: F_T/F_N at the end of the run, where the block slides steadily\n",
         summary->mu_steady);
 }
 
@@ -245,8 +245,10 @@ static void print_answers(const RunSummary *summary)
     print_mu_steady(summary);
     print_mu_hold(summary);
     if (summary->bar_runs > 0) print_bar(summary);
-    print_estimate("mu_max", summary->mu_max, NAN, summary->mu_max_known_to, true);
-    say(", the largest load ratio of the run\n");
+    print_estimate("mu_max", summary->mu_max, NAN, summary->mu_max_known_to,
+                   summary->bar_runs == 0);
+    say(", the largest load ratio of the run%s\n",
+        summary->bar_runs > 0 ? " in full, on the last mesh" : "");
     say("  precursors      %d quasi-static, %d bounded rapid (faster than 2.5 V, over 5 %% of the "
         "contact)\n",
         summary->quasi_static, summary->bounded);

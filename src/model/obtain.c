@@ -94,7 +94,8 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
 
 // The basis of `block`, built and kept in the cache under its name. Of processes that need it at
 // once one builds it and the others wait. Where rounding leaves none the block is not reduced.
-static bool build_basis(Model *model, const ReductionBlock *block, const char *name, Error *err)
+static bool build_basis(Model *model, const ReductionBlock *block, const char *name,
+                        const StageNotice *notice, Error *err)
 {
     const Scene *scene = model->scene;
     const Interface *interface = &model->interface;
@@ -104,6 +105,8 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
                         .no_patches = model->mesh.dim > 2,
                         .node_image = block->image,
                         .position = block->position,
+                        .goes_on = notice ? notice->goes_on : NULL,
+                        .self = notice ? notice->self : NULL,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     FileLock lock = {0};
     if (cache_lock(name, &lock)) TRY(load_basis(model, block, name, err));
@@ -284,7 +287,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     const Interface *interface = &model->interface;
     TRY(prepare(notice, model, &block, name, err));
     if (notice && !model->from_cache) TRY(notice->tell(notice->self, "reducing", err));
-    if (model->is_reduced && !model->from_cache) TRY(build_basis(model, &block, name, err));
+    if (model->is_reduced && !model->from_cache) TRY(build_basis(model, &block, name, notice, err));
     if (!model->is_reduced) reduction_block_destroy(&block);
     if (model->is_reduced)
         TRY(adopt_basis(model, err));

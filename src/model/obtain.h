@@ -5,10 +5,11 @@
 
 #include "model/model.h"
 
-// Who wants to know what takes its time, and may end it before it begins.
+// Who wants to know what takes its time, and may end it before it begins, or while it goes on.
 typedef struct StageNotice {
     // "meshing", "reducing"; static storage
     bool (*tell)(void *self, const char *stage, Error *err);
+    bool (*goes_on)(void *self, Error *err);   // asked while the block is reduced, by any thread
     void *self;   // not owned
 } StageNotice;
 

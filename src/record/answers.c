@@ -95,6 +95,8 @@ Answers answers_of(const Drops *drops)
                        .mu_M_high = NAN,
                        .mu_M_spread = NAN,
                        .mu_max = isfinite(drops->mu_max) ? drops->mu_max : (double)NAN,
+                       .mu_max_jump = isfinite(drops->mu_max) ? drops->mu_max - drops->mu_beside
+                                                              : (double)NAN,
                        .mu_M_known_to = NAN,
                        .mu_hold_known_to = NAN,
                        .mu_max_known_to = NAN,

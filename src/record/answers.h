@@ -37,7 +37,7 @@ typedef struct Answers {
     int32_t period;   // bulk slidings in a round; 0: load drops do not repeat, or none is one
     Estimate mu_hold;   // error: half the range of the lowest branch, or twice the standard error
     Estimate mu_drops;   // mean of the load drops; error: twice the standard error
-    double mu_max;
+    double mu_max, mu_max_jump;   // how far it is above both of its neighbours in time
     // How far other meshes and runs usually are from these: the bar, where one is known; else what
     // nine of ten meshes are off by (record/error_bars). NaN: cells are too long for slip.
     double mu_M_known_to, mu_hold_known_to, mu_max_known_to;

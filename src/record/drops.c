@@ -30,7 +30,9 @@ Drops drops_none(void)
                    .mu_static = NAN,
                    .rising = NOTHING_SEEN,
                    .top = -INFINITY,
-                   .mu_max = -INFINITY};
+                   .mu_max = -INFINITY,
+                   .mu_seen = -INFINITY,
+                   .mu_beside = -INFINITY};
 }
 
 bool drops_create(const Interface *interface, const Events *events, double tolerance, Drops *drops,
@@ -152,6 +154,19 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
     return !(rising->load || rising->pads > 0) || push_drop(drops, seen->interface, err);
 }
 
+// The largest mu, and how far it is known: where it is that of a single step, as where the rod hits
+// the block, shorter steps have another.
+static void follow_largest(Drops *drops, double mu)
+{
+    if (mu > drops->mu_max) {
+        drops->mu_max = mu;
+        drops->mu_beside = drops->mu_seen;
+    } else if (drops->mu_seen == drops->mu_max) {
+        drops->mu_beside = fmax(drops->mu_beside, mu);
+    }
+    drops->mu_seen = mu;
+}
+
 // While the whole block slides nothing rises: mu then says nothing of static friction.
 bool drops_record(void *self, const Observation *seen, Error *err)
 {
@@ -159,7 +174,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     const Events *events = drops->events;
     bool in_event = events->rapid >= 0 || events->ended;   // the last of the list
     bool sliding = in_event && events->list[events->count - 1].kind == EVENT_LEADING;
-    drops->mu_max = fmax(drops->mu_max, seen->mu);
+    follow_largest(drops, seen->mu);
     stretches_follow(&drops->stretches, seen);
     if (drops->settled < 0 && drops->stretches.stuck == 0) drops->settled = drops->count;
     if (in_event) follow_fall(drops, seen);
@@ -271,6 +286,7 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     stretches_archive(&drops->stretches, archive);
     archive_index(archive, &drops->settled, -1, drops->count + 1);
     drop_archive(&drops->rising, events + 1, archive);   // it has none yet
-    archive_numbers_of(archive, &drops->top, &drops->fall, &drops->mu_max);
+    archive_numbers_of(archive, &drops->top, &drops->fall, &drops->mu_max, &drops->mu_seen,
+                       &drops->mu_beside);
     return true;
 }

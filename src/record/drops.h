@@ -52,6 +52,8 @@ typedef struct Drops {
     double top;   // the largest mu of the event under way, or of the step before it
     double fall;   // the largest way down from it
     double mu_max;   // of all steps
+    double mu_seen;   // in the step seen last; -infinity: none yet
+    double mu_beside;   // the larger one of those in the steps before and after that of mu_max
 } Drops;
 
 extern const double LEAST_DROP;

@@ -16,6 +16,7 @@ static const double USUAL = 0.05, USUAL_LEAST = 0.2;
 enum { USUAL_LEVELS = 1 };
 static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh
 static const double SPAN = 2;   // of cell size, of the levels behind a bar that is met
+static const double CONFIRM = 4;   // likewise, of all levels, where pads may slide otherwise
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double ONE_MESH_IN_SPACE = 0.9;   // likewise, over nodes along the contact
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
@@ -46,9 +47,14 @@ double level_value(const Level *level, AnswerKind kind)
     return kind == ANSWER_MU_HOLD ? lowest_of(level, kind) : mean_of(level, kind);
 }
 
-static bool is_known(const Level *level, AnswerKind kind)
+static bool has_value(const Level *level, AnswerKind kind)
 {
     return !level->undamped && !isnan(mean_of(level, kind));
+}
+
+static bool is_known(const Level *level, AnswerKind kind)
+{
+    return has_value(level, kind) && !level->other_drops;
 }
 
 // By its last nodes, by more than the bar that is wanted.
@@ -77,12 +83,21 @@ double levels_span_left(const Levels *levels, AnswerKind kind)
     return left < 1 + ROUNDING ? 1 : left;
 }
 
-// Of single runs about their level's mean, from all levels together; NaN: one run on each.
-static double spread_of_runs(const Levels *levels, AnswerKind kind)
+double levels_confirm_left(const Levels *levels)
+{
+    const Level *last = &levels->list[levels->count - 1];
+    double left = CONFIRM * levels->list[0].refine / last->refine;
+    bool needed = last->pads > 1 || levels->list[0].other_drops;
+    return !needed || left < 1 + ROUNDING ? 1 : left;
+}
+
+// Single runs about their level's mean: from the levels at least as fine as number `from`, or if
+// these have one run each from the finest one with several; NaN: none has.
+static double spread_of_runs(const Levels *levels, int32_t from, AnswerKind kind)
 {
     double square = 0;
     int32_t freedoms = 0;
-    for (int32_t l = 0; l < levels->count; l++) {
+    for (int32_t l = levels->count - 1; l >= 0 && (l >= from || freedoms == 0); l--) {
         const Level *level = &levels->list[l];
         double mean = mean_of(level, kind);
         if (!is_known(level, kind)) continue;
@@ -113,12 +128,13 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 }
 
 // The last level alone has an answer, or it is one that does not count: of the error that its mesh
-// leaves nothing is known.
+// leaves nothing is known. Coarser ones with other drops say that it is no coarse one: what is
+// usual of one level then tells its error.
 static bool is_alone(const Levels *levels, AnswerKind kind)
 {
     const Level *first = levels->list, *last = &first[levels->count - 1];
-    while (first < last && !is_known(first, kind)) first++;
-    return !is_known(last, kind) || first->nodes_along == last->nodes_along;
+    while (first < last && !has_value(first, kind)) first++;
+    return !has_value(last, kind) || first->nodes_along == last->nodes_along;
 }
 
 // Half a cell where a node went from rest to fast slip at once.
@@ -173,18 +189,19 @@ static void add_level(const Level *level, AnswerKind kind, double weight, double
     limit->drops = hypot(limit->drops, weight * drops_part(level, kind));
 }
 
-static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
+static Limit limit_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
     double origin = level_value(last, kind);   // all in parts of it
     double usual = fmax(USUAL / slipping_part(levels), USUAL_LEAST);   // over nodes
     double S = 0, Sx = 0, Sxx = 1 / (usual * usual), Sv = 0, Sxv = 0, Svv = 0;
-    double weight[LEVELS_MAX] = {0};
+    double weight[LEVELS_MAX] = {0}, spread[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double x = 1.0 / level->nodes_along, v = level_value(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
-        double runs = variance_of_runs(level, spread) / (origin * origin);
+        spread[l] = spread_of_runs(levels, l, kind);
+        double runs = variance_of_runs(level, spread[l]) / (origin * origin);
         double own = scatter_of(level, usual, origin), w = weight[l] = 1 / (own * own + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
@@ -196,7 +213,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double c = weight[l] * (Sxx - Sx / level->nodes_along) / determinant;
-        if (weight[l] > 0) add_level(level, kind, c, spread, &limit);
+        if (weight[l] > 0) add_level(level, kind, c, spread[l], &limit);
     }
     int32_t free = levels_known(levels, kind) - 1;
     int32_t freedoms = (free > 0 ? free : 0) + USUAL_LEVELS;
@@ -220,10 +237,10 @@ static double known(double part)
 static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
-    double spread = spread_of_runs(levels, kind);
+    double spread = spread_of_runs(levels, levels->count - 1, kind);
     if (isnan(level_value(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}, false};
     bool alone = is_alone(levels, kind);
-    Limit limit = alone ? one_level(last, kind, spread) : limit_of(levels, kind, spread);
+    Limit limit = alone ? one_level(last, kind, spread) : limit_of(levels, kind);
     double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
     ErrorBar bar = {.value = limit.value,
                     .parts = {.mesh = alone ? NAN : mesh,
@@ -237,9 +254,22 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     return bar;
 }
 
+// Levels coarser than all on which the same pads slide as on the last one.
+static void note_other_drops(Levels *levels)
+{
+    const Level *last = &levels->list[levels->count - 1];
+    bool other = true;
+    for (int32_t l = 0; l < levels->count; l++) {
+        Level *level = &levels->list[l];
+        other = other && patterns_differ(&level->patterns, &last->patterns);
+        level->other_drops = other;
+    }
+}
+
 void levels_estimate(Levels *levels)
 {
     Level *last = &levels->list[levels->count - 1];
+    note_other_drops(levels);
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         last->answer[kind] = bar_of(levels, kind);
     bool hold = levels->of_hold || isnan(last->answer[ANSWER_MU_M].value);
@@ -260,11 +290,13 @@ bool levels_run_in(const Levels *levels)
     return false;
 }
 
-void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps)
+void levels_add_run(Levels *levels, double pressure, double way, const Answers *answers,
+                    int64_t steps)
 {
     Level *last = &levels->list[levels->count - 1];
     LevelRun *run = &last->runs[last->run_count++];
     *run = (LevelRun){.pressure = pressure,
+                      .way = way,
                       .answer = {{NAN, NAN}, {NAN, NAN}},
                       .peaks = answers->peaks_counted,
                       .period = answers->period,
@@ -275,6 +307,14 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
         run->answer[ANSWER_MU_HOLD] = answers->mu_hold;
     }
     levels_estimate(levels);
+}
+
+bool levels_reach(const Levels *levels, double way)
+{
+    const Level *last = &levels->list[levels->count - 1];
+    for (int32_t k = 0; k < last->run_count; k++)
+        if (last->runs[k].way <= way) return true;
+    return false;
 }
 
 const Level *levels_last(const Levels *levels)
@@ -313,7 +353,7 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_M_known_to = hypot(usual * answers->mu_M.value, known(answers->mu_M.error));
     answers->mu_hold_known_to =
         hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
-    answers->mu_max_known_to = fabs(usual * answers->mu_max);
+    answers->mu_max_known_to = hypot(usual * answers->mu_max, answers->mu_max_jump);
 }
 
 // No run of the last level had a peak: its mu_M is that of steady sliding.

@@ -5,24 +5,26 @@
 // answer of the limit in 19 of 20 cases; its parts, added in quadrature:
 //
 //   drops      twice the standard error that the finite number of load drops leaves
-//   branches   twice the standard error of the mean over runs, their spread taken from the levels
-//              with several; both weighed as the levels are
+//   branches   twice the standard error of the mean over runs, the spread of a level's runs taken
+//              from the levels at least as fine; both weighed as the levels are
 //   mesh       value = a + b / n on n nodes along the contact is estimated from the levels together
 //              (Bayes: values scatter from mesh to mesh, as slip stops at nodes, and by what few
 //              runs leave of branches; how far, the levels say themselves: what is usual counts as
 //              one level more).
 //              a, the limit of ever smaller cells, is the answer, Student's 95 % of its deviation
 //              the part. At least what steps and reduction leave. Levels whose cells are too long
-//              for slip (`undamped`) have no part in it; where the last nodes of the contact hold
-//              the block they scatter more, and three times what mu rises by meanwhile (`end_wait`)
-//              is added. One level: its own value, nothing known. A bar is met only where levels
-//              differ by a factor of two in cell size (levels_span_left).
+//              for slip (`undamped`), and those coarser than all on which the same pads slide as
+//              on the last (`other_drops`), have no part in it; where the last nodes of the
+//              contact hold the block they scatter more, and three times what mu rises by
+//              meanwhile (`end_wait`) is added. One level: its own value, nothing known. A bar is
+//              met only where levels differ by a factor of two in cell size (levels_span_left).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
 #define AMONTONS_RECORD_ERROR_BARS_H
 
 #include "record/answers.h"
+#include "record/patterns.h"
 
 enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
 
@@ -30,6 +32,7 @@ typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind
 
 typedef struct LevelRun {
     double pressure;   // over the scene's
+    double way;   // that the drive went, length
     Estimate answer[ANSWER_KINDS];   // value NaN: the run has none; error: a bar
     int32_t peaks, period;   // that count; they repeat after so many, 0: they do not
     RunIn run_in;   // not over, but for a trend whose way is part of the error: it has no answer
@@ -49,12 +52,16 @@ typedef struct Level {
     double nodes_along;   // along its length (contact/interface), of which a cell is 1/nodes_along
     bool space;   // of a block in space
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
+    int32_t pads;   // pieces of its contact
+    Patterns patterns;   // which of them slid at the load drops of its runs
+    bool other_drops;   // others than on the last level and on all between: no answer
     double slip_cells;   // least that slipped before slow slip turned fast; NaN: not known
     double end_wait;   // what mu rises by while the last nodes of the contact hold (run/one_mesh)
     int32_t run_count;
     LevelRun runs[LEVEL_RUNS_MAX];
     ErrorBar answer[ANSWER_KINDS];
     double seconds;   // wall time
+    double making;   // of them for mesh and basis, where these are made once
 } Level;
 
 // A run that time or the caller ended before its answer was known. It has no part in any bar.
@@ -82,19 +89,25 @@ extern const char *const ANSWER_NAMES[ANSWER_KINDS];   // "mu_M", "mu_hold"
 const Level *levels_last(const Levels *levels);   // NULL: there is none
 bool levels_have_runs(const Levels *levels);
 // Adds a run to the last level, which has room, and estimates anew.
-void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps);
+void levels_add_run(Levels *levels, double pressure, double way, const Answers *answers,
+                    int64_t steps);
+// Some run of the last level went no farther than this.
+bool levels_reach(const Levels *levels, double way);
 
 // Fills the bars of the last level from the runs of all, and `asked`: mu_M where every run of that
 // level has it, else mu_hold, or as `of_hold` says.
 void levels_estimate(Levels *levels);
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
 
-// Damped levels whose runs all have such an answer, and whose last nodes do not hold the
-// block up by more than is wanted.
+// Levels that count: damped ones whose runs all have such an answer, at whose drops the same pads
+// slide as on the last, and whose last nodes do not hold the block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
 // Of cell size from the last level to one that is twice as fine as the coarsest of these. A bar is
 // met by no less: neighbours agree by chance, and on what only coarse meshes do.
 double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left
+// Likewise to one that is four times as fine as the first, where coarse meshes may all have other
+// drops than fine ones: on several pads, and where levels differ in it. 1: none is left, or needed.
+double levels_confirm_left(const Levels *levels);
 
 // Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);

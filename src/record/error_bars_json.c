@@ -87,6 +87,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
         json_numbers_of(json, {"refine", level->refine}, {"contact_nodes", level->contact_nodes},
                         {"seconds", level->seconds});
         json_boolean(json, "undamped", level->undamped);
+        json_boolean(json, "other_drops", level->other_drops);
         json_numbers_of(json, {"slip_cells", level->slip_cells}, {"end_wait", level->end_wait});
         write_bars(level->answer, json);
         write_runs(level, json);

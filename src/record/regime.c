@@ -72,11 +72,6 @@ static double drops_left(const Drops *drops, double mu, double fading, const Reg
     return ceil(left);
 }
 
-static bool stands_out(const SeriesTrend *trend)
-{
-    return fabs(trend->slope) > student(trend->freedoms) * trend->error;   // false of NaN
-}
-
 static SeriesTrend trend_of_last(const SeriesItem *last, int32_t count, const Regime *regime)
 {
     bool blocks = regime->period == 0 && regime->run_in != RUN_IN_STUCK;
@@ -88,7 +83,7 @@ static void note_trend(const Drops *drops, const SeriesItem *last, int32_t count
 {
     int32_t round = regime->period > 0 ? regime->period : 1;
     SeriesTrend trend = trend_of_last(last, count, regime);
-    if (!stands_out(&trend)) return;
+    if (!series_trend_stands_out(&trend)) return;
     regime->drift = trend.slope / last->value;
     regime->ahead = fabs(regime->drift) * DROPS_ENOUGH * round;
     regime->drops_left =
@@ -103,7 +98,7 @@ static void find_trend(const Drops *drops, const SeriesItem *last, int32_t count
     int32_t round = regime->period > 0 ? regime->period : 1;
     for (int32_t half = count; half > round; count = half) {
         SeriesTrend all = trend_of_last(last, count, regime);
-        if (!stands_out(&all)) break;
+        if (!series_trend_stands_out(&all)) break;
         half = (count / 2 + round - 1) / round * round;
         SeriesTrend later = trend_of_last(last, half, regime);
         double most = fabs(later.slope) + student(later.freedoms) * later.error;

@@ -212,13 +212,13 @@ static double mean_of_items(const SeriesItem *items, int32_t count)
     return sum / count;
 }
 
-// Sums over the items about the mean of each place in a round: x is the number of the item.
+// Sums over values about their mean: x is the number of the item.
 typedef struct TrendSums {
     double xx, xy, yy;
 } TrendSums;
 
-// Of the items at one place, or of block means: `count` values, `apart` items from one to the next.
-static void add_place(const double *values, int32_t count, int32_t apart, TrendSums *sums)
+// Adds `count` values, `apart` items from one to the next.
+static void add_values(const double *values, int32_t count, int32_t apart, TrendSums *sums)
 {
     double mean = 0;
     for (int32_t k = 0; k < count; k++) mean += values[k] / count;
@@ -240,27 +240,52 @@ static SeriesTrend trend_of(const TrendSums *sums, int32_t freedoms)
                          freedoms};
 }
 
+bool series_trend_stands_out(const SeriesTrend *trend)
+{
+    return fabs(trend->slope) > student(trend->freedoms) * trend->error;   // false of NaN
+}
+
+// One of `round` places that are looked at stands out by chance as often as a single one does by
+// Student's factor times sqrt(round), at most.
+static bool place_stands_out(SeriesTrend place, int32_t round)
+{
+    place.error *= sqrt(round);
+    return series_trend_stands_out(&place);
+}
+
 SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks)
 {
     double values[TREND_VALUES];
-    TrendSums sums = {0};
+    SeriesTrend place_trend[SERIES_PERIOD_LIMIT];
+    TrendSums all = {0};
     if (blocks) {
         int32_t length = (int32_t)sqrt(count), number = count / length;
         if (number > TREND_VALUES) number = TREND_VALUES;
         const SeriesItem *first = items + count - number * length;
         for (int32_t b = 0; b < number; b++) values[b] = mean_of_items(first + b * length, length);
-        add_place(values, number, length, &sums);
-        return trend_of(&sums, number - 2);
+        add_values(values, number, length, &all);
+        return trend_of(&all, number - 2);
     }
     int32_t used = 0;
     for (int32_t place = 0; place < round; place++) {
         int32_t found = 0;
+        TrendSums own = {0};
         for (int32_t k = count - 1 - place; k >= 0 && found < TREND_VALUES; k -= round)
             values[found++] = items[k].value;
-        add_place(values, found, -round, &sums);
+        add_values(values, found, -round, &own);
+        place_trend[place] = trend_of(&own, found - 2);
+        all.xx += own.xx, all.xy += own.xy, all.yy += own.yy;
         used += found;
     }
-    return trend_of(&sums, used - round - 1);
+    SeriesTrend trend = trend_of(&all, used - round - 1);
+    double steepest = series_trend_stands_out(&trend) ? fabs(trend.slope) : 0;
+    for (int32_t place = 0; place < round; place++) {
+        const SeriesTrend *own = &place_trend[place];
+        if (!place_stands_out(*own, round) || fabs(own->slope) <= steepest) continue;
+        trend = *own;
+        steepest = fabs(own->slope);
+    }
+    return trend;
 }
 
 double series_fading(const SeriesItem *items, int32_t third)

@@ -38,12 +38,15 @@ SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolera
 
 // How values rise from item to item, by least squares about the mean of each place in the round;
 // where they do not repeat (`blocks`), of means over blocks of successive items, whose scatter is
-// theirs whatever the correlation.
+// theirs whatever the correlation. The trend is that of all places together, or the steeper one of
+// a single place that stands out: the two values of an alternation that grows go opposite ways.
 typedef struct SeriesTrend {
     double slope, error;   // an item; one standard error
     int32_t freedoms;   // of the error; below 1: there is none
 } SeriesTrend;
 SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks);
+// From its scatter, by Student's 95 %.
+bool series_trend_stands_out(const SeriesTrend *trend);
 
 // Of the means of three times `third` items, the last difference over the one before.
 double series_fading(const SeriesItem *items, int32_t third);

@@ -189,6 +189,8 @@ static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error 
     Builder *work = self;
     TrainingPoint now = work->training.points[k];
     double left = 0, *error = &work->part->errors.error[now.level];
+    const ReductionDef *def = work->def;
+    if (def->goes_on && !def->goes_on(def->self, err)) return false;
     if (!train_at(work, now.point, full, &left, err)) return false;
     // The error left by the last addition counts, too.
     if (k == work->training.count - 1 && !train_at(work, now.point, full, &left, err)) return false;

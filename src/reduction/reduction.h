@@ -38,6 +38,9 @@ typedef struct ReductionDef {
         *node_image;   // [DIM_MAX - 1] of the block (reduction/reduction_block); NULL: none
     const double
         *position;   // [dof_count] of its nodes, for rigid motions; NULL: none are asked for
+    // Asked at every training point, from several threads; false ends the reduction. NULL: nobody.
+    bool (*goes_on)(void *self, Error *err);
+    void *self;   // of goes_on; not owned
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay: the border of a part by itself.

@@ -23,14 +23,11 @@ static const double STEP = 1.189207115002721;   // of cell size from level to le
 // A run's time goes with this power of the cells along the contact, in the plane and in space. What
 // the levels of a search tell of it says less: times of short runs are noise.
 static const double GROWTH[] = {2, 4};
-// A mesh may take so many times less than is expected: of long ones nine of ten are off by less
-// (validation/strangers/forecasts.py). One that time then cuts short costs time that
-// nothing else could use.
-static const double FORECAST_OFF = 2;
 
+// One more run on its mesh, s.
 static double seconds_of_run(const Level *level)
 {
-    return level->seconds / level->run_count;
+    return (level->seconds - level->making) / level->run_count;
 }
 
 // For so many more runs on the last level.
@@ -83,11 +80,6 @@ static bool is_short(const Accuracy *accuracy)
     return answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
-static double span_left(const Accuracy *accuracy)
-{
-    return levels_span_left(&accuracy->levels, accuracy->levels.asked);
-}
-
 // By what a run takes longer where cells are so many times smaller.
 static double growth_ahead(const Accuracy *accuracy, double step)
 {
@@ -98,15 +90,26 @@ static double growth_ahead(const Accuracy *accuracy, double step)
 static double level_seconds(const Accuracy *accuracy, double step)
 {
     const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
-    return seconds_of_run(level) * growth_ahead(accuracy, step) * accuracy_runs_first(accuracy);
+    double now = level->making + seconds_of_run(level) * accuracy_runs_first(accuracy);
+    return now * growth_ahead(accuracy, step);
 }
 
-// With the run in full on it, if it takes as little as it may.
+// With the run in full on it. Of one mesh alone no error is known: a second is begun in any case.
 static bool has_time_for_level(const Accuracy *accuracy, double step)
 {
+    if (accuracy->levels.count == 1) return accuracy_seconds_left(accuracy) > 0;
     double more = accuracy_full(accuracy, growth_ahead(accuracy, step)) -
                   accuracy_full(accuracy, 1);
-    return level_seconds(accuracy, step) + more <= FORECAST_OFF * accuracy_seconds_left(accuracy);
+    return level_seconds(accuracy, step) + more <= accuracy_seconds_left(accuracy);
+}
+
+// Of cell size, to the mesh that puts a bar to the test: where pads may slide otherwise on finer
+// meshes the farther one, if there is time for it. 1: none is left.
+static double span_left(const Accuracy *accuracy)
+{
+    double left = levels_span_left(&accuracy->levels, accuracy->levels.asked);
+    double far = levels_confirm_left(&accuracy->levels);
+    return far > left && has_time_for_level(accuracy, far) ? far : left;
 }
 
 // Of cell size to the next level: from the third on one that resolves slip, by what all tell, or
@@ -188,12 +191,11 @@ static bool end_here(Accuracy *accuracy, const char *why)
     return true;
 }
 
-// A level that was cut short does not count; only the first is let stand, for what it has.
+// A level without a whole run does not count.
 static void drop_cut_level(Accuracy *accuracy)
 {
     Levels *levels = &accuracy->levels;
-    bool cut = accuracy_last_level(accuracy)->run_count < accuracy_runs_first(accuracy);
-    if (levels->count > 1 && cut) levels->count--;
+    if (levels->count > 1 && accuracy_last_level(accuracy)->run_count == 0) levels->count--;
     levels_estimate(levels);
 }
 
@@ -286,8 +288,9 @@ static bool report_cut(Accuracy *accuracy, ResultFolder *folder, RunSummary *sum
     return simulation_finish(simulation, NULL, summary, err);
 }
 
-// The scene itself on the last mesh, with its files. It counts as one more run where it goes on for
-// long enough to have an answer; a branch that it found is a reason for more of them.
+// The scene itself on the last mesh, with its files. It counts as one more run where it is as
+// settled as the others and went as far as one of them; a branch that it found is a reason for more
+// of them.
 static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
 {
     Levels *levels = &accuracy->levels;
@@ -300,8 +303,12 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     simulation->deadline = accuracy->deadline;
     if (!simulation_loop(simulation, err)) TRY(is_time_up(accuracy, simulation, err));
     Answers answers = simulation_answers(simulation);
-    if (accuracy_is_known(accuracy, &answers))
-        levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
+    if (accuracy_is_known(accuracy, &answers) && levels_reach(levels, simulation->seen.U)) {
+        patterns_add_drops(&accuracy_last_level(accuracy)->patterns, &simulation->drops,
+                           answers.first);
+        levels_add_run(levels, 1, simulation->seen.U, &answers,
+                       simulation->control.counters.accepted);
+    }
     while (levels_lack_runs(accuracy) && accuracy_seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";

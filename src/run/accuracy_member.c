@@ -3,11 +3,13 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/cache/cache_folder.h"
 #include "model/step_rule.h"
 #include "run/level_scene.h"
 #include "run/one_mesh.h"
 #include "scene/programs.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -167,19 +169,23 @@ static void show_stage(const char *stage, void *context)
 
 // --- what time allows ---------------------------------------------------------------------------
 
+// Mesh and basis of a run that is made are there for the next one.
+static bool keeps_model(const Simulation *simulation)
+{
+    char path[PATH_MAX];
+    return simulation->model.is_reduced && simulation->scene.reduction.cache &&
+           cache_folder_path(path);
+}
+
 // The run in full goes to the scene's end at the same pace, unless an event ends it before. Output
 // is not in it, and where it would take more than its share it is cut short.
-static void expect_full(Accuracy *accuracy, const Simulation *simulation, double making,
-                        double stepping)
+static void expect_full(Accuracy *accuracy, const Simulation *simulation, double stepping)
 {
     const Scene *scene = accuracy->scene;
     double way = step_rule_end(scene) / simulation->control.now.time;
     bool sooner = scene->time.until_periodic || scene->time.until_slidings > 0 ||
                   scene->time.until_mu_below > 0;
     if (sooner || !isfinite(way)) way = fmin(way, 1);
-    bool whole = accuracy_last_level(accuracy)->run_count >= accuracy_runs_first(accuracy);
-    if (accuracy->levels.count > 1 && !whole) return;
-    accuracy->making = making;
     accuracy->stepping = way * stepping;
 }
 
@@ -258,9 +264,15 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
     level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
-    levels_add_run(&accuracy->levels, pressure, &answers, simulation->control.counters.accepted);
+    patterns_add_drops(&level->patterns, &simulation->drops, answers.first);
+    levels_add_run(&accuracy->levels, pressure, simulation->seen.U, &answers,
+                   simulation->control.counters.accepted);
     accuracy->members++;
-    expect_full(accuracy, simulation, begun - started, clock_seconds() - begun);
+    if (keeps_model(simulation))
+        level->making += begun - started;
+    else
+        accuracy->making = begun - started;
+    expect_full(accuracy, simulation, clock_seconds() - begun);
 cleanup:
     if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);
     if (accuracy->out_of_time && !levels_have_runs(&accuracy->levels)) {

@@ -3,9 +3,8 @@
 // run/accuracy_member does one run. amontons.h declares what the caller sees.
 //
 // Time (accuracy.within) ends a search inside a run. Of what is given a part is kept for the run in
-// full on the last mesh whose runs are whole; not begun is a run that would take longer than what
-// is left before, or a mesh that would by more than forecasts are off. What was cut short has no
-// part in the bar. Where it was the first run of all, its own answers stand, without a bar.
+// full on the last mesh that has a whole one; not begun is a run, or a mesh, that would take longer
+// than what is left before, by the forecast. What was cut short has no part in the bar. Where it was the first run of all, its own answers stand, without a bar.
 #ifndef AMONTONS_RUN_ACCURACY_STATE_H
 #define AMONTONS_RUN_ACCURACY_STATE_H
 
@@ -23,7 +22,8 @@ typedef struct Accuracy {
     double step;   // of cell size from level to level
     int32_t members;   // whole runs behind the bar, but for that in full
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
-    double making, stepping;   // expected of the run in full, s; 0: no run is whole
+    double stepping;   // expected of the run in full, s; 0: no run is whole
+    double making;   // likewise of its mesh and basis; 0: the cache has them
     bool out_of_time;
     char passed_over[400];   // why the last mesh that failed was passed over; "": none was
     Answers so_far;   // of the run under way

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The explicit scheme in the place of step control: central differences on the full mesh
-// (stepping/explicit_reference), of which RECORDS states are looked at. Recorders see the same
-// state as with implicit steps; what only those have (rungs, error control) stands still.
+// (stepping/explicit_reference). RECORDS states are recorded, and while slip is rapid as many as
+// with implicit steps, whatever the length of the run. Recorders see the same state as with these; what only those have (rungs, error control) stands still.
 #include "run/explicit_loop.h"
 
 #include "stepping/stable_step.h"
 
 #include <math.h>
 
-static const double RECORDS = 2000;   // a run: some more than the implicit scheme has steps
+static const double RECORDS = 2000;   // a run, beside those of rapid slip
 
 // Nothing is done for an implicit scheme. The step is the longest stable one
 // (stepping/stable_step), or time.step_max if that is less, shortened so that a whole number of

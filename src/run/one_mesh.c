@@ -21,6 +21,7 @@ void one_mesh_read(const Simulation *simulation, Level *level)
 {
     level->contact_nodes = simulation->model.interface.contact_count;
     level->nodes_along = interface_nodes_along(&simulation->model.interface);
+    level->pads = simulation->model.interface.pad_count;
     level->space = simulation->model.interface.dim > 2;
     level->undamped = is_undamped(simulation);
 }

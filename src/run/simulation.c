@@ -141,6 +141,11 @@ static bool tell_stage(void *self, const char *stage, Error *err)
     return true;
 }
 
+static bool goes_on_reducing(void *self, Error *err)
+{
+    return simulation_may_go_on(self, err);
+}
+
 // From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
 static bool begin_anew(Simulation *simulation, Error *err)
 {
@@ -223,7 +228,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     TRY(accept(simulation, &state, err));
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
-    StageNotice notice = {.tell = tell_stage, .self = simulation};
+    StageNotice notice = {.tell = tell_stage, .goes_on = goes_on_reducing, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
     if (simulation->model.not_reduced[0])
         warnings_add(&simulation->warnings,
@@ -309,7 +314,16 @@ static bool advance_implicit(Simulation *simulation, Error *err)
     return true;
 }
 
-// An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
+// One record of many small steps: of few where slip is rapid, as its events would be missed else.
+static bool advance_explicit(Simulation *simulation, Error *err)
+{
+    const Events *events = &simulation->events;
+    double rate = events->rapid >= 0 ? -1 : events->rate_start;
+    return step_control_advance_explicit(&simulation->control, &simulation->explicit_reference,
+                                         simulation->explicit_steps, rate, err);
+}
+
+// An explicit `step` is one record. *finished: the end of the scene, or the
 // periodic regime where the scene asks for it.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
@@ -317,10 +331,8 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     StepControl *control = &simulation->control;
     double started = clock_seconds();
     if (!steering_is_open(simulation, err)) return false;
-    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT
-              ? step_control_advance_explicit(control, &simulation->explicit_reference,
-                                              simulation->explicit_steps, err)
-              : advance_implicit(simulation, err)))
+    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT ? advance_explicit(simulation, err)
+                                                           : advance_implicit(simulation, err)))
         return false;
     simulation->timing.solve += clock_seconds() - started;
     if (!record_step(simulation, err)) return false;

@@ -220,7 +220,8 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
 static const char *why_unknown(const Levels *levels)
 {
     const Level *last = &levels->list[levels->count - 1];
-    return last->undamped ? "cells are too long for slip" : "one mesh";
+    if (last->undamped) return "cells are too long for slip";
+    return levels->count == 1 ? "one mesh" : "only the last mesh has an answer";
 }
 
 static const char *why_not_sure(const Levels *levels)
@@ -245,6 +246,14 @@ void warnings_of_bar(const Levels *levels, RunWarnings *warnings)
 void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
 {
     const Level *last = &levels->list[levels->count - 1];
+    int32_t other = 0;
+    while (levels->list[other].other_drops) other++;
+    if (other > 0)
+        warnings_add(warnings,
+                     "on meshes of up to %d contact nodes %s load drops than on finer ones: they "
+                     "have no part in the answers",
+                     levels->list[other - 1].contact_nodes,
+                     last->pads > 1 ? "other pads slide at" : "there are other kinds of");
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         if (last->answer[kind].apart)
             warnings_add(warnings,
@@ -393,7 +402,7 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
                      RunWarnings *warnings)
 {
     double middle = 0, width = 0, from = interface->rod_face[0], to = interface->rod_face[1];
-    if (interface->rod_count == 0 || from == to) return;   // no rod; a face along x
+    if (scene->rod.whole || interface->rod_count == 0 || from == to) return;   // a face along x
     model_rod_strip(scene, height, &middle, &width);
     double low = middle - 0.5 * width, high = middle + 0.5 * width;
     double covered = fmin(high, to) - fmax(low, from);

@@ -397,12 +397,24 @@ void step_control_use_explicit(StepControl *control, const ExplicitReference *sc
     control->rung = control->coarsest = 0;
 }
 
+static bool slips_faster(const Interface *interface, const State *state, double rate)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (slip_size(interface, i, state->slip_rate) > rate) return true;
+    return false;
+}
+
 // The contact conditions of the last step stand where those of an implicit stage would. The
 // certificate limits nothing here; it says where l_sc is.
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
-                                   Error *err)
+                                   double rate, Error *err)
 {
-    TRY(explicit_reference_advance(scheme, steps, &control->now, &control->ledger, err));
+    int64_t look = (int64_t)fmax(1, fmin(control->def.wave_step / scheme->def.step, (double)steps));
+    int64_t end = scheme->steps + steps - scheme->steps % steps;
+    do {
+        int64_t part = end - scheme->steps < look ? end - scheme->steps : look;
+        TRY(explicit_reference_advance(scheme, part, &control->now, &control->ledger, err));
+    } while (scheme->steps < end && !slips_faster(scheme->def.interface, &control->now, rate));
     control->last_step = scheme->def.step;
     control->counters.accepted = control->ladder.accepted[0] = scheme->steps;
     control->outcome.residual = scheme->residual;

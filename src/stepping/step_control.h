@@ -90,8 +90,10 @@ void step_control_settle(StepControl *control);
 // Explicit steps of one length in place of those that step_control_advance chooses; the ladder
 // so far is freed. `scheme` is at `now`.
 void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme);
+// To the next whole multiple of `steps`, or less: to where slip is faster than `rate`, looked at
+// as often as implicit steps would resolve waves.
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
-                                   Error *err);
+                                   double rate, Error *err);
 
 // To be called when the drive has changed between two steps: waves are resolved again, and earlier
 // records of oscillations no longer count.

@@ -237,9 +237,12 @@ NOT_A_CHOICE = {
     "record/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "record/error_bars.c": {
         "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "ONE_MESH_IN_SPACE": "of digits without a bar: validation/space/priors.md", "SPAN": "the same",
+        "CONFIRM": "of error bars on several pads: two feet of unequal height, strangers 467",
         "ROUNDING": "of products of a few steps from mesh to mesh", "END_WAITS": "of error bars: set B at P = 1e-5",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
+    "record/patterns.c": {"CHANCE": "95 %"},
+    "record/patterns.h": {"PATTERNS_MAX": SIZE},
     "record/program_readings.c": {"STEADY_RANGE": "as in record/steady", "REACHED": "rounding of points in time",
                                   "LEAST": "bins that make a level", "ARRIVED": "what counts as the rod's new velocity, in the definition of the direct effect"},
     "record/program_readings.h": {"PROGRAM_BINS": SIZE, "PROGRAM_READINGS_MAX": SIZE},

@@ -83,7 +83,9 @@ TEST(test_static_friction)
     summary.peaks = 3;
     summary.bar_runs = 4;
     summary.bar_ended = "no time for more";
-    assert_says(closing("A", &summary), "not every run of the error bar came to slide as a whole");
+    said = closing("A", &summary);
+    assert_says(said, "not every run of the error bar came to slide as a whole");
+    assert_says(said, "largest load ratio of the run in full, on the last mesh\n");
     summary.bar_runs = 0;
     summary.leading = 1;
     assert_says(closing("A", &summary), "not known: no sliding of the whole block counts");
@@ -100,7 +102,8 @@ TEST(test_static_friction)
     summary.mu_M_is = "peaks";
     summary.mu_M = 0.254;
     summary.mu_M_known_to = 0.005;
-    assert_says(closing("A", &summary), "mu_steady       0.375: at the end the block slides");
+    assert_says(closing("A", &summary), "mu_steady       0.375: F_T/F_N at the end of the run, "
+                                        "where the block slides steadily\n");
     summary.mu_steady = NAN;
     summary.peaks_counted = 1;
     said = closing("A", &summary);

@@ -181,6 +181,35 @@ TEST(test_operator)
     reduced_block_destroy(&block);
 }
 
+// Of the training points that may still be visited.
+static bool goes_on(void *self, Error *err)
+{
+    int32_t *left = self;
+    return (*left)-- > 0 ? true : FAULT(err, ERROR_INTERRUPT, "time is up");
+}
+
+// Time may be up while a basis is made.
+TEST(test_ended_between_points)
+{
+    ReducedBlock block;
+    reduced_block_build(&SHAPES[0], &MATERIAL, LOAD, 0, &block);
+    block.def.tolerance = 1e-2;
+    block.def.goes_on = goes_on;
+    int64_t live = memory_counters().live;
+    for (int32_t points = 0; points < 3; points++) {
+        Error err = {0};
+        int32_t left = points;
+        block.def.self = &left;
+        assert_false(symmetry_reduction_build(&block.bulk, block.dofs, block.interface_count,
+                                              &block.def, &block.reduced, &err));
+        assert_int_equal(err.code, ERROR_INTERRUPT);
+        assert_int_equal(left, -1);   // asked once more, and no more
+        reduced_bulk_destroy(&block.reduced);
+        assert_int_equal(memory_counters().live, live);
+    }
+    reduced_block_destroy(&block);
+}
+
 TEST(test_memory_faults)
 {
     ReducedBlock block;

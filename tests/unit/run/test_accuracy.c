@@ -228,7 +228,8 @@ TEST(test_what_is_said_of_a_bar)
     expect(levels,
            "known to 10.0 % by meshes less than twice as fine as one another, asked for 1.0 %");
     levels.list[2].answer[0].parts.mesh = NAN;
-    expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
+    expect(levels, "the mesh's part of it is not known (only the last mesh has an answer: no time "
+                   "for more)");
     levels.list[2].undamped = true;
     expect(levels, "not known (cells are too long for slip: no time for more)");
 }

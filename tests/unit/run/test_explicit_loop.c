@@ -88,6 +88,32 @@ TEST(test_peak)
     assert_int_equal(found.counters.loop_allocations, 0);
 }
 
+// The first sliding is seen alike in a run that goes a hundred times as far, in which two thousand
+// records alone would be 1.65e-4 apart: longer than it takes.
+TEST(test_sliding_of_a_long_run)
+{
+    const char *more[4] = {"time.until.U=0.33", "time.scheme=explicit"};
+    const char *shorter[4] = {"time.until.U=0.0033", "time.scheme=explicit"};
+    Error err = {0};
+    RunOptions options = {0};
+    Simulation *simulation = NULL;
+    StepView view = {0};
+    bool finished = false;
+    double largest = 0;
+    Scene *scene = read_scene(more);
+    if (!amontons_simulation_create(scene, &options, &simulation, &err))
+        fail_msg("%s", err.message);
+    while (view.U < 0.0033) {
+        if (!amontons_simulation_step(simulation, &view, &finished, &err))
+            fail_msg("%s", err.message);
+        if (view.slidings == 0) largest = fmax(largest, view.mu);
+    }
+    amontons_simulation_destroy(simulation);
+    amontons_scene_destroy(scene);
+    assert_int_equal(view.slidings, 1);
+    assert_near("peak", largest, run_scene(shorter).mu_M, 1e-2 * largest);
+}
+
 // Explicit steps are counted, in equal numbers a record; time.step_max shortens them and no more.
 TEST(test_counting)
 {

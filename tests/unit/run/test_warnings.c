@@ -95,6 +95,7 @@ TEST(test_rod_beside_its_face)
     found = warnings_of("rod.height=0.03", "rod.width=0.1");
     assert_int_equal(found.count, 1);
     assert_non_null(strstr(found.text[0], "only 80 % of the strip"));
+    assert_int_equal(warnings_of("rod.height=0.03", "rod.whole=true").count, 0);   // no strip
 }
 
 TEST(test_tall_block)
