@@ -254,6 +254,12 @@ void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
                      "have no part in the answers",
                      levels->list[other - 1].contact_nodes,
                      last->pads > 1 ? "other pads slide at" : "there are other kinds of");
+    if (levels->count > 1 && levels_confirm_left(levels) > 1)
+        warnings_add(warnings,
+                     "on finer meshes %s: the bar is not confirmed, as no mesh four times as fine "
+                     "as the first was reached (%s)",
+                     last->pads > 1 ? "other pads may slide" : "load drops may be of other kinds",
+                     levels->ended);
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         if (last->answer[kind].apart)
             warnings_add(warnings,

@@ -262,8 +262,9 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
                     .height = length / 2, .distortion = 0.1};
     case_build_block(&test, &def, &SOFT);
     if (reduced) {
-        ReductionDef how = {
-            1e-3, {1, 2, length * length, 1}, materials_of(&SOFT), false, NULL, NULL, NULL};
+        ReductionDef how = {.tolerance = 1e-3,
+                            .scales = {1, 2, length * length, 1},
+                            .materials = materials_of(&SOFT)};
         assert_true(symmetry_reduction_build(&test.bulk, test.interface.dofs, test.interface.count,
                                              &how, &test.reduced, &err));
         assert_true(bulk_operator_reduce(&test.reduced, 1, 1, &test.system, &err));
