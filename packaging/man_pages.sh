@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# man_pages.sh PROGRAM HELP2MAN VERSION FOLDER: amontons.1, and amontons-COMMAND.1 of each command that it lists.
+# man_pages.sh PROGRAM HELP2MAN VERSION FOLDER (whole paths): amontons.1, and amontons-COMMAND.1 of each command that it lists.
 set -eu
 program=$1 help2man=$2 version=$3 folder=$4
 mkdir -p "$folder"
@@ -11,8 +11,10 @@ make_page() {   # name, one sentence, the words that are the command
     # help2man knows "Usage:" by its capital.
     printf '#!/bin/sh\n"%s" %s "$@" | sed "s/^usage:/Usage:/"\n' "$program" "$*" >"$folder/$name"
     chmod +x "$folder/$name"
+    # help2man calls it without quotes: a name alone, as the folder may have a space.
+    cd "$folder"
     "$help2man" --no-info --no-discard-stderr --version-string="$version" --name="$sentence" \
-        --source="amontons $version" --manual='User Commands' "$folder/$name" >"$page"
+        --source="amontons $version" --manual='User Commands' "./$name" >"$page"
     rm "$folder/$name"
 }
 for command in $commands; do
