@@ -210,9 +210,9 @@ static void add_drops(Levels *levels, uint64_t pads, int32_t drops)
         patterns_add(&levels->list[levels->count - 1].patterns, pads);
 }
 
-// Two feet that go by turns on coarse meshes, and on fine ones the leading one also by itself: coarse
-// meshes do not count, one between those that do does; and then, as on several pads in any case, the
-// finest is four times as fine as the first.
+// Two feet that go by turns on coarse meshes, and on fine ones the leading one also by itself:
+// coarse meshes do not count, one between those that do does; and then, as on several pads in any
+// case, the finest is four times as fine as the first.
 TEST(test_other_drops)
 {
     Levels levels = {0};
