@@ -4,8 +4,8 @@
 //
 // Time (accuracy.within) ends a search inside a run. Of what is given a part is kept for the run in
 // full on the last mesh that has a whole one; not begun is a run, or a mesh, that would take longer
-// than what is left before, by the forecast. What was cut short has no part in the bar. Where it was
-// the first run of all, its own answers stand, without a bar.
+// than what is left before, by the forecast. What was cut short has no part in the bar. Where it
+// was the first run of all, its own answers stand, without a bar.
 #ifndef AMONTONS_RUN_ACCURACY_STATE_H
 #define AMONTONS_RUN_ACCURACY_STATE_H
 
