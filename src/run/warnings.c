@@ -248,17 +248,18 @@ void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
     const Level *last = &levels->list[levels->count - 1];
     int32_t other = 0;
     while (levels->list[other].other_drops) other++;
-    if (other > 0)
+    if (other > 0 && other == levels->count - 1)
         warnings_add(warnings,
-                     "on meshes of up to %d contact nodes %s load drops than on finer ones: they "
-                     "have no part in the answers",
-                     levels->list[other - 1].contact_nodes,
-                     last->pads > 1 ? "other pads slide at" : "there are other kinds of");
+                     "%s at the load drops of the last mesh than on all before it, of up to %d "
+                     "contact nodes, which have no part in the answers",
+                     last->pads > 1 ? "other pads slide" : "other parts of the contact slide",
+                     levels->list[other - 1].contact_nodes);
     if (levels->count > 1 && levels_confirm_left(levels) > 1)
         warnings_add(warnings,
                      "on finer meshes %s: the bar is not confirmed, as no mesh four times as fine "
                      "as the first was reached (%s)",
-                     last->pads > 1 ? "other pads may slide" : "load drops may be of other kinds",
+                     last->pads > 1 ? "other pads may slide"
+                                    : "other parts of the contact may slide",
                      levels->ended);
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         if (last->answer[kind].apart)
