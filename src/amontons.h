@@ -68,7 +68,7 @@ typedef struct StepView {
     ContactView contact;
 } StepView;
 
-// What was done, counted: a benchmark prints these, run.json holds them.
+// Counts of the work that was done: a benchmark prints these, run.json holds them.
 typedef struct RunCounters {
     int64_t accepted;   // steps
     int64_t rejected;   // steps undone by error control or by the certificate
@@ -95,7 +95,7 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
 } RunWarnings;
 
-// What a run came to, for the closing lines; run.json holds more.
+// Results of a run, for the closing lines; run.json holds more.
 typedef struct RunSummary {
     // Answers, as record/answers.h defines them: macroscopic static friction coefficient, holding
     // coefficient, the largest mu. NaN: the block did not slide; the load did not drop.
@@ -103,12 +103,12 @@ typedef struct RunSummary {
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
     double mu_M_known_to, mu_hold_known_to, mu_max_known_to;   // NaN: cells are too long
-    // Of an error bar (accuracy.mu): runs, meshes, contact nodes of the last, why no more (static).
+    // Error bar (accuracy.mu): its runs, its meshes, and the contact nodes of the last mesh.
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
     bool bar_goes_on;   // its runs go on where time.until would have ended the scene's own
     double bar_own_mu_M;   // of the scene's own run alone, to which the bar does not belong; NaN
-    const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
+    const char *bar_ended, *mu_M_is;   // why no more runs; results.mu_M_is of run.json; both static
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted, period;   // seen; in mu_M; they repeat after so many, or 0
     int32_t drops, drop_period;   // load drops in mu_hold; they repeat after so many, 0: not
@@ -117,14 +117,14 @@ typedef struct RunSummary {
     double run_in_drift, run_in_drops_left;   // of mu a drop, relative; for so many more; NaN
     int32_t quasi_static, bounded, leading, slight;   // events by kind; slight: no precursors
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
-    // Of the load drops that count, the one with the fewest cells: how much slipped where slow slip
-    // turned fast, length and cells; NaN: none. The pad's name; empty: a contact in one piece.
+    // Length and number of cells that slipped where slow slip turned fast, of the load drop that
+    // counts and has the fewest cells; NaN: none. slip_pad: the pad; empty: a contact in one piece.
     double slip_length, slip_cells;
     char slip_pad[64];
     // Names in the order in which pads let go before the last sliding of the whole block, "left,
     // middle with right"; empty: there was none, or the contact is one piece.
     char pads_order[200];
-    // Of a program whose velocity jumps (results.program): value and error; NaN: not known.
+    // Results of a program whose velocity jumps (results.program): value and error; NaN: not known.
     int32_t velocity_steps, holds;
     double direct_effect[2], level_change[2];   // per ln(V2/V1)
     double slip_distance[2], healing[2];   // length; per decade of time held
@@ -139,7 +139,7 @@ typedef struct RunSummary {
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 
-// Of a scene that asks for an error bar (accuracy.mu): a mesh whose runs are done.
+// Mesh whose runs are done, of a scene that asks for an error bar (accuracy.mu).
 typedef struct LevelView {
     int32_t level, contact_nodes, runs;   // level: 1, 2, ...
     const char *answer;   // "mu_M", or "mu_hold" where the block does not slide as a whole
@@ -172,7 +172,8 @@ typedef struct RunOptions {
 
 // --- the library --------------------------------------------------------------------------------
 const char *amontons_version(void);   // "0.3.0"; static storage, like the next two
-// Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
+// Revision in git, "3c94c86f0d", with ", changed" behind it if there were changes that were not
+// committed; "": built from an archive.
 const char *amontons_revision(void);
 const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."
 // OpenBLAS's kernels in use, "Haswell"; *possible: those that the processor could run, NULL: these.
@@ -261,8 +262,8 @@ typedef struct SweepSummary {
 } SweepSummary;
 
 // Computes the points of the study file `path`, in processes of their own, and writes the table.
-// What is finished in the folder is not computed again. Failed points are no error: they are
-// counted, and stand in the table with their reason. ERROR_INTERRUPT: stopped, table written.
+// Points that are finished in the folder are not computed again. Failed points are no error: they
+// are counted, and stand in the table with their reason. ERROR_INTERRUPT: stopped, table written.
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err);
 // In a job of Slurm: the points that amontons_sweep has left to this element of its array.

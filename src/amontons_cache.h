@@ -22,7 +22,7 @@ typedef struct CacheSummary {
     int64_t limit;   // bytes; what was not used for the longest time goes when it is passed
 } CacheSummary;
 
-// What is in the cache: each file, the longest unused first (on_entry may be NULL), and the sums.
+// Lists the files in the cache, the longest unused first (on_entry may be NULL), and adds them up.
 bool amontons_cache_list(CacheCallback on_entry, void *context, CacheSummary *summary, Error *err);
 // Removes all of it; removed: what that was.
 bool amontons_cache_clean(CacheSummary *removed, Error *err);

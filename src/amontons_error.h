@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a failed call of the library says. Part of amontons.h; base/error.h says how the library
-// itself handles it.
+// Error of a failed call of the library. Part of amontons.h; base/error.h says how the library
+// itself handles errors.
 #ifndef AMONTONS_ERROR_H
 #define AMONTONS_ERROR_H
 

@@ -23,7 +23,7 @@ extern "C" {
 #define AMONTONS_FRICTION_PARAMETERS_MAX 16
 #define AMONTONS_FRICTION_STATES_MAX 8
 
-// What the scene's map `friction` gives; a number that it does not give is 0.
+// Values of the scene's map `friction`; a number that it does not give is 0.
 typedef struct AmontonsFriction {
     double mu_static, mu_kinetic, critical_velocity;
     double parameters[AMONTONS_FRICTION_PARAMETERS_MAX];

@@ -54,7 +54,7 @@ extern "C" {
     X(warnings, WORD, 0, 0, "", "below none", "WHERE",                                             \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
 
-// Of the printed page; zeroed is fine. Letters and lines keep their size, whatever the width.
+// Style of the printed page; zeroed is fine. Letters and lines keep their size, whatever the width.
 typedef struct PictureStyle {
     const char *format;   // "png", "pdf", "svg"; NULL: png
     double width;   // mm; 0: the style's, 86, the column of a journal
@@ -78,7 +78,7 @@ bool amontons_picture_option(PictureStyle *style, const char *name, const char *
     X(edges, "field field-strip")                                                                  \
     X(cut, "field field-strip")
 
-// What the figures of the block show; zeroed is fine.
+// Choice of what the figures of the block show; zeroed is fine.
 typedef struct FieldChoice {
     const char *of;   // "von_mises", "stress_xx", ...; NULL: von_mises
     const char *at;   // "U=0.0117" or "t=120": the nearest time that is stored; NULL: the last one

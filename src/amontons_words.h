@@ -14,7 +14,7 @@ enum { ESTIMATE_SIZE = 64 };
 // (NaN: none), else down to the first digit of `known_to`, "0.27" where that is 0.013; two digits
 // where that is NaN, too, six where it is 0.
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
-// What a value without an error bar is known to: "one mesh: known to about 5 %".
+// Says how far a value without an error bar is known: "one mesh: known to about 5 %".
 void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE]);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);

@@ -164,7 +164,7 @@ static void blame(const ChildWork *work, int ending, const struct rusage *used, 
                   work->reader);
 }
 
-// What the streams of this process hold is written before: the child has a copy of them.
+// Text that the streams of this process hold is written before: the child has a copy of it.
 bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
 {
     int ends[2] = {-1, -1};

@@ -217,7 +217,7 @@ bool formula_has(const Formula *formula, int32_t variable)
 
 // --- evaluating ---------------------------------------------------------------------------------
 
-// What an operation makes of a and b, and its derivatives by them.
+// Result of an operation on a and b, and its derivatives by them.
 typedef struct Applied {
     double value, by_a, by_b;
 } Applied;

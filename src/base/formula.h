@@ -52,13 +52,14 @@ bool formula_append(const char *text, const FormulaNames *names, Formula *formul
 // The formula depends on this variable, or seems to.
 bool formula_has(const Formula *formula, int32_t variable);
 
-// Of the steps part[0] to part[1] - 1, which are a formula: the value at the variables x, and its
-// derivatives by the first `count` of them, slope [count]; with 0 of them the value alone.
+// Value at the variables x of the steps part[0] to part[1] - 1, which are a formula, and its
+// derivatives by the first `count` variables, slope [count]; if count is 0, the value alone.
 double formula_partials(const Formula *formula, const int32_t part[2], const double *x,
                         int32_t count, double *slope);
 
-// Of a formula of one variable the value at x, and through *slope its derivative: exact but for
-// rounding. Where abs, min or max have a kink it is that of one side; where round jumps, 0.
+// Value at x of a formula of one variable, and through *slope its derivative, exact but for
+// rounding. At a kink of abs, min or max the derivative is that of one side; at a jump of round it
+// is 0.
 double formula_at(const Formula *formula, double x, double *slope);
 
 // Between which values it stays while the variable is between x[0] and x[1], rounding aside, or

@@ -12,7 +12,7 @@ typedef struct Range {
 
 static const Range ANYTHING = {-INFINITY, INFINITY};
 
-// Of what rises or falls all the way from a to b.
+// Range of a quantity that rises or falls all the way from a to b.
 static Range between(double a, double b)
 {
     return isnan(a) || isnan(b) ? ANYTHING : (Range){fmin(a, b), fmax(a, b)};
@@ -62,7 +62,8 @@ static void widen(Range *range, const double x[2], const double y[2], Range with
     *range = (Range){fmin(range->low, piece.low), fmax(range->high, piece.high)};
 }
 
-// Of points that do not vary; level before the first and behind the last.
+// Range of the lines through points that do not vary, level before the first point and behind the
+// last.
 static Range points_range(Range x, const Range *point, int32_t count)
 {
     Range range = {INFINITY, -INFINITY};

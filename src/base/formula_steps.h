@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a step of a formula does, shared by formula.c and formula_bounds.c; nobody else includes it.
+// Steps of a formula, shared by formula.c and formula_bounds.c; no other file includes this one.
 #ifndef AMONTONS_BASE_FORMULA_STEPS_H
 #define AMONTONS_BASE_FORMULA_STEPS_H
 

@@ -32,7 +32,7 @@ static KernelLevel level_of(const char *name)
     return LEVEL_AVX512;
 }
 
-// What processor and system allow; on other processors OpenBLAS's choice stays.
+// Level that processor and system allow. On other processors OpenBLAS's choice stays.
 #ifdef __x86_64__
 static KernelLevel level_of_processor(void)
 {

@@ -15,7 +15,7 @@
 
 enum { MODULE_PATH_SIZE = 2 * PATH_MAX + 128 };
 
-// What a module is for, and the Debian packages that it is built with.
+// Purpose of a module, and the Debian packages that it is built with.
 typedef struct ModulePart {
     const char *name, *part, *packages;
 } ModulePart;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What POSIX does not have, or systems have each in its own way: a port is system.c alone. There
-// each function has the way of Linux with glibc, and a plain one for the rest (musl, macOS), where
-// what only saves time or memory does nothing.
+// Functions that POSIX does not have, or that each system has in its own way: a port changes
+// system.c alone. There each function has the way of Linux with glibc, and a plain one for the rest
+// (musl, macOS), where a function that only saves time or memory does nothing.
 //
-// What else is not POSIX: argp in cli/options (elsewhere a library of its own, argp-standalone),
-// memfd_create in io/mesh, the kernels of OpenBLAS in base/kernels, how cli/main
-// sets the allocator, and options of the linker in src/CMakeLists.txt (version scripts). x86 alone:
-// target_clones in algebra/lanes.h and the names of processors in base/kernels, both with a twin.
+// Other things are not POSIX either: argp in cli/options (elsewhere a library of its own,
+// argp-standalone), memfd_create in io/mesh, the kernels of OpenBLAS in base/kernels, how cli/main
+// sets the allocator, and options of the linker in src/CMakeLists.txt (version scripts). Two things
+// are for x86 alone, target_clones in algebra/lanes.h and the names of processors in base/kernels;
+// both have a twin for the others.
 #ifndef AMONTONS_BASE_SYSTEM_H
 #define AMONTONS_BASE_SYSTEM_H
 

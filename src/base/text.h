@@ -28,7 +28,7 @@ const char *text_hint(const char *given, const char *const *names, int32_t count
 // that is 0.013; six digits where it is 0, two where it is NaN. "none": the value is NaN.
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE]);
 
-// What a value without an error bar is known to: "one mesh: known to about 5 %".
+// Says how far a value without an error bar is known: "one mesh: known to about 5 %".
 void text_known_to(double value, double known_to, char text[ESTIMATE_SIZE]);
 
 // The fewest digits, `least` at least, that read back as the same finite number.

@@ -33,15 +33,15 @@ static void print_known_to(double known_to)
         say("%s(what finer meshes change as a rule; --to 1%% gives an error bar)\n", INDENT);
 }
 
-// Of a run without an error bar: what it gave to a digit more than is known, and what its finite
-// number of drops leaves open.
+// Prints the result of a run without an error bar to four decimals, and the error that its finite
+// number of drops leaves.
 static void print_on_this_mesh(double value, double drops)
 {
     say("%son this mesh %.4f", INDENT, value);
     if (!isnan(drops)) say(" (drops %.2g)", drops);
 }
 
-// Of a bar: mesh, branches, drops.
+// Prints the parts of an error bar: mesh, branches, drops.
 static void print_parts(double error, const double parts[3])
 {
     static const char *const names[] = {"mesh", "branches", "drops"};
@@ -74,7 +74,7 @@ static void print_run_in(const RunSummary *summary)
 static void print_mu_M(const RunSummary *summary)
 {
     if (isnan(summary->mu_M)) {
-        // Of several meshes the last may well have one.
+        // The last of several meshes may well have a mu_M.
         bool some = summary->bar_runs > 0 && summary->peaks > 0;
         say("  mu_M            %s\n",
             some ? "none: not every run of the error bar came to slide as a whole"
@@ -158,7 +158,8 @@ static void print_mu_hold(const RunSummary *summary)
     say("\n");
 }
 
-// What a program with jumps of the rod's velocity shows; why not stands in run.json.
+// Prints the results of a program with jumps of the rod's velocity. run.json says why one is
+// missing.
 static void print_program(const RunSummary *summary)
 {
     const double *direct = summary->direct_effect, *change = summary->level_change;
@@ -192,7 +193,7 @@ static void print_resolution(const RunSummary *summary)
     say("\n");
 }
 
-// What stands behind a bar that was asked for.
+// Prints how an error bar that was asked for was found.
 static void print_bar(const RunSummary *summary)
 {
     bool slides = !isnan(summary->mu_M);

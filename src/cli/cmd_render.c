@@ -53,7 +53,7 @@ static int draw_sweep(const char *folder, const char *plot, const PictureStyle *
     return 0;
 }
 
-// What was given of each, by the table.
+// Sets each option that was given, by the table.
 static int set_style(const char *const words[PICTURE_OPTION_COUNT], bool no_title,
                      PictureStyle *style)
 {

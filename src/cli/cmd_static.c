@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// Of a force, an energy and a moment, each per width, and of a length; empty: normalised.
+// Units of a force, an energy and a moment, each per width, and of a length; empty: normalised.
 typedef struct Units {
     const char *force, *energy, *moment, *length;
 } Units;

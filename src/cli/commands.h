@@ -18,7 +18,7 @@ int command_film(const Command *command, int argc, char **argv);
 int command_info(const Command *command, int argc, char **argv);
 int command_cache(const Command *command, int argc, char **argv);
 
-// What main.c looks for in this module. The exit status.
+// main.c looks up this function in the module. Returns the exit status.
 int amontons_command(int argc, char **argv);
 // The kernels of OpenBLAS that the processor could run, where those in use are less; else NULL.
 const char *amontons_better_kernels(void);

@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-// What a start takes, bytes: what the program and HDF5 are mapped into; paths and printf.
+// Bytes that a start needs: address space for the program and HDF5, and stack for paths and printf.
 static const rlim_t ROOM_LEAST = (rlim_t)190 << 20, STACK_LEAST = (rlim_t)256 << 10;
 
 // Names the process that has set KERNELS and executed itself.

@@ -14,7 +14,7 @@ typedef struct Mark {
     double elapsed, fraction;
 } Mark;
 
-// What a run has cost since its first rapid event, and lately.
+// Time that a run has taken since its first rapid event, and lately.
 typedef struct Pace {
     bool counts;   // there was one
     bool uneven;   // steps were not all alike
@@ -38,7 +38,7 @@ Progress progress_begin(bool quiet);   // looks whether standard error is a term
 void progress_stage(const char *stage, void *progress);   // a StageCallback
 void progress_step(const StepView *view, void *progress);   // a StepCallback
 
-// Of work that is not steps: its part so far, 0 to 1, and of what ("of the film").
+// Shows the progress of work that is not steps. part: so far, 0 to 1; what: "of the film".
 void progress_part(Progress *progress, double part, const char *what);
 
 // "1:05", "2:03:40"; "-:--" for NaN.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What commands that compute a study's points share: their options, a line on standard error for
-// each point, and an answer that is printed when the last of those has gone. Called by
-// cmd_sweep and cmd_optimise.
+// Parts that the commands that compute a study's points share: their options, a line on standard
+// error for each point, and an answer that is printed when the last of these lines has gone. Called
+// by cmd_sweep and cmd_optimise.
 #ifndef AMONTONS_CLI_STUDY_RUN_H
 #define AMONTONS_CLI_STUDY_RUN_H
 

@@ -216,7 +216,8 @@ bool events_write(HtmlWriter *html, PageSource *source, Error *err)
 
 // --- film ----------------------------------------------------------------------------------------
 
-// What browsers play first; how each kind begins, `at` so many bytes.
+// Kind of film; the kinds that browsers play best come first. begins: bytes of such a file from
+// byte `at` on.
 typedef struct FilmKind {
     const char *ending, *type, *begins;
     int32_t at;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a page shows of a history: the slider's frames, the table of events that leads to them, the
-// figures, and a film if one lies in the folder. Called by run_page.
+// Writes the parts of a page that show a history: the slider's frames, the table of events that
+// leads to them, the figures, and a film if one lies in the folder. Called by run_page.
 #ifndef AMONTONS_PAGE_HISTORY_PART_H
 #define AMONTONS_PAGE_HISTORY_PART_H
 

@@ -7,11 +7,12 @@
 
 // As text_estimate has it; that nothing is known of its error is said.
 void estimate_write(HtmlWriter *html, double value, double bar, double known_to);
-// Of the result at `path` in run.json; *bar: its error bar, NaN: none was asked for. NaN: unknown.
+// How far the result at `path` in run.json is known; NaN: not known. *bar: its error bar; NaN: none
+// was asked for.
 double run_known_to(const RunSource *run, const char *path, double *bar);
 
-// What was found, and how far the computation can be trusted: two tables, each with a caption. Of
-// one run they also say what a number means.
+// Writes two tables, each with a caption: what was found, and how far the computation can be
+// trusted. For a single run they also say what a number means.
 bool numbers_write(HtmlWriter *html, PageSource *source, Error *err);
 
 #endif

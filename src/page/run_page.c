@@ -13,7 +13,7 @@
 
 enum { PARTS_MAX = 9, WORDS_SIZE = 700 };
 
-// What was computed, in two sentences.
+// Writes the lead of the page, which says what was computed.
 static void write_lead(HtmlWriter *html, const RunSource *run)
 {
     const char *unit = run->si ? "\u202fm" : "\u202f<i>L</i><sub>0</sub>";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What all pages have: head, style, script, and at the end version and how to cite. Nothing is
-// loaded from elsewhere, and the page's own policy forbids it: a page holds texts of others.
-// Called by the pages.
+// Writes the parts that all pages have: head, style, script, and at the end version and how to
+// cite. Nothing is loaded from elsewhere, and the page's own policy forbids it: a page holds texts
+// of others. Called by the pages.
 #ifndef AMONTONS_PAGE_SHEET_H
 #define AMONTONS_PAGE_SHEET_H
 
@@ -10,7 +10,7 @@
 
 #include <limits.h>
 
-// What a page is about, and what one part of it has found for another.
+// Subject of a page, and what one part of it has found for another.
 typedef struct PageSource {
     const RunSource
         *runs;   // [count] one, several side by side, or of a sweep the first that is done

@@ -77,8 +77,8 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
     return error_is_clean(err);
 }
 
-// What is wrong with the bytes of a file, or NULL. *length: of what lies between head
-// and checksum.
+// Returns what is wrong with the bytes of a file, or NULL. *length: bytes between head and
+// checksum.
 static const char *find_fault(const CacheItem *item, const char *bytes, int64_t size,
                               int64_t *length)
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What was made once and is wanted again, on disk under a key that says what it depends on. Whoever
-// keeps something has a row in CACHE_KINDS (io/cache/cache_folder), and lists what it consists of
-// in one function, by which it is written and read (base/archive). The store does the rest: whole
-// files only, a checksum over all of it, room. What fails a check is as good as missing. Called by
-// io/mesh/mesh_cache, model/basis_cache and model/obtain.
+// Keeps on disk what was made once and is wanted again, under a key that says what it depends on.
+// Whoever keeps something has a row in CACHE_KINDS (io/cache/cache_folder), and lists what it
+// consists of in one function, by which it is written and read (base/archive). The store does the
+// rest: whole files only, a checksum over all of it, room. An entry that fails a check counts as
+// missing. Called by io/mesh/mesh_cache, model/basis_cache and model/obtain.
 //
 //     CACHE/<key>.<ending>     head, blocks of bytes, checksum
 //     CACHE/<key>.lock         there while a process makes what has this key (cache_lock)

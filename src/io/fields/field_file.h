@@ -14,7 +14,7 @@
 // cause (full disk, no permission, no such folder).
 bool field_file_write(const char *path, const FieldGrid *grid, Error *err);
 
-// Of time number k, in the folder fields/ beside the .pvd.
+// Names of the files of time number k, in the folder fields/ beside the .pvd.
 #define FIELD_BULK_NAME "bulk_%06d.vtu"
 #define FIELD_LINE_NAME "interface_%06d.vtp"
 

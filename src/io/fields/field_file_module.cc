@@ -229,8 +229,8 @@ std::string sentence_of(const std::string &message)
     return text.substr(0, text.find('\n'));
 }
 
-// What VTK makes on the way has no observer and would write to standard error itself. The verbosity
-// is the process's, hence given back.
+// Switches off what VTK itself would write to standard error: objects that it makes on the way have
+// no observer. The verbosity belongs to the process and is hence restored.
 class Silence
 {
   public:

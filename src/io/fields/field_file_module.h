@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the module amontons_vtk.so offers: VTK's XML writers turn a grid into the bytes of a file,
-// its reader a file into arrays.
-// The bytes are written by io/fields/field_file, which can say why a write failed; VTK cannot.
+// Interface of the module amontons_vtk.so: VTK's XML writers turn a grid into the bytes of a file,
+// and its reader turns a file into arrays. The bytes are written by io/fields/field_file, which can
+// say why a write failed; VTK cannot.
 #ifndef AMONTONS_IO_FIELDS_FIELD_FILE_MODULE_H
 #define AMONTONS_IO_FIELDS_FIELD_FILE_MODULE_H
 
@@ -23,7 +23,7 @@ typedef struct FieldOutput {
 // checks).
 typedef bool (*FieldEncodeFunction)(const FieldGrid *grid, const FieldOutput *output, Error *err);
 
-// Of a .vtu that is read: one array of its grid, as numbers.
+// One array of the grid of a .vtu that is read, as numbers.
 typedef struct FieldPart {
     const char *name;   // of a point array; "points", "offsets", "connectivity" or "types"
     int32_t components;

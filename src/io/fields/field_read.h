@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What record/fields wrote, read back: which times there are, and the block at one of them. Called
-// by render/view/block.
+// Reads what record/fields wrote: which times there are, and the block at one of them. Called by
+// render/view/block.
 #ifndef AMONTONS_IO_FIELDS_FIELD_READ_H
 #define AMONTONS_IO_FIELDS_FIELD_READ_H
 

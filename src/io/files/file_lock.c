@@ -19,7 +19,7 @@
 
 static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tries: 10 ms
 
-// What a signal handler can reach. A lock that finds no place is one whose file stays.
+// Locks that a signal handler can reach. The file of a lock that finds no place here stays.
 enum { HELD_MAX = 8 };
 static _Atomic(FileLock *) held_locks[HELD_MAX];
 

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// What is no file, in words.
+// Names the kind of something that is not a file; NULL: it is a file.
 static const char *kind_of(const struct stat *status)
 {
     switch (status->st_mode & S_IFMT) {
@@ -90,7 +90,7 @@ bool open_holds_something(const char *path)
     return lstat(path, &status) == 0 && !(S_ISREG(status.st_mode) && status.st_size == 0);
 }
 
-// What speaks against writing into the open file, or NULL.
+// Returns why the open file must not be written to, or NULL.
 static const char *objection(const struct stat *status)
 {
     if (!S_ISREG(status->st_mode)) return kind_of(status);

@@ -100,7 +100,7 @@ FILE *own_list_open(const char *folder, Error *err)
     return own_list_is_in(folder) ? open_stream(path, err) : NULL;
 }
 
-// What is longer than a name may be comes in pieces, none of which is one.
+// A line that is longer than a name may be comes in pieces, and none of them is a name.
 bool own_list_next(FILE *list, char name[OWN_NAME_SIZE])
 {
     for (bool inside = false; fgets(name, OWN_NAME_SIZE, list);) {

@@ -41,9 +41,10 @@ bool part_file_reopen(PartFile *file, const char *path, Error *err);
 // Opens `path`, or `path`.part where that is not finished, for reading, without a lock, whoever
 // writes it; to leave.
 bool part_file_look(PartFile *file, const char *path, bool finished, Error *err);
-// What goes on being written is replaced as a whole, so that a killed process leaves one or the
-// other: `next` is a new `path`.part.part, empty, which takes the place of `path`.part when it has
-// been filled and put on the disk. A `next` that did not is to be discarded.
+// A file that is still being written is replaced as a whole, so that a killed process leaves the
+// old or the new one: `next` is a new `path`.part.part, empty, which takes the place of `path`.part
+// when it has been filled and put on the disk. A `next` that did not take the place is to be
+// discarded.
 bool part_file_begin_next(const PartFile *file, PartFile *next, Error *err);
 bool part_file_take_next(PartFile *file, PartFile *next, Error *err);
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);

@@ -30,7 +30,8 @@ void array_file_abandon(ArrayFile *file);
 
 // An empty series.
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
-// Of vectors: their components are the last axis, [rows][width / components][components].
+// Adds an empty series of vectors. Their components are the last axis,
+// [rows][width / components][components].
 bool array_file_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t components,
                             Error *err);
 
@@ -44,7 +45,7 @@ bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *
 // A reader finds all that was appended so far, also after a kill or a power cut. It takes at most
 // as long as 8 MB need to reach the disk; where nothing has changed since, no time.
 bool array_file_flush(ArrayFile *file, Error *err);
-// Of the series only the first `rows` rows stay. ERROR_FILE: it has fewer, or there is none.
+// Keeps only the first `rows` rows of the series. ERROR_FILE: it has fewer, or there is none.
 bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err);
 // The array or attribute `name`, where there is one; no series that was appended to.
 bool array_file_remove(ArrayFile *file, const char *name, Error *err);

@@ -452,7 +452,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of a series that is being written nothing may be removed; tables and attributes are.
+// Removes a table or an attribute. A series that is being written must not be removed.
 static bool hdf5_remove(ArrayFile *file, const char *name, Error *err)
 {
     herr_t status = 0;

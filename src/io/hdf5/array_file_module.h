@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the module amontons_hdf5.so offers: io/hdf5/array_file.h, call by call, with HDF5 behind it.
-// A module, because Debian's HDF5 loads 40 libraries (curl, ssl, kerberos ...), which takes longer
+// Interface of the module amontons_hdf5.so: the calls of io/hdf5/array_file.h, done by HDF5. It is
+// a module because Debian's HDF5 loads 40 libraries (curl, ssl, kerberos ...), which takes longer
 // than all else that a short run does outside its time loop.
 #ifndef AMONTONS_IO_HDF5_ARRAY_FILE_MODULE_H
 #define AMONTONS_IO_HDF5_ARRAY_FILE_MODULE_H
@@ -35,7 +35,7 @@ typedef struct ArrayFile ArrayFile;   // begins with a pointer to its module's t
       (file, name, values, rows, width, err))                                                      \
     X(has, (ArrayFile * file, const char *name), (file, name))
 
-// What each does stands in io/hdf5/array_file.h. No `file` is NULL.
+// io/hdf5/array_file.h describes each call. No `file` is NULL.
 typedef struct ArrayFileModule {
     ArrayFile *(*create)(const char *path, Error *err);
     ArrayFile *(*open)(const char *path, Error *err);

@@ -41,7 +41,7 @@ static int rank_of(const SeriesWriter *writer)
     return writer->components > 1 ? 3 : writer->width > 1 ? 2 : 1;
 }
 
-// Of a part with so many rows, in as many dimensions as the rank says.
+// Shape of a part with so many rows. The rank says how many of its dimensions count.
 static void shape_of(const SeriesWriter *writer, hsize_t rows, hsize_t shape[ARRAY_RANK_MAX])
 {
     shape[0] = rows;
@@ -103,7 +103,7 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
     return true;
 }
 
-// What is stored, as ours; false: no such type.
+// Finds our type of what is stored; false: we have no such type.
 static bool find_type(hid_t stored, ArrayType *type)
 {
     for (*type = ARRAY_FLOAT64; *type <= ARRAY_INT32; ++*type)

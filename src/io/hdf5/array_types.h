@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What io/hdf5/array_file and the HDF5 module (io/hdf5/array_file_module) call the same.
+// Types that io/hdf5/array_file and the HDF5 module (io/hdf5/array_file_module) share.
 #ifndef AMONTONS_IO_HDF5_ARRAY_TYPES_H
 #define AMONTONS_IO_HDF5_ARRAY_TYPES_H
 

@@ -12,7 +12,7 @@
 
 enum { FORMAT_VECTORS = 2 };   // the latest; 1 says nothing of itself
 
-// Of any of the five tables.
+// Row of any of the five tables.
 typedef struct ResultRow {
     const char *name;   // in the file, with its folder
     ArrayType type;   // as stored; attributes are always doubles
@@ -90,7 +90,8 @@ static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
 
 // --- writing ------------------------------------------------------------------------------------
 
-// Of a row of the tables, or of all with such a unit in the plane, where all is per width.
+// Unit of a row in space. The tables give the units in the plane, where all is per width. An entry
+// is for the row of this name, or for all rows of this unit.
 static const char *unit_in_space(const ResultRow *row)
 {
     static const char *const units[][2] = {{"force/width", "force"},
@@ -103,7 +104,8 @@ static const char *unit_in_space(const ResultRow *row)
     return row->unit;
 }
 
-// What has a direction on the contact is a vector, and so are several states.
+// Number of components of a row. Quantities with a direction on the contact are vectors, and so are
+// several states.
 static int32_t row_components(const ResultRow *row, const ResultHead *head)
 {
     static const ResultSeries vectors[] = {SERIES_SLIP_RATE, SERIES_SLIP, SERIES_SHEAR};
@@ -201,7 +203,7 @@ cleanup:
     return NULL;
 }
 
-// What only the end of a run knows goes.
+// Removes what is known only at the end of a run.
 ArrayFile *result_file_reopen(const char *folder, Error *err)
 {
     char path[PATH_MAX];
@@ -270,7 +272,7 @@ static bool check_numbers(const char *name, const double *values, int64_t count,
     return true;
 }
 
-// What counts, numbers or chooses is whole and in its range, as it becomes an index.
+// Checks that counts, numbers and choices are whole and in their range, as they become indices.
 static bool check_whole(const char *name, const double *values, int64_t count, double low,
                         double high, Error *err)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a result folder holds, written and read by the names of io/hdf5/result_tables.
-// record/history writes by it, render/ reads by it.
+// Writes and reads the arrays of a result folder by the names of io/hdf5/result_tables.
+// record/history writes by it; render/, page/ and run/ read by it.
 //
 //   RESULT/run.json        one object, written last (run/report)
 //   RESULT/history.h5      the arrays and attributes below

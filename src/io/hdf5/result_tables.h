@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What history.h5 holds, in ONE table: names, stored types, shapes, units, and a sentence each.
-// io/hdf5/result_file writes and reads by it; the table of docs/results.md is generated from it.
+// Lists in one place what history.h5 holds: names, stored types, shapes, units, and a sentence
+// each. io/hdf5/result_file writes and reads by it; the table of docs/results.md is generated from
+// it.
 #ifndef AMONTONS_IO_HDF5_RESULT_TABLES_H
 #define AMONTONS_IO_HDF5_RESULT_TABLES_H
 
@@ -65,7 +66,8 @@ typedef enum ResultColumns {
     X(NODES_WEIGHT, "nodes/weight", ARRAY_FLOAT64, "length", "integral of the shape function")     \
     X(NODES_PAD, "nodes/pad", ARRAY_INT32, "1", "which pad the node is on, from 0")
 
-// What the contact is drawn by, in space only. X(symbol, name, stored type, unit, description)
+// Faces by which the contact is drawn, in space only. X(symbol, name, stored type, unit,
+// description)
 #define RESULT_FACES(X)                                                                            \
     X(FACES_NODES, "faces/nodes", ARRAY_INT32, "1",                                                \
       "faces of the contact by their points: contact nodes, behind them faces/corners; -1: no "    \

@@ -8,7 +8,7 @@ typedef struct FaceRow {
     ElementFace face[FACES_MAX];
 } FaceRow;
 
-// Of kinds in space; those of the plane follow from their corners.
+// Faces of the kinds in space. The edges of plane kinds follow from their corners.
 static const FaceRow ROWS[ELEMENT_KIND_COUNT] = {
     [ELEMENT_TET4] = {4,
                       {{ELEMENT_T3, {0, 2, 1}},

@@ -55,7 +55,7 @@ static const char *skip_blank(const char *at)
     }
 }
 
-// Of the name or number that begins at `at`; 0: none does.
+// Length of the name or number that begins at `at`; 0: there is none.
 static size_t word_length(const char *at)
 {
     size_t length = 0;

@@ -25,7 +25,7 @@ enum { FILES_MAX = 1000, STRING_MAX = 1000, WORD_SIZE = 64 };
 
 // --- the lists -----------------------------------------------------------------------------------
 
-// What a script may say.
+// Words that a script may use.
 static const char ALLOWED[] =
     // order of statements
     "If ElseIf Else EndIf For In EndFor Macro Function Return Call Abort Exit "
@@ -294,7 +294,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-// Of the number that begins at `at`, as gmsh's scanner has it; 0: none does.
+// Length of the number that begins at `at`, by the rules of gmsh's scanner; 0: there is none.
 static int32_t number_length(const char *at)
 {
     int32_t digits = 0, length = 0;

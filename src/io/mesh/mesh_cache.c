@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is read is checked as a file from elsewhere is: indices within their arrays, kinds that
-// exist, counts that fit each other.
+// A mesh from the cache is checked like a file from elsewhere: indices are within their arrays,
+// kinds exist, counts fit each other.
 #include "io/mesh/mesh_cache.h"
 
 #include "base/computation.h"

@@ -38,7 +38,7 @@ static bool read_by_gmsh(void *context, FILE *reply, Error *err)
     MeshRaw raw = {0};
     MeshRawRequest request = *reading->request;
     if (reply) request.opened = begin_meshing;
-    // What a trusted file prints must not come before our answer.
+    // Text that a trusted file prints must not come before our answer.
     if (reply && request.trusted) dup2(STDERR_FILENO, STDOUT_FILENO);
     MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
     bool done = read && read(&request, &raw, err);

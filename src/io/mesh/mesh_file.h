@@ -73,8 +73,8 @@ typedef struct MeshFile {
     char warning[MESH_WARNING_SIZE];   // an error of gmsh after which it made a mesh; empty: none
 } MeshFile;
 
-// What the end of a file's name says, in capitals too; gmsh's own endings are .msh2, .msh4 and
-// .geo_unrolled.
+// Format by the ending of a file's name, in small or capital letters; gmsh's own endings are .msh2,
+// .msh4 and .geo_unrolled.
 typedef enum MeshFormat { MESH_NO_FORMAT, MESH_MSH, MESH_SCRIPT } MeshFormat;
 MeshFormat mesh_file_format(const char *path);
 // How another program's file becomes a mesh: the end of a message, empty where nothing is known.

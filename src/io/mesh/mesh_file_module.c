@@ -403,7 +403,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What gmsh does of its options when it writes a mesh, as these numbers are taken from its memory.
+// Applies the options that gmsh applies when it writes a mesh, because these numbers are taken from
+// its memory.
 static void apply_options(MeshRaw *raw)
 {
     double factor = 1, all = 0;

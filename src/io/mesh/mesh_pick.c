@@ -59,7 +59,8 @@ static void keep_elements(const Kept *kept, MeshFile *mesh)
     mesh->element_count = count;
 }
 
-// Of faces those that have all of their nodes. False: nothing of the group is left.
+// Keeps the nodes and elements of a group that the mesh keeps, and the faces that have all of their
+// nodes. False: nothing of the group is left.
 static bool keep_group(const Kept *kept, MeshGroup *group)
 {
     int32_t faces = 0, nodes = 0, elements = 0, width = group->nodes_per_face;

@@ -40,7 +40,7 @@ typedef struct MeshRaw {
     char warning[MESH_WARNING_SIZE];   // gmsh's first error, after which it made a whole mesh
 } MeshRaw;
 
-// What the module is asked for.
+// Request to the module.
 typedef struct MeshRawRequest {
     const char *path;   // of the file, for messages
     const char *opened_as;   // what gmsh opens in its place, by `descriptor`; NULL: nothing else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What can be checked of a mesh file before gmsh reads it: gmsh opens a missing file as an empty
-// model, takes junk for a script, and reads a file that was cut off inside its last number.
+// Checks a mesh file before gmsh reads it: gmsh opens a missing file as an empty model, takes junk
+// for a script, and reads a file that was cut off inside its last number.
 #include "io/mesh/mesh_file.h"
 
 #include "base/memory.h"
@@ -25,7 +25,7 @@ enum { SPLITS_MAX = 6, MENDED_NAME_SIZE = 40 };   // the latter: "/proc/self/fd/
 
 // --- before gmsh --------------------------------------------------------------------------------
 
-// What the system says of the path, before anybody opens it.
+// Checks that the path leads to a file that is not empty, before anybody opens it.
 static bool check_file(const char *path, Error *err)
 {
     struct stat status;
@@ -36,7 +36,7 @@ static bool check_file(const char *path, Error *err)
     return true;
 }
 
-// What gmsh opens in place of the file, where that has to be mended first: a file in memory.
+// File in memory that gmsh opens in place of a file that had to be mended.
 typedef struct MendedFile {
     int descriptor;   // -1: none, gmsh opens the file itself
     char name[MENDED_NAME_SIZE];   // to open it by, in this process and its children

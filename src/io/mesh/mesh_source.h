@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a mesh depends on: the bytes of its file, and whether these are all. A .geo may include and
-// merge other files, ask for variables of the environment, look into folders, run commands. Called
-// by io/mesh/mesh_cache and study/sweep for their keys.
+// Hashes the source of a mesh, the bytes of its file, and finds whether the mesh depends on these
+// alone. A .geo may include and merge other files, ask for variables of the environment, look into
+// folders, run commands. Called by io/mesh/mesh_cache and study/sweep for their keys.
 #ifndef AMONTONS_IO_MESH_MESH_SOURCE_H
 #define AMONTONS_IO_MESH_MESH_SOURCE_H
 
@@ -15,7 +15,7 @@
 bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                       Hash *hash, bool *whole, Error *err);
 
-// What was made of it: nodes, elements, groups.
+// Hashes the mesh that was made: nodes, elements, groups.
 void mesh_file_hash(const MeshFile *mesh, Hash *hash);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of a raw mesh points, edges, elements of no group and copies are left out; elements of a kind
+// Points, edges, elements of no group and copies in a raw mesh are left out; elements of a kind
 // that we do not have are refused by name. The order is by element tag, whatever gmsh's is.
 #include "io/mesh/raw_elements.h"
 

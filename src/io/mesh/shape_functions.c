@@ -215,8 +215,8 @@ static Quadrature tetrahedron_rule_5(void)
     return rule;
 }
 
-// What makes a kind of element; how many nodes it has stands in io/mesh/mesh_file. A simplex times
-// as many lines as are left of its dimension.
+// Data of a kind of element; its number of nodes stands in io/mesh/mesh_file. An element is the
+// product of a simplex and of lines for the rest of its dimensions.
 typedef struct ShapeRow {
     const double (*node)[DIM_MAX];   // reference coordinates
     void (*values)(const Reference *of, const double *point, ShapeValues *shape);

@@ -48,8 +48,9 @@ double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlac
 double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                        MeshPlace *gradient);
 
-// Of an element in a space of one dimension more, a face: n |J| with n its normal, to the left of
-// a line, and out of a face whose nodes run counter-clockwise as seen from there.
+// Normal of a face, which is an element in a space of one dimension more: n |J| with the unit
+// normal n. It points to the left of a line, and to the side from which a face's nodes run
+// counter-clockwise.
 void shape_normal(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                   MeshPlace normal);
 

@@ -85,9 +85,9 @@ static int32_t count_cells(const char *line, char separator, bool *numbers)
     }
 }
 
-// What separates the names, and the cells below them: what divides both lines into equally many, or
-// else the numbers of the second line and the names of the first. Where the first line are numbers,
-// 0,5 1,2 are two with decimal commas.
+// Finds the separators of the names and of the cells below them. Both are the one that divides both
+// lines into equally many; else each line has its own, which divides the second line into numbers
+// and the first into names. If the first line holds numbers, 0,5 1,2 are two with decimal commas.
 static void find_separators(const char *text, char *names, char *cells)
 {
     const char *first = text;
@@ -490,9 +490,9 @@ CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column)
     return unit.length > 0 ? unit : (CsvUnit){cell, (int32_t)strlen(cell)};
 }
 
-// What stands behind a name, as a unit. In brackets it is one in any case, so that a wrong one is
-// told; behind a slash, a blank, an underscore or `in` if it is known: F_T/F_N, x_error and U/L are
-// names.
+// Takes the text behind a name as a unit. Text in brackets always is one, so that a wrong unit is
+// reported. Text behind a slash, a blank, an underscore or `in` is one if it is known: F_T/F_N,
+// x_error and U/L are names.
 bool csv_take_unit(const char *rest, CsvUnit *unit)
 {
     const char *at = rest + strspn(rest, BLANKS);

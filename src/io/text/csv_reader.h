@@ -3,11 +3,11 @@
 // The one reader of tables: of sweeps' tables by page/sweep_page, of what was measured by the
 // figures, plots and fits, of surfaces by scene/profile.
 //
-// What separates the cells is what the first lines show: tabs, else semicolons, else commas, else
-// blanks. The decimal sign is a point, or a comma in all of the file. Lines that are empty or begin
-// with # or % are left out; if all of the first other line are numbers, the names may stand in the
-// comment above it. A name stands once. Behind it may stand a unit: "U (mm)", "F_T [kN]", "t/s",
-// "t in s", "U mm", "x_mm".
+// The first lines show what separates the cells: tabs, else semicolons, else commas, else blanks.
+// The decimal sign is a point, or a comma in all of the file. Lines that are empty or begin with #
+// or % are left out; if all of the first other line are numbers, the names may stand in the comment
+// above it. A name stands once. Behind it may stand a unit: "U (mm)", "F_T [kN]", "t/s", "t in s",
+// "U mm", "x_mm".
 #ifndef AMONTONS_IO_TEXT_CSV_READER_H
 #define AMONTONS_IO_TEXT_CSV_READER_H
 
@@ -51,7 +51,7 @@ bool csv_check(const CsvTable *table, int32_t column, bool positive, Error *err)
 
 int32_t csv_column(const CsvTable *table, const char *name);   // as it stands; -1: there is none
 
-// What stands behind a name; length 0: nothing.
+// Unit behind a name; length 0: there is none.
 typedef struct CsvUnit {
     const char *text;   // in the table
     int32_t length;
@@ -65,8 +65,8 @@ CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column);   // length 0: t
 bool csv_take_unit(const char *rest, CsvUnit *unit);
 // The name of a column without its unit, and the unit; length 0: it has none.
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit);
-// What a number of the column is to be multiplied by to be in SI base units. dimension NULL: any.
-// ERROR_INPUT: the unit is none of it.
+// Finds the factor that converts numbers of the column to SI base units. dimension NULL: any.
+// ERROR_INPUT: the unit is not of this dimension.
 bool csv_to_si(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,
                double *factor, Error *err);
 

@@ -176,8 +176,9 @@ bool json_find_number(const char *text, const char *path, double *value)
     return true;
 }
 
-// What stands for the escape behind a backslash; *used: its characters. After \u only hexadecimal
-// digits belong to it: the quote that ends a text may stand where the fourth should.
+// Returns the character for the escape behind a backslash; *used: the characters of the escape.
+// After \u only hexadecimal digits belong to it: the quote that ends a text may stand where the
+// fourth should.
 static char unescape(const char *at, int32_t *used)
 {
     static const char from[] = "nrtbf", to[] = "\n\r\t\b\f";

@@ -15,7 +15,7 @@ bool picture_option_set(PictureStyle *style, const char *name, const char *value
 bool picture_options_fit(const PictureStyle *style, const FieldChoice *field,
                          const char *const *figures, int32_t count, Error *err);
 
-// What `style` leaves open is as `base` has it.
+// Sets the options that `style` leaves open to those of `base`.
 void picture_style_complete(PictureStyle *style, const PictureStyle *base);
 
 // One end of `limits`, 0 the lower: a number, or a part (of 1) of what is shown. NAN: none is

@@ -26,7 +26,7 @@ static int32_t token_position(struct fy_token *token, int32_t otherwise)
     return mark ? (int32_t)mark->input_pos : otherwise;
 }
 
-// What libfyaml found wrong, at its place.
+// Reports the error that libfyaml found, at its place.
 static bool report_syntax(const Reader *reader, Error *err)
 {
     void *iterator = NULL;
@@ -162,8 +162,8 @@ static bool begin_node(Reader *reader, YamlNode beside, YamlNode *node, Error *e
                           node, err);
 }
 
-// What is in a list or a map, up to its end; each value of a map follows its key. `depth`: how many
-// lists and maps are around this one.
+// Reads the children of a list or a map up to its end; each value of a map follows its key. depth:
+// number of lists and maps around this one.
 static bool read_children(Reader *reader, YamlNode above, int32_t depth, Error *err)
 {
     YamlDocument *document = reader->document;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a film is made of, for io/video/video_file and its module.
+// Definition of a film, for io/video/video_file and its module.
 #ifndef AMONTONS_IO_VIDEO_VIDEO_DEF_H
 #define AMONTONS_IO_VIDEO_VIDEO_DEF_H
 

@@ -20,7 +20,7 @@ bool video_file_is_gif(const char *path);
 VideoFile *video_file_create(const VideoDef *def, Error *err);
 // pixels: [height * stride] bytes, four a pixel: blue, green, red, unused. Not kept.
 bool video_file_add(VideoFile *file, const uint8_t *pixels, int32_t stride, Error *err);
-// What the encoder still holds, then the final name.
+// Writes what the encoder still holds, then gives the file its final name.
 bool video_file_finish(VideoFile *file, Error *err);
 void video_file_destroy(VideoFile *file);   // NULL is fine
 

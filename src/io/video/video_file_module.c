@@ -20,8 +20,8 @@
 enum { THREADS = 2, BUFFER_SIZE = 1 << 16, GIF_TICKS = 100, PALETTE_SIZE = 256 };
 enum { SIDE_BITS = 5, SIDE = 1 << SIDE_BITS };   // of the cube that colours are looked up in
 
-// What becomes of a name: libav's format and encoder, and options of the latter. The quality was
-// chosen by eye, on thin lines and on the colours of a field.
+// Kind of film for an ending of the name: libav's format and encoder, and options of the latter.
+// The quality was chosen by eye, on thin lines and on the colours of a field.
 typedef struct VideoKind {
     const char *ending, *format, *encoder, *name;
     enum AVPixelFormat pixels;
@@ -84,7 +84,7 @@ static int64_t place_seek(void *self, int64_t offset, int whence)
     return lseek(film->part.descriptor, offset, whence & ~AVSEEK_FORCE);
 }
 
-// What libav says, or the disk where that failed.
+// Reports the error of libav, or that of the disk if writing failed.
 static bool check(VideoFile *film, int code, const char *what, Error *err)
 {
     char words[AV_ERROR_MAX_STRING_SIZE] = "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the module amontons_libav.so offers: io/video/video_file.h, call by call, with libav behind
-// it. A module, because libav loads a hundred libraries, for 40 ms.
+// Interface of the module amontons_libav.so: the calls of io/video/video_file.h, done by libav. It
+// is a module because libav loads a hundred libraries, which takes 40 ms.
 #ifndef AMONTONS_IO_VIDEO_VIDEO_FILE_MODULE_H
 #define AMONTONS_IO_VIDEO_VIDEO_FILE_MODULE_H
 

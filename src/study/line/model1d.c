@@ -27,7 +27,8 @@ Model1dOptions amontons_model1d_options(void)
     return (Model1dOptions){.alpha = 0.2, .nodes = 81};
 }
 
-// What the model has no terms for is refused rather than left out. ERROR_INPUT names the key.
+// Refuses a scene that the model has no terms for, rather than leave parts out. ERROR_INPUT names
+// the key.
 static bool check_scene(const Scene *scene, Error *err)
 {
     const char *path = scene->path;

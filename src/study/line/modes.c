@@ -77,8 +77,8 @@ bool model1d_rates(const Model1d *model, double l, int32_t count, double *work, 
 
 // --- where something is lost --------------------------------------------------------------------
 
-// What is asked of the rates at one front. Once lost it stays lost as l grows: W grows with l, C
-// and K fall.
+// Tells from the rates at one front whether something is lost. Once lost it stays lost as l grows:
+// W grows with l, C and K fall.
 typedef bool (*Lost)(const Model1d *model, const Model1dRates *rates);
 
 static bool oscillation_grows(const Model1d *model, const Model1dRates *rates)

@@ -25,7 +25,7 @@ typedef struct Chooser Chooser;   // the module's own
 typedef struct ChooserModule {
     Chooser *(*create)(const ChooserSpace *space, Error *err);
     bool (*choose)(Chooser *chooser, double *x, int32_t *number, Error *err);   // x: [count]
-    // Of the choice `number`, the larger the better; finite. Each once.
+    // Tells the value of the choice `number`, the larger the better; finite. Called once for each.
     bool (*tell)(Chooser *chooser, int32_t number, double value, Error *err);
     void (*destroy)(Chooser *chooser);   // NULL is fine
 } ChooserModule;

@@ -16,8 +16,9 @@ namespace
 
 using Vector = dlib::matrix<double, 0, 1>;
 
-// Of what designs differ by: bars of some per cent. At 0.001 and at 0.2 a search of 30 designs ends
-// further off (validation/benchmark/choosers.cc).
+// Noise of a value over the differences between designs: error bars are some per cent of these.
+// With 0.001 or 0.2 a search of 30 designs ends further from the best
+// (validation/benchmark/choosers.cc).
 constexpr double relative_noise = 0.05;
 
 // dlib takes squares and slopes of values, and ends the process where one of them is no number.

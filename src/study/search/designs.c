@@ -137,7 +137,8 @@ bool design_is_better(const Designs *designs, const Design *a, const Design *b)
     return designs->lowest ? one < other : one > other;
 }
 
-// Of the worst: the interval in which the worst of all may be, with the bars of each.
+// Judges a design by its worst condition. The bar covers the interval in which the worst value may
+// lie, with the bars of all conditions.
 static void judge_worst(const Designs *designs, const DesignPoint *points, Design *design)
 {
     double sign = designs->lowest ? -1 : 1, low = INFINITY, high = INFINITY;
@@ -163,7 +164,8 @@ static void judge_mean(const Designs *designs, const DesignPoint *points, Design
     design->bar = sqrt(square) / designs->conditions;
 }
 
-// Of s^2 = sum (v_i - mean)^2 / n: ds/dv_i = (v_i - mean)/(n s).
+// Judges a design by its deviation s. From s^2 = sum (v_i - mean)^2 / n follows
+// ds/dv_i = (v_i - mean)/(n s).
 static void judge_deviation(const Designs *designs, const DesignPoint *points, Design *design)
 {
     int32_t n = designs->conditions;

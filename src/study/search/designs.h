@@ -20,7 +20,7 @@ typedef struct Design {
     int32_t deciding;   // point of `vary` whose value it is; 0: of none alone
 } Design;
 
-// What a point came to.
+// Result of a design at one point.
 typedef struct DesignPoint {
     double value, bar;   // NaN: none; bar: or what is usual of the mesh
     bool has_bar;
@@ -63,8 +63,8 @@ StudyAim designs_aim(const Designs *designs, int32_t aim);
 // value and bar of a design from its points, by `over`; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
 int32_t designs_best(const Designs *designs);   // -1: none has a value
-// What a design comes to in any case, by its bar; where others have one and it has none, nothing.
-// Without bars its value.
+// Value that a design is sure to reach: the end of its bar on the worse side. If other designs have
+// bars and this one has none, its bar is taken as large as its value. Without any bars: the value.
 double design_sure(const Designs *designs, const Design *design);
 // Whether a is better than b, by what is sure of both.
 bool design_is_better(const Designs *designs, const Design *a, const Design *b);

@@ -204,7 +204,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of several results, or under conditions of several keys: how far each is off.
+// Draws the measurements over their condition. If there are several results, or conditions of
+// several keys, it draws how far each measurement is off.
 static bool draw_measured(const Fit *fit, Error *err)
 {
     int32_t count = fit->measured.count;

@@ -39,7 +39,7 @@ int32_t fit_freedom(const Fit *fit)
 
 double fit_threshold(const Fit *fit, int32_t keys)
 {
-    // Of chi^2 with one and with two degrees of freedom.
+    // Quantiles of chi^2 with one degree of freedom. With two degrees they are -2 ln(1 - share).
     static const double sure[] = {0.68, 0.90, 0.95, 0.99};
     static const double one[] = {0.989, 2.706, 3.841, 6.635};
     double share = fit->search.study->search.sure, wide = fit->widened * fit->widened;

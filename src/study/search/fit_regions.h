@@ -28,15 +28,15 @@ typedef struct Fit {
 
 double fit_scaled(const Fit *fit, int32_t k, double value);   // 0 to 1 over the range of key k
 double fit_unscaled(const Fit *fit, int32_t k, double scaled);
-// Of the misfit, above its least: of a region of one key, or of two together.
+// Bound of the misfit, above its least value, for the region of one key or of two keys together.
 double fit_threshold(const Fit *fit, int32_t keys);
 double fit_errors_off(const Fit *fit, int32_t datum);   // found less measured, over both errors
 int32_t fit_freedom(const Fit *fit);   // measurements less keys
 // From the best along `ray`, [keys], as far as the misfit, the least over the keys that it leaves
 // out, is at most `most`. place: of all keys, there. Whether the range ends before.
 bool fit_walk(const Fit *fit, const double *ray, double most, double *place);
-// Of all keys, by the responses about the best. *stays: no end has moved by more than a part of its
-// region.
+// Finds the regions of all keys from the responses near the best point. *stays: no end has moved by
+// more than a part of its region.
 void fit_find_regions(Fit *fit, bool *stays);
 
 #endif

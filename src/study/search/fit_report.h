@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a fit came to: words, fit.csv, figures. Called by fit.
+// Writes the report of a fit: words, fit.csv and figures. Called by fit.
 #ifndef AMONTONS_STUDY_SEARCH_FIT_REPORT_H
 #define AMONTONS_STUDY_SEARCH_FIT_REPORT_H
 

@@ -325,7 +325,8 @@ void measured_destroy(Measured *measured)
 
 // --- what a run came to -------------------------------------------------------------------------
 
-// Of y over x, steps of a run: where x first comes to `at`, from whichever side; linear between.
+// Value of y where x first reaches `at` from either side, both at the steps of a run; linear
+// between steps; NaN: x does not reach it.
 static double read_along(const double *x, const double *y, int64_t count, double at)
 {
     for (int64_t k = 1; k < count; k++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What was measured: a table whose columns are
+// Reads measurements: a table whose columns are
 //
 //     load.pressure, ...       keys of the scene: under which condition
 //     mu_M, l_c, ...           results, as `record` of a study names them
@@ -34,9 +34,9 @@ typedef struct Measured {
 bool measured_read(const Study *study, Measured *measured, Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine
 
-// What a run came to: its run.json, and of a curve the history.h5 beside it. *error: one standard
-// deviation of the program's own, half of what the value is known to; 0: not told, as of curves.
-// *value: NaN: it has none.
+// Finds the result of a run in its run.json, and for a curve in the history.h5 beside it. *value:
+// NaN: the run has none. *error: one standard deviation of the computed value, half of how far it
+// is known; 0: not known, as for curves.
 bool measured_find(const Datum *datum, const char *report, const char *history, double *value,
                    double *error, Error *err);
 

@@ -22,8 +22,8 @@ enum {
     BESTS_MAX = 3,   // times that deciding may come to another design
 };
 
-// Of the error asked for: a run whose bar came out longer ended by its time (accuracy.within), and
-// to be asked for half the error it would end with the same meshes.
+// Largest ratio of a run's error bar to the error asked for. A run with a larger ratio was ended by
+// its time (accuracy.within); asked for half the error, it would end with the same meshes.
 static const double MISSED_BY_FAR = 2;
 
 // --- what a design is worth ---------------------------------------------------------------------
@@ -89,8 +89,8 @@ static bool next_accuracy(const Search *search, Design *design, double limit, Er
     return true;
 }
 
-// Of those not in `taken` the design that may be the highest, if a smaller bar about its value
-// would make it the best. One that would have to come out above its value, too, is left as it is.
+// Returns, among the designs not in `taken` that a smaller bar alone could make the best, the one
+// whose bar reaches furthest; -1: none. A design that would need a better value, too, is left out.
 static int32_t next_leader(const Search *search, int32_t best, const bool *taken)
 {
     double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
@@ -180,7 +180,7 @@ static bool has_front(const Search *search)
     return search->study->search.over == OVER_FRONT;
 }
 
-// What counts from here on.
+// Makes `aim` the aim that counts and judges all designs by it; -1: the mean.
 static void set_aim(Search *search, int32_t aim)
 {
     search->designs.aim = aim;
@@ -188,7 +188,7 @@ static void set_aim(Search *search, int32_t aim)
     for (int32_t d = 0; d < search->designs.count; d++) designs_judge(&search->designs, d);
 }
 
-// Of a front a part for the mean of its aims, and one for each alone.
+// Number of parts of the search: a front has one for the mean of its aims and one for each aim.
 static int32_t count_parts(const Search *search)
 {
     return has_front(search) ? 1 + search->designs.aims : PARTS;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a search came to, in words and figures. Called by optimise.
+// Writes the report of a search, in words and figures. Called by optimise.
 #ifndef AMONTONS_STUDY_SEARCH_OPTIMISE_REPORT_H
 #define AMONTONS_STUDY_SEARCH_OPTIMISE_REPORT_H
 

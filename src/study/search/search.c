@@ -189,14 +189,15 @@ static bool add_start(Search *search, Error *err)
     return !within || search_add(search, x, &search->start, err);
 }
 
-// What the chooser is told, over a scale that suits: misfits differ by powers of ten.
+// Value as the chooser is told it. Misfits are on a logarithmic scale, as they differ by powers of
+// ten.
 static double on_scale(const Search *search, double value)
 {
     return search->study->search.fits ? log1p(value) : value;
 }
 
-// What the chooser is told of a design that is refused or comes to nothing, and the least it is
-// told of one whose bar is nearly its value.
+// Value that the chooser is told for a design that is refused or has no result. It is also the
+// lower limit for a design whose bar is nearly as large as its value.
 static double below_the_worst(const Search *search)
 {
     double low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;

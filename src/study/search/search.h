@@ -10,7 +10,7 @@
 
 typedef struct Search Search;
 
-// What designs are worth. context: the judge's own.
+// Judge of the value of designs. context: the judge's own.
 typedef struct SearchJudge {
     // Condition `c` of design `d`; report: its run.json; NULL: it failed, or was not computed.
     bool (*take)(Search *search, int32_t d, int32_t c, const char *report, Error *err);
@@ -53,7 +53,7 @@ bool search_designs(Search *search, int32_t count, Error *err);
 bool search_add(Search *search, double *x, int32_t *added, Error *err);
 // Computes designs, [count]; new ones, or others once more with another accuracy.
 bool search_compute(Search *search, const int32_t *which, int32_t count, Error *err);
-// Of designs from `first` on.
+// Computes all designs from number `first` on.
 bool search_compute_from(Search *search, int32_t first, Error *err);
 // The table, also of a search that was stopped, and the figures of the study where it was not.
 void search_close(Search *search, Error *err);

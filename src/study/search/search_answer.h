@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every search leaves beside its tables: its answer in words, and the best design's scene.
-// Called by optimise_report and fit_report.
+// Writes what every search leaves beside its tables: the answer in words and the scene of the best
+// design. Called by optimise_report and fit_report.
 #ifndef AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
 #define AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
 
 #include "study/search/search.h"
 
-// What is written to `out` in between goes to options->out (NULL: nowhere) and to DIR/answer.txt.
+// Text that is written to `out` between begin and end goes to options->out (NULL: nowhere) and to
+// DIR/answer.txt.
 typedef struct SearchAnswer {
     FILE *out;
     char *text;

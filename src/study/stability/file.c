@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons stability` leaves: numbers in stability.json, mode shapes in stability.h5. Lengths
-// are over L in the JSON (keys end in _over_L) and in the scene's units in the arrays; NaN becomes
-// null. The JSON is written last: where it exists, the arrays are complete.
+// Writes the files of `amontons stability`: numbers in stability.json, mode shapes in stability.h5.
+// Lengths are divided by L in the JSON (keys end in _over_L) and are in the scene's units in the
+// arrays; NaN becomes null. The JSON is written last: where it exists, the arrays are complete.
 #include "study/stability/stability.h"
 
 #include "io/hdf5/array_file.h"
@@ -52,7 +52,7 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
     json_end(json);
 }
 
-// What pad_growth.c measured; `mode` is relative to the pad that takes part most.
+// Writes the results of pad_growth.c; `mode` is relative to the pad that takes part most.
 static void write_pads(JsonWriter *json, const StabilitySummary *summary)
 {
     json_begin_list(json, "pads");

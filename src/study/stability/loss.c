@@ -48,7 +48,8 @@ static double certificate_margin(const StabilityPath *path, int32_t k)
     return path->points[k].certified ? -INFINITY : 0;
 }
 
-// Of the oscillating pair: the overdamped rates, which stay near -E/eta, say nothing about it.
+// Real part of a rate that oscillates or grows; -INFINITY: the rate is overdamped. Such rates stay
+// near -E/eta and say nothing about the oscillating pair.
 static double real_part(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];

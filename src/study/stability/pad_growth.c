@@ -255,7 +255,8 @@ static void sum_pad(const PadWork *work, StabilityPad *pad)
     pad->mode /= pad->length;
 }
 
-// Of all nodes at the pad's mean pressure, before lengths are over its breadth.
+// Mean of the critical stiffness of all nodes at the pad's mean pressure, before lengths are
+// divided by the pad's breadth.
 static double critical_stiffness(const PadWork *work, const StabilityPad *pad)
 {
     double sum = 0;

@@ -24,8 +24,9 @@
 
 // A step of the path in units of crossing time + viscous time: long against all that can grow.
 static const double PATH_STEP_LIMIT = 10;
-// What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
-// some 4 of them), but not more than about this part of an element.
+// Displacement of the rod in a step, in units of (mu_S - mu_K) p H/E: PATH_SLIP, but at most
+// PATH_ELEMENTS over the number of nodes along the contact. The front crosses a block within some 4
+// units.
 static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
 static const double MEMORY_PART = 0.1;   // of a rate that friction's memory has: the slowest shift
 static const double SNAP_LIMIT =

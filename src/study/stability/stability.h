@@ -51,9 +51,9 @@ void stability_look(StabilityPath *path);
 double stability_forgets(const StabilityPath *path, int32_t i);
 // Node i of `trial` slips forward: slowly, or where friction remembers steadily at the scene's V.
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i);
-// Of node i that slips steadily at V under this pressure: the stiffness of a massless body, stress
-// over length, below which its slip is not stable; NaN: nothing is remembered, or weakening with
-// slip rate makes it unstable on any spring.
+// Stiffness of a massless body, stress over length, below which steady slip of node i at V under
+// this pressure is not stable. NaN: friction remembers nothing, or its weakening with slip rate
+// makes the slip unstable on any spring.
 double stability_critical_spring(const StabilityPath *path, int32_t i, double pressure);
 
 // pi Re/Im - ln(v_c/V) of point k: from 0 on slip runs away at the scene's V.

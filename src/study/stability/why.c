@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the numbers of a path say, in sentences: which pad decides and at which mu, whether it does
+// Explains the numbers of a path in sentences: which pad decides and at which mu, whether it does
 // so alone, what would hold it, and why a run of the same scene may differ.
 #include "study/stability/stability.h"
 
@@ -58,7 +58,7 @@ static void say_what_decides(const StabilityPath *path, StabilitySummary *summar
             name_of(summary, summary->pad), slips, summary->mu_rod);
 }
 
-// Of a pad that runs away by itself: the contact on which it would not.
+// Says on which contact a pad that runs away by itself would not do so.
 static void say_what_would_hold(StabilitySummary *summary)
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
@@ -94,7 +94,7 @@ static void say_whether_alone(StabilitySummary *summary)
             pad->load);
 }
 
-// Of friction that remembers: how stiff a body must be, and on what length slip sets out.
+// Says, for friction that remembers, how stiff a body must be and on which length slip begins.
 static void say_what_memory_asks(const StabilityPath *path, StabilitySummary *summary)
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
@@ -110,7 +110,7 @@ static void say_what_memory_asks(const StabilityPath *path, StabilitySummary *su
         pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
 }
 
-// What a run may show before: oscillations, and jumps.
+// Says what a run may show before: oscillations and jumps.
 static void say_what_comes_before(const StabilityPath *path, StabilitySummary *summary)
 {
     const Interface *interface = &path->model->interface;

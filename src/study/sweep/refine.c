@@ -85,7 +85,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What is ranked, in a point's run.json.
+// Reads the ranked result from a point's run.json.
 static PointValue read_ranked(const Sweep *sweep, int32_t k, Error *err)
 {
     char *report = point_report(sweep, k, err);

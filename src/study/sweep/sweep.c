@@ -79,7 +79,7 @@ static bool take_folder(Sweep *sweep, Error *err)
     return sweep->study.keep_table || folder_make(path, err);
 }
 
-// What `keep: table` cannot do: nothing but numbers is kept.
+// Refuses what `keep: table` cannot do, because it keeps nothing but numbers.
 static bool check_table(const Sweep *sweep, const Scene *scene, Error *err)
 {
     if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)

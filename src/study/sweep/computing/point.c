@@ -52,7 +52,8 @@ static bool key_counts(const char *key)
     return strcmp(key, "title") != 0 && strcmp(key, "mesh.file") != 0;
 }
 
-// What computes it, the mesh by its content; the title and the path of the mesh do not count.
+// Hashes all that decides the result of a point, the mesh by its content. The title and the path of
+// the mesh do not count.
 bool point_hash(Sweep *sweep, const Scene *scene, char text[HASH_TEXT_SIZE], Error *err)
 {
     Hash hash = computation_hash();

@@ -68,7 +68,8 @@ enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
 const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(Sweep *sweep, const Scene *scene, char hash[HASH_TEXT_SIZE], Error *err);
-// Of points with the same hash the first one is `same_as` of all, from then on found by its hash.
+// Sets `same_as` of all points with the same hash to the first of them. From then on points_look_up
+// finds that point by its hash.
 bool points_find_same(Sweep *sweep, Error *err);
 int32_t points_look_up(const Sweep *sweep, const char *hash);   // -1: none
 void points_note_place(void *sweep, const char *hash, ReportPlace place);   // for a ReportFound
@@ -85,7 +86,7 @@ PointValue point_value(const char *report, const char *path);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
 void point_remove(Sweep *sweep, int32_t point, bool anew);
-// Of a file of the point's, "run.json"; "": of its folder.
+// Path of a file of the point, such as "run.json"; "": of its folder.
 void point_path(const Sweep *sweep, int32_t point, const char *file,
                 char path[POINT_PATH_SIZE + 16]);
 // In this process. *report: with `keep: table` what run.json would hold, but for the scene and the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a study records is looked up in the first run.json there is: a mistyped path must not cost a
-// whole sweep. Called by tally. run.json has no schema to look it up in before.
+// Looks up what a study records in the first run.json there is: a mistyped path must not cost a
+// whole sweep. run.json has no schema in which to look it up before. Called by tally.
 #ifndef AMONTONS_STUDY_SWEEP_COMPUTING_RECORD_CHECK_H
 #define AMONTONS_STUDY_SWEEP_COMPUTING_RECORD_CHECK_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What runs of a study leave in one file, in place of a folder each (`keep: table`): DIR/reports, a
-// line a point, "HASH CHECKSUM JSON". Only the sweep itself writes it, under its lock. Called by
-// sweep, point and share.
+// Holds the results of a study's runs in one file instead of a folder for each (`keep: table`):
+// DIR/reports has one line for each point, "HASH CHECKSUM JSON". Only the sweep itself writes it,
+// under its lock. Called by sweep, point and share.
 #ifndef AMONTONS_STUDY_SWEEP_COMPUTING_REPORTS_H
 #define AMONTONS_STUDY_SWEEP_COMPUTING_REPORTS_H
 

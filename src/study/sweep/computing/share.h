@@ -18,7 +18,7 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
 bool share_write_designs(const Sweep *sweep, Error *err);
 // In the element. The sweep has a study, a folder and options, and nothing else.
 bool share_run(Sweep *sweep, int32_t share, Error *err);
-// What the share has left goes to the sweep's reports, and its files go.
+// Adds the results of the share to the sweep's reports and removes the share's files.
 bool share_take(Sweep *sweep, int32_t share, Error *err);
 bool share_take_all(Sweep *sweep, Error *err);   // also of an earlier sweep that was killed
 

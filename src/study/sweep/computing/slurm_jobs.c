@@ -67,7 +67,7 @@ static bool ask(SlurmJobs *jobs, const char *const *words, int *status, Error *e
     return error_is_clean(err);
 }
 
-// What follows `label` in the answer to a question of scontrol; NULL: no answer.
+// Returns the text behind `label` in scontrol's answer; NULL: there is none.
 static const char *find_answer(SlurmJobs *jobs, const char *const *words, const char *label,
                                Error *err)
 {

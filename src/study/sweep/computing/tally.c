@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-// What the study ranks by, or mu_M, in the report of a point that is done.
+// Reads the quantity that the study ranks by, or mu_M, from the report of a finished point.
 static void read_quantity(const Study *study, const char *report, SweepView *view)
 {
     const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
@@ -63,7 +63,7 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     sweep->options->on_point(&view, sweep->options->context);
 }
 
-// What `record` names must be in the run.json of the first point that is done.
+// Checks that the run.json of the first finished point has what `record` names.
 static bool check_records(Sweep *sweep, int32_t point, const char *report, Error *err)
 {
     if (sweep->checked || sweep->points[point].status != POINT_DONE) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a plot of a sweep shows, in the words of a study's `plot` or of `amontons render --plot`:
+// Reads a study's `plot`, or that of `amontons render --plot`, which says what a plot shows:
 //
 //     {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}          curves
 //     {x: load.pressure, y: mesh.set.length, color: mu_M, contours: l_c}    a map
@@ -36,7 +36,7 @@ typedef struct StudyPlot {
 
 const char *plot_key_name(PlotKey key);   // "x"; static storage
 
-// What the names stand for is not asked.
+// Does not check what the names stand for.
 bool plot_words_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Error *err);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the files that read a study share.
+// Functions that the files that read a study share.
 #include "study/sweep/reading/study.h"
 
 #include "base/memory.h"

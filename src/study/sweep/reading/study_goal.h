@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a study searches, and what for: a part of Study, read by study_search.
+// Search of a study and its aim: a part of Study, read by study_search.
 //
 // One that searches (study/search) has `search`, and `where` and `best` where they are wanted, in
 // place of `cases`: designs, each computed at all points of `vary`.
@@ -32,13 +32,13 @@ typedef struct SearchKey {
     char unit[12];   // " m": numbers are handed to the scene with it; "": as they are
 } SearchKey;
 
-// Of `where`: a design is computed only if the formula's value is between.
+// Limits of one formula of `where`: a design is computed only if the value is between them.
 typedef struct SearchLimit {
     YamlNode formula;
     double least, most;   // infinite: no limit
 } SearchLimit;
 
-// What a design is worth over the points of `vary`.
+// How the value of a design follows from its values at the points of `vary`.
 typedef enum SearchOver {
     OVER_WORST,
     OVER_MEAN,

@@ -58,7 +58,7 @@ static bool read_keep(Study *study, Error *err)
     return true;
 }
 
-// What is wrong with values shows when scenes are made, point by point (study_point).
+// Wrong values are found when scenes are made, point by point (study_point).
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
                 bool trusted, Study *study, Error *err)
 {

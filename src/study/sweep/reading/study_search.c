@@ -133,7 +133,7 @@ static bool check_goal(Study *study, Error *err)
     return error_is_clean(err);
 }
 
-// What only a search has is refused where there is none.
+// Refuses the keys of a search in a study that does not search.
 static bool refuse_rest(const Study *study, Error *err)
 {
     static const char *const rest[] = {"where", "best", "fit"};

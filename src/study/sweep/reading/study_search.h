@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a study searches: `search`, `where`, `best` and `fit`. Called by study_read.
+// Reads the keys of a study that searches: `search`, `where`, `best` and `fit`. Called by
+// study_read.
 #ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_SEARCH_H
 #define AMONTONS_STUDY_SWEEP_READING_STUDY_SEARCH_H
 

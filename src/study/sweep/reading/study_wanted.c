@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is ranked by or drawn becomes a column of the table where it is none yet.
+// A quantity that is drawn or ranked by becomes a column of the table if it is none yet.
 #include "study/sweep/reading/study_wanted.h"
 
 #include "base/formula.h"
@@ -179,7 +179,7 @@ static bool read_also(Study *study, const WantedKey *also, Error *err)
     return error_is_clean(err);
 }
 
-// What is ranked by becomes a column of the table where it is none yet.
+// The quantity that is ranked by becomes a column of the table if it is none yet.
 static bool read_rank(Study *study, Error *err)
 {
     static const char *const orders[] = {"highest", "lowest"};
@@ -249,7 +249,7 @@ static bool check_quantity(Study *study, const StudyPlot *plot, PlotKey key, Err
                       found.message);
 }
 
-// What is drawn becomes a column of the table where it is none yet.
+// Each quantity that is drawn becomes a column of the table if it is none yet.
 static bool read_plot(Study *study, YamlNode node, Error *err)
 {
     if (study->plot_count == STUDY_PLOTS_MAX)

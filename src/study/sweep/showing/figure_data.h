@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a plot shows of each sweep: its quantities, and which points belong together. Called by
+// Data of a plot from each sweep: its quantities, and which points belong together. Called by
 // figure_plot.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_DATA_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_DATA_H

@@ -44,9 +44,10 @@ bool figure_write_numbers(Figure *figure, const char *key, const double *values,
 bool figure_write_curve(Figure *figure, const Curve *curve, Error *err);
 // A curve without a point: its words and its sample stand in the legend.
 bool figure_write_entry(Figure *figure, const Curve *curve, Error *err);
-// What runs are warned of has open marks, and an entry that names at most two kinds: bit k of
-// `doubts` is the k-th of `names`. An error that is not known is another thing, the last bit: a
-// mark without a bar, of a map a square.
+// Writes the legend's entries for doubtful points. Points whose runs have warnings have open marks;
+// their entry names at most two kinds of warning, where bit k of `doubts` is the k-th of `names`.
+// The last bit, DOUBT_NO_ERROR, is another thing: the error is not known. Such a point has a mark
+// without a bar, and in a map a square.
 #define DOUBT_NO_ERROR ((uint32_t)1 << 31)
 bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
                          Error *err);

@@ -166,7 +166,7 @@ static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const 
     Error ignored = {0};
     values_label(series, which, self->plot->text[PLOT_SERIES], value);
     if (series->key) words_index(&self->curves, value, &color, &ignored);   // is there
-    // Of two curves with one mark the colours differ in lightness.
+    // The colours of two curves with the same mark differ in lightness.
     int32_t mark = self->source_count > 1 ? source : (int32_t)color;
     return (Curve){.label = label,
                    .line = "thin",
@@ -200,7 +200,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What all panels have in the legend once.
+// Writes the legend's entries of the curves, once for all panels.
 static bool write_curve_entries(PlotFigure *self, Error *err)
 {
     for (int32_t s = 0; s < self->source_count; s++)

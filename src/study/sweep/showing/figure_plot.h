@@ -7,8 +7,9 @@
 #include "amontons.h"
 #include "study/sweep/reading/plot_words.h"
 
-// Of the sweep in `folder`, which holds its table, and of those that the plot has `with` it, as
-// seen from `beside` (the study; NULL: there is none, and the working folder). style: NULL is fine.
+// Draws a plot of the sweep in `folder`, which holds its table, and of the sweeps that the plot has
+// `with` it. Their paths are seen from `beside` (the study; NULL: from the working folder). style:
+// NULL is fine.
 bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plot,
                     const PictureStyle *style, Error *err);
 

@@ -32,8 +32,8 @@ QuantityLabel label_of_record(const char *name)
     return label;
 }
 
-// What a key is called on an axis, with its symbol. Of a mesh's own parameters only names are
-// known.
+// Finds the words for a key on an axis, with its symbol. A key that is not in the list is called by
+// its last word.
 static void key_words(const char *name, char words[QUANTITY_LABEL_SIZE], bool *is_length)
 {
     static const struct {

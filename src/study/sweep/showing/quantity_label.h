@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What stands beside the axis of a figure for a column of a sweep's table.
+// Makes the label of a figure's axis for a column of a sweep's table.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_QUANTITY_LABEL_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_QUANTITY_LABEL_H
 

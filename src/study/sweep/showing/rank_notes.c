@@ -18,7 +18,7 @@ static bool ranks_by_mu_hold(const Study *study)
     return strcmp(study->records[study->rank.record].path, "results.mu_hold") == 0;
 }
 
-// Of the values behind the result that is ranked; NaN: not known.
+// Period of the values behind the result that is ranked; NaN: not known.
 static double period_of(const Study *study, const char *report)
 {
     double period = NAN;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What makes a value or its rank doubtful, in a few words. Called by study/sweep/showing/rank.
+// Says in a few words what makes a value or its rank doubtful. Called by study/sweep/showing/rank.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_RANK_NOTES_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_RANK_NOTES_H
 

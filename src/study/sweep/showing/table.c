@@ -3,8 +3,8 @@
 // arrays in sweep.h5. Columns: point, the keys that vary, what is recorded, status, message,
 // warnings, run.
 //
-// What run.json holds as NAME_error beside a result NAME is that result's error, whatever the
-// result: it becomes the next column, asked for or not. So does NAME_known_to.
+// A number NAME_error beside a result NAME in run.json is that result's error, whatever the result.
+// It becomes the next column, whether it is asked for or not. The same holds for NAME_known_to.
 //
 // Both files hold the same rows: the CSV for spreadsheets and readers, the arrays for programs. An
 // array has no words: a word is its index in a list that is an attribute beside its column.
@@ -30,7 +30,7 @@ typedef struct TableWriter {
 
 // --- columns ------------------------------------------------------------------------------------
 
-// What may stand beside a result.
+// Columns that may stand beside a result.
 static const struct {
     const char *ending, *description;
 } BESIDES[] = {{"error", "error of the column without `_error`"},
@@ -200,7 +200,7 @@ static bool is_steady(const char *path, const char *report)
            json_find_text(report, "results.mu_M_is", is, sizeof is) && strcmp(is, STEADY) == 0;
 }
 
-// Of a point with a value that may have a bar, and of which more is open than its error says.
+// True if the point has a value that may have an error bar, and more is open than its error says.
 static bool lacks_bar(const SweepTable *table, int32_t record, int32_t point)
 {
     double known_to = table_known_to(table, record, point);
@@ -208,7 +208,8 @@ static bool lacks_bar(const SweepTable *table, int32_t record, int32_t point)
            isfinite(known_to) && known_to != table_error(table, record, point);
 }
 
-// What stands beside a result that is none is none. report: of a finished point, or NULL.
+// Writes the results of a point. If a result is not finite, the columns beside it are NaN. report:
+// that of a finished point, or NULL.
 static void write_results(TableWriter *writer, int32_t point, const char *report)
 {
     TableColumn *columns = writer->table->columns;

@@ -34,8 +34,8 @@ typedef struct SweepTable {
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
-// Of a record at a point: its value, its error, and how far it is known: the error, where run.json
-// does not tell what a mesh usually leaves. Where both are alike it is an error bar.
+// Value of a record at a point, its error, and how far it is known: that is the error if run.json
+// does not say what a mesh usually leaves. If both are equal, the error is an error bar.
 double table_value(const SweepTable *table, int32_t record, int32_t point);
 double table_error(const SweepTable *table, int32_t record, int32_t point);
 double table_known_to(const SweepTable *table, int32_t record, int32_t point);

@@ -25,7 +25,7 @@ typedef struct Warned {
 
 bool warned_make(int32_t points, Warned *warned, Error *err);
 void warned_add(Warned *warned, int32_t point, const char *sentence);
-// What is wrong, in the few words before the sentence's first colon.
+// Name of a kind of warning: the words before the first colon of its sentence.
 void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE]);
 // The names of all kinds, each once, added to `names`; bits[point]: bit k where the point has a
 // warning of the k-th of them. [warned->all]
