@@ -113,8 +113,8 @@ static double span_left(const Accuracy *accuracy)
 }
 
 // Ratio of cell sizes to the next level. From the third level on it is large enough that slip has
-// enough cells there, as all levels tell, but at most STEP_SPLIT; or it leads to the mesh that tests
-// a bar which is short enough.
+// enough cells there, as all levels tell, but at most STEP_SPLIT; or it leads to the mesh that
+// tests a bar which is short enough.
 static double next_step(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;
