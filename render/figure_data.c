@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is written is what `--compare` reads: one run may be drawn beside another.
+// `--compare` reads the files that are written here, so that one run may be drawn beside another.
 #include "render/figure_data.h"
 
 #include "base/memory.h"

@@ -62,7 +62,7 @@ static bool draw_all(const Page *page, const Panels *panels, ResultView *view, B
     return true;
 }
 
-// What the widest names and numbers take beside the frames, points.
+// Measures the room that the widest names and numbers take beside the frames, points.
 static bool measure(const PageDef *def, const Panels *panels, ResultView *view, double beside[2],
                     Error *err)
 {

@@ -102,7 +102,7 @@ static bool find_panels(const char *names, Picture *picture, Error *err)
     return picture->count > 0 || REFUSE(err, "no panel is named");
 }
 
-// Of those that are asked for, without a word of all that there are, the k-th.
+// Finds the k-th picture of those that are asked for; if none is named, of all that there are.
 static bool find_picture(const PictureRequest *request, int32_t k, Picture *picture, Error *err)
 {
     *picture = (Picture){0};
@@ -132,7 +132,7 @@ static bool picture_path(const char *folder, const PictureRequest *request, cons
            REFUSE(err, "the result folder's path is too long");
 }
 
-// Of several states each is a panel; then all know their shapes.
+// Makes a panel for each of several states, and sets the shapes of all panels.
 static bool spread_states(const ResultView *view, const PictureStyle *style, Picture *picture,
                           Error *err)
 {

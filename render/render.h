@@ -12,8 +12,8 @@
 #include "io/mesh/mesh_file.h"
 #include "io/text/html_writer.h"
 
-// What `field` may show: X(symbol, name, words, unit in SI, unit in normalised scenes). Stresses
-// hold the viscous part.
+// Quantities that `field` may show: X(symbol, name, words, unit in SI, unit in normalised scenes).
+// Stresses hold the viscous part.
 #define BLOCK_QUANTITIES(X)                                                                        \
     X(BLOCK_VON_MISES, "von_mises", "von Mises stress", "Pa", "~{E}")                              \
     X(BLOCK_STRESS_XX, "stress_xx", "stress ~{\u03c3}_{xx}", "Pa", "~{E}")                         \
@@ -29,7 +29,7 @@
     X(BLOCK_ENERGY, "strain_energy", "strain energy density", "J/m^{3}", "~{E}")                   \
     X(BLOCK_DISSIPATION, "dissipation", "dissipation rate", "W/m^{3}", "(~{E} / ~{t}_{0})")
 
-// What `contact-plane` may show, in the same way; a state also by its own name.
+// Quantities that `contact-plane` may show, in the same way; a state also by its own name.
 #define CONTACT_QUANTITIES(X)                                                                      \
     X(CONTACT_SLIP_RATE, "slip_rate", "slip rate", "m/s", "(~{L}_{0} / ~{t}_{0})")                 \
     X(CONTACT_DENSITY, "contact_density", "contact density ~{\u03c6}", "", "")                     \
@@ -67,7 +67,8 @@ bool amontons_render_plot(const char *plot, const char *picture, const PictureSt
 // amontons_film.
 typedef bool (*RenderFilmFunction)(const char *folder, const FilmRequest *request, Error *err);
 bool amontons_render_film(const char *folder, const FilmRequest *request, Error *err);
-// What of a result it shows: from one place of the drive to another, length, in so many frames.
+// Part of a result that the film shows: from one place of the drive to another, length, in so many
+// frames.
 typedef struct FilmPart {
     double from_U, to_U;
     int32_t frames;
@@ -112,7 +113,7 @@ bool amontons_render_plot_html(const char *plot, const char *caption, HtmlWriter
 
 enum { RENDER_FRAMES_MAX = 40, RENDER_CURVES_MAX = 8 };
 
-// What amontons_render_frames found.
+// Frames that amontons_render_frames found.
 typedef struct RenderFrames {
     bool fields;   // frames show the block, at times that are stored; else steps of the history
     int32_t count, stored;   // frames, of so many there are

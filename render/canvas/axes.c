@@ -26,7 +26,7 @@ static double axis_part(const Axis *axis, double value)
     return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : NAN;
 }
 
-// What stands before a unit for 1000 times more or less; a prefix of kg is none.
+// Sets a prefix of the unit for each factor of 1000; kg takes none.
 void axis_set_unit(Axis *axis, const char *name, const char *unit)
 {
     static const char *const prefix[] = {"n", "\u00b5", "m", "", "k", "M", "G"};
@@ -282,7 +282,7 @@ static void left_numbers(const Page *page, const Axes *axes, const TextStyle *st
                    &ticks);
 }
 
-// What stands at y = 1, 2, ... in the place of numbers; there are no minor ticks between names.
+// Draws names at y = 1, 2, ... in the place of numbers; there are no minor ticks between names.
 static void left_names(const Page *page, const Axes *axes, const TextStyle *style, double edge)
 {
     for (int32_t k = 0; k < axes->y.name_count; ++k) {

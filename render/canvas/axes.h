@@ -51,7 +51,7 @@ void axes_fit(const Page *page, const Box *room, double right, Axes *axes);
 // The same frame, where it has been moved.
 void axes_settle(const Page *page, Axes *axes);
 
-// What both of these draw is cut off at the frame but for the name.
+// Both of these are cut off at the frame, but for the name.
 void axes_curve(const Page *page, const Axes *axes, const Stroke *stroke, const double *x,
                 const double *y, int64_t count);
 // A line across the frame at y, its name `gap` points behind it; NULL: no name.

@@ -34,7 +34,7 @@ const char *canvas_ending(CanvasFormat format)
 
 // --- begin ---------------------------------------------------------------------------------------
 
-// What there is of the file goes on in memory. false: there is none left.
+// Appends bytes of the file to those in memory. false: no memory is left.
 static bool bytes_add(void *self, const uint8_t *bytes, size_t length)
 {
     Canvas *canvas = self;
@@ -310,7 +310,7 @@ void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 
 // --- end -----------------------------------------------------------------------------------------
 
-// What the drawing code left, or Cairo.
+// Reports the error of the drawing code, or else that of Cairo.
 static bool canvas_check(Canvas *canvas, Error *err)
 {
     cairo_status_t status = cairo_status(canvas->cairo);

@@ -48,7 +48,7 @@ int32_t canvas_width(const Canvas *canvas);
 int32_t canvas_height(const Canvas *canvas);
 const char *canvas_ending(CanvasFormat format);   // "png", ...
 
-// What drawing and text draw with, its colour set.
+// Cairo context that drawing and text use, with this colour set.
 cairo_t *canvas_ink(Canvas *canvas, Color color);
 
 // From here on only what lies in `box` is drawn; NULL: everywhere.
@@ -78,9 +78,9 @@ void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corne
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 
-// What is drawn so far, until the next call that draws: pixels of four bytes (blue, green, red,
-// unused), first row at the top, *stride bytes from row to row. NULL: something went wrong. Only of
-// CANVAS_PNG.
+// Pixels that are drawn so far, until the next call that draws: four bytes each (blue, green, red,
+// unused), first row at the top, *stride bytes from row to row. NULL: an error. For CANVAS_PNG
+// only.
 const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err);
 
 // All that is drawn on `from` so far, in place of what is on `canvas`: both CANVAS_PNG, equally

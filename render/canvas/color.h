@@ -16,8 +16,8 @@ typedef struct Color {
 // [MAP_SIZE * 3] bytes, red, green, blue, from value 0 to value 1.
 void color_map_fill(uint8_t *colors);
 
-// What `color` becomes on dark paper: its lightness turned round, its hue kept. White becomes the
-// dark paper.
+// Colour that `color` becomes on dark paper: its lightness is reversed, its hue is kept. White
+// becomes the dark paper.
 Color color_on_dark(Color color);
 
 #endif

@@ -14,7 +14,7 @@ typedef struct Foot {
 } Foot;
 
 // warnings: one a line; "": none. width: of the page, points.
-// What does not fit is left to run.json, and the last line says so.
+// Words that do not fit are left to run.json, and the last line says so.
 Foot foot_wrap(const char *warnings, double width);
 double foot_height(const Foot *foot);   // points; 0 without lines
 void foot_draw(const Page *page, const Foot *foot);

@@ -61,7 +61,7 @@ typedef enum GlKind { BY_CORNERS, BY_VALUES, PROGRAMS } GlKind;
 
 typedef void (*GlFunction)(void);
 
-// Of OSMesa and EGL, the calls a context needs.
+// OpenGL context of OSMesa or EGL, and the calls that it needs.
 typedef struct GlContext {
     void *library;   // as dlopen gives it; never closed
     GlFunction (*find)(const char *name);
@@ -174,7 +174,7 @@ static const char VERSION[] = "#version 330 core\n",
                       "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
                       "}\n";
 
-// What a pixel shows between corners, and of a table of values. There NaN shows nothing: it is
+// Value of a pixel: between corners, or from a table of values. There NaN shows nothing: it is
 // known by its bits, as a driver may compile comparisons as if there were no NaN (Mesa 26 does).
 static const char *const VALUE_SOURCE[PROGRAMS] = {
     [BY_CORNERS] = "in float at;\n"
@@ -207,7 +207,7 @@ static void shader_add(const Gl *gl, GLuint program, GLenum stage, const char *s
     gl->AttachShader(program, shader);
 }
 
-// What a compiler says shows when its shader is linked.
+// Errors of a compiler show when its shader is linked.
 static bool program_use(Gl *gl, GlKind kind, Error *err)
 {
     GLint done = GL_FALSE;
@@ -276,7 +276,7 @@ static bool gl_open(Gl *gl, GlSource source, Error *err)
 
 // --- an image ------------------------------------------------------------------------------------
 
-// What is drawn over is what is in memory.
+// The drawing goes over the pixels that are in memory.
 static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pixels, Error *err)
 {
     GLint most = 0, columns = def->values ? def->columns : 1, rows = def->values ? def->rows : 1;
@@ -292,7 +292,7 @@ static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pix
     gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                              gl->texture[UNIT_TARGET], 0);
-    // What cannot be had leaves the texture before.
+    // An image that cannot be had leaves the texture as it was before.
     if (gl->GetError() || gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return FAULT(err, ERROR_LIBRARY, "OpenGL gives no image of %d by %d pixels", def->width,
                      def->height);

@@ -34,7 +34,7 @@ bool page_style_of_name(const char *path, PictureStyle *style, Error *err)
     return true;
 }
 
-// What a picture is for: its width, how much larger letters and lines are, dots.
+// Purpose of a picture: its width, how much larger letters and lines are, dots.
 typedef struct Purpose {
     const char *name;
     double width, scale, dpi;   // mm, 1, dots per inch

@@ -32,8 +32,8 @@ typedef struct PageDef {
 // Points in the width of a page of this style.
 double page_width(const PictureStyle *style);
 
-// Of a figure that may have any shape: `shape`, its height over its width, on a column; of a wider
-// page less, as nobody has a curve twice as high because it is twice as wide.
+// Height over width of a figure that may have any shape: `shape` on a column, less on a wider page,
+// as nobody has a curve twice as high because it is twice as wide.
 double page_shape(const PictureStyle *style, double shape);
 
 // The words above a figure whose own title this is: what the style asks for; "": none.

@@ -13,7 +13,7 @@ typedef struct Bin {
     int32_t count, place;   // place: in the table, then in the palette
 } Bin;
 
-// Of a pixel: blue, green, red.
+// Bin of a pixel, whose bytes are blue, green, red.
 static int32_t bin_of(const uint8_t *pixel)
 {
     return pixel[2] >> DROPPED << 2 * BITS | pixel[1] >> DROPPED << BITS | pixel[0] >> DROPPED;

@@ -52,7 +52,7 @@ static Parts choose_parts(const Block *block, const Axes *axes, int32_t e)
     return parts;
 }
 
-// Of `inside` parts the i-th, moved to where a side's own parts meet.
+// Place of the i-th of `inside` parts, moved to where a side's own parts meet.
 static double side_place(const Parts *parts, int32_t side, int32_t i)
 {
     int32_t count = parts->side[side];
@@ -166,7 +166,7 @@ static bool each_triangle(const Block *block, const Axes *axes, const double *le
 
 // --- pixels --------------------------------------------------------------------------------------
 
-// What is drawn, and its colours.
+// Triangles that are drawn, and their colours.
 typedef struct Fill {
     const Box *box;
     double low, range;   // the quantity at colour 0, and up to colour 1
@@ -255,7 +255,7 @@ static void side_draw(const Page *page, const Block *block, const Axes *axes, co
     draw_line(page->canvas, stroke, line, count);
 }
 
-// What belongs to one element alone.
+// The outline consists of the sides that belong to one element alone.
 bool block_outline_draw(const Page *page, const Block *block, const Axes *axes,
                         const Stroke *stroke, Error *err)
 {

@@ -40,16 +40,16 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
                      Error *err);
 
-// What the contact does at a step of the history, in its place below the block; part of
-// block_page_draw. block: one of this result.
+// Draws the statuses of the contact at a step of the history, in their place below the block; part
+// of block_page_draw. block: one of this result.
 void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
                         const Axes *axes);
 
 // Frame, numbers and names; of a block in space along its edges.
 void block_page_axes(const Page *page, const BlockPage *map, const Block *block, const Axes *axes);
 
-// What the colours of the contact mean, from `place` to the right; below > 0: four lines so many
-// points apart under one that says "contact".
+// Draws the meaning of the contact's colours, from `place` to the right; below > 0: four lines so
+// many points apart under one that says "contact".
 void block_page_legend(const Page *page, Point place, double below);
 
 #endif

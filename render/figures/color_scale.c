@@ -75,7 +75,8 @@ static double value_at(const WeighedValue *sorted, int64_t count, double weight,
     return sorted[k].value;
 }
 
-// What the style asks for, or where all but LEFT_OUT lies. factor: from values to numbers shown.
+// End of the range that the style asks for, or that leaves out LEFT_OUT of the values. factor: from
+// values to numbers shown.
 static double range_end(const WeighedValue *sorted, int64_t count, double weight,
                         const PictureStyle *style, int32_t end, double factor)
 {
@@ -85,7 +86,8 @@ static double range_end(const WeighedValue *sorted, int64_t count, double weight
     return isfinite(limit) && !is_part ? limit / factor : value_at(sorted, count, weight, part);
 }
 
-// What is above 0 spans decades, and nothing is below: *zeros of the values stand before it.
+// Returns true if the values above 0 span decades and no value is below 0. The *zeros values that
+// are 0 stand before them.
 static bool spans_decades(const WeighedValue *sorted, int64_t count, int64_t *zeros)
 {
     double weight = 0;

@@ -164,7 +164,7 @@ bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error
 
 // --- area ----------------------------------------------------------------------------------------
 
-// Of the nearest node at that row; open contact has no area.
+// Contact density of the node nearest to x at that row; open contact has none.
 static double density_at(const ResultView *view, int64_t row, double x)
 {
     int32_t nearest = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a run has computed, in the form in which it is measured: a curve a kind, and the area of the
-// contact. Numbers only. Called by measured, figure_data and the figures.
+// Computed results of a run in the form in which they are measured: a curve for each kind, and the
+// area of the contact. Numbers only. Called by measured, figure_data and the figures.
 #ifndef AMONTONS_RENDER_FIGURES_COMPUTED_H
 #define AMONTONS_RENDER_FIGURES_COMPUTED_H
 

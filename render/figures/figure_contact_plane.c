@@ -93,7 +93,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of slip what each node has done since the first moment; of one alone since the rod's start.
+// Slip is counted from the first moment; if there is one moment alone, from the rod's start.
 static void take_from_first(Maps *maps)
 {
     int32_t nodes = maps->view->plane.nodes;
@@ -224,7 +224,7 @@ static void write_words(const Maps *maps, int32_t k, char words[WORDS_SIZE])
     if (maps->quantity == CONTACT_ARRIVAL) words[0] = '\0';
 }
 
-// What the words above the maps count.
+// Writes the note that says what the words above the maps count.
 static void write_note(const Maps *maps, char words[WORDS_SIZE])
 {
     const ResultView *view = maps->view;

@@ -165,7 +165,8 @@ static int32_t slidings_draw(const Page *page, const ResultView *view, const Axe
     return count;
 }
 
-// What the inset shows, and lines from it to below the inset's numbers: all in one colour.
+// Frames the part that the inset shows, with lines from it to below the inset's numbers: all in one
+// colour.
 static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 {
     Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page->point};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the contacts remember, against U and x: one state of friction that remembers, the smallest
-// in a pixel, as slip makes contacts young at once and rest strengthens them slowly.
+// State of friction with memory against U and x. Of all values in a pixel the smallest is shown, as
+// slip makes contacts young at once and rest strengthens them slowly.
 #include "render/figures/figures.h"
 
 #include "base/memory.h"

@@ -119,8 +119,8 @@ static void lay_out(const FigureInput *input, Strip *strip)
     strip->height = block_page_height(strip->extent, strip->scale, SHARE);
 }
 
-// Of an odd number of frames the last one has nothing beside it: there the legend stands, if it is
-// high enough for all of its lines.
+// With an odd number of frames, the last one has nothing beside it: the legend stands there if the
+// place is high enough for all of its lines.
 static bool has_free_place(const Strip *strip)
 {
     return strip->count % COLUMNS == 1 &&

@@ -16,7 +16,7 @@ static const Color FIGURE_LEVEL = {0.45f, 0.45f, 0.47f, 1};   // of what a curve
 // The view may read more of the result, hence not const.
 typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
 
-// What a figure begins its page by itself with.
+// Input with which a figure begins its page by itself.
 typedef struct FigureInput {
     ResultView *view;
     const char *folder;   // of the result

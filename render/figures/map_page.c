@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the pictures over (U, x) share: frame, axes, pads, the grid of pixels, the front.
+// Parts that the pictures over (U, x) share: frame, axes, pads, the grid of pixels, the front.
 #include "render/figures/map_page.h"
 
 #include <math.h>
@@ -164,7 +164,8 @@ static void lay_out(const Page *page, const ResultView *view, const double U[2],
                             .rows = rows_needed(page, view, axes)};
 }
 
-// Of density what is lost of it, over what the bar spans; open contact is infinitely fast.
+// Place of a value in the colours. For contact density it is the density that is lost, over the
+// range of the bar; open contact is infinitely fast.
 static float level_of(const MapPage *map, double value)
 {
     if (!(map->critical > 0)) return colorbar_level(&map->bar, value);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the maps of U against x share: the frame, the field itself with the gaps between pads, lines
-// on it, the colour bar. Called by figure_slip_map, figure_state_map and figure_contact_density.
+// Parts that the maps of U against x share: the frame, the field itself with the gaps between pads,
+// lines on it, the colour bar. Called by figure_slip_map, figure_state_map and
+// figure_contact_density.
 #ifndef AMONTONS_RENDER_FIGURES_MAP_PAGE_H
 #define AMONTONS_RENDER_FIGURES_MAP_PAGE_H
 
@@ -32,7 +33,7 @@ bool map_page_draw(const Page *page, const ResultView *view, const double U[2], 
 // colours ...
 bool map_page_fill(const SpaceTime *data, MapPage *map, Error *err);
 
-// What pads and the window say in the key: how many entries, at most two.
+// Fills the entries of pads and window in the key; returns how many they are, at most two.
 int32_t map_page_key(const ResultView *view, const Window *window, KeyEntry entries[2]);
 
 // ... and are drawn, with the pads' gaps.

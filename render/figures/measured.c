@@ -15,7 +15,7 @@ static const double MARK_SMALL = 0.45;   // of the radius of one among few
 
 static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 
-// What a quantity may be over, in the place of a unit.
+// Quantities by which a column may be divided, in the place of a unit.
 static const struct {
     const char *name, *dimension;
     ResultNumber number;

@@ -35,9 +35,10 @@ typedef struct Measured {
     char words[MEASURED_WORDS_SIZE];   // for a legend: the file's name and the misfit
 } Measured;
 
-// What the file says of `kind`, and what was computed there; count 0: nothing, or no file is given
-// (path NULL). The misfit is the root of the mean square of what is measured less what was computed
-// there, over the points that the result covers; in parts of the errors too where all have one.
+// Reads the values that the file has for `kind`, and computes those of the result there; count 0:
+// nothing, or no file is given (path NULL). The misfit is the root of the mean square of measured
+// less computed values, over the points that the result covers; it is in units of the errors too
+// where all points have one.
 bool measured_read(const char *path, MeasuredKind kind, ResultView *view, Measured *measured,
                    Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine

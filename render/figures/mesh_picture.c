@@ -217,7 +217,7 @@ static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color)
     }
 }
 
-// What a curve is called: "contact_3" as it is, "pad 3" or "3", by `form` 0, 1, 2.
+// Name of a curve: "contact_3" as it is, "pad 3" or "3", by `form` 0, 1, 2.
 static const char *group_name(const MeshGroup *group, int32_t form, char name[GROUP_NAME_SIZE + 4])
 {
     bool numbered = is_contact(group) && strncmp(group->name, "contact_", 8) == 0;

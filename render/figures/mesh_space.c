@@ -78,7 +78,7 @@ double mesh_space_shape(const RenderMesh *mesh)
     return (view.high[1] - view.low[1]) / (view.high[0] - view.low[0]);
 }
 
-// Of which groups each node is.
+// Marks each node with the groups that it belongs to.
 static bool mark_groups(MeshView *view, Error *err)
 {
     const RenderMesh *mesh = view->mesh;

@@ -27,7 +27,7 @@ static bool check_size(const FilmRequest *film, Error *err)
     return true;
 }
 
-// What was left open is filled in.
+// Fills in the parts of the request that were left open, and checks it.
 static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames, Error *err)
 {
     *film = *request;

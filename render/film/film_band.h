@@ -21,9 +21,9 @@ typedef struct FilmBand {
 bool film_band_create(const Page *page, const Box *cell, FilmBand *band, Error *err);
 void film_band_destroy(FilmBand *band);   // zeroed is fine
 
-// What stands: strip, map, axes.
+// Draws the parts that stand: strip, map, axes.
 void film_band_draw(const Page *page, const FilmBand *band);
-// What moves: frame k; what is to come is pale; "1 s of film = ...".
+// Draws the parts that move at frame k: the time to come is pale; "1 s of film = ...".
 void film_band_now(const Page *page, const FilmBand *band, int32_t k);
 
 // A time in words, with its unit: "0.43 ~{t}_{0}", "12 ms". decimals: below 0: two digits.

@@ -168,8 +168,8 @@ static bool read_pair(FilmBlock *film, int32_t first, Error *err)
     return true;
 }
 
-// What is drawn of two stored fields, linear in time, in the place of the first: its own is read
-// again where it is wanted.
+// Draws a mixture of two stored fields, linear in time, in the place of the first. The first field
+// itself is read again where it is wanted.
 static bool draw_mixture(const Page *page, FilmBlock *film, int32_t first, double t, Error *err)
 {
     if (!read_pair(film, first, err)) return false;

@@ -32,7 +32,7 @@ void film_block_draw(const Page *page, const FilmBlock *film);   // what stands:
 
 // The block at frame k, at time t: over what is on the page of it.
 bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Error *err);
-// What the contact does at a step.
+// Draws the statuses of the contact at a step.
 void film_block_contact(const Page *page, const FilmBlock *film, int64_t row);
 
 #endif

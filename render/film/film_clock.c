@@ -69,8 +69,8 @@ static bool course_create(const FilmClockDef *def, Course *course, Error *err)
     return true;
 }
 
-// Of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long one
-// that only begins or ends fast shows nothing that slow motion would be for.
+// Speed of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long
+// one that only begins or ends fast shows nothing that slow motion would be for.
 static double log_fast_of(const Course *course, int64_t k)
 {
     return fmin(course->log_fast[k - 1], course->log_fast[k]);

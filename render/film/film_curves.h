@@ -18,7 +18,7 @@ typedef struct FilmForce {
 // In `cell`, pixels, for times from t[0] to t[1].
 void film_force_place(const Page *page, const Box *cell, const double t[2], FilmForce *force);
 void film_force_draw(const Page *page, const FilmForce *force);   // what stands
-// What the film has passed stays: drawn on the page that stands.
+// Draws the part that the film has passed on the page that stands, so that it stays.
 void film_force_pass(const Page *page, FilmForce *force, const FilmMoment *now);
 void film_force_now(const Page *page, const FilmForce *force, const FilmMoment *now);
 

@@ -167,7 +167,8 @@ int32_t film_page_still(const FilmPage *page)
     return page->block.still_most;
 }
 
-// Of the contact: the state that def->film->of names, or slip rates; of the block the field.
+// Chooses the values that the film shows: for the contact the state that def->film->of names, or
+// slip rates; for the block the field.
 static bool choose_values(FilmPage *page, Error *err)
 {
     const FilmPageDef *def = &page->def;

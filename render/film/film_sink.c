@@ -193,7 +193,7 @@ static void *encode(void *self)
     return NULL;
 }
 
-// What the pictures are made of: the map, greys, and blue, red and orange up to white.
+// Colours of the pictures: the colour map, greys, and six tints up to white.
 static void palette_fill(uint8_t palette[3 * PALETTE_SIZE])
 {
     static const uint8_t tint[][3] = {{13, 69, 140}, {191, 31, 31},  {237, 148, 20},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/frames/frame_images.h"
 
-// Of a picture for a screen: 600 pixels wide, letters 14 pixels high.
+// Size of a picture for a screen: 600 pixels wide, letters 14 pixels high.
 static const double WIDTH = 95, DPI = 160;   // mm
 
 enum { LOOKED_AT = 6 };   // of the times; memory for so many blocks

@@ -189,7 +189,7 @@ static bool fit_strips(Frames *frames, Error *err)
     return true;
 }
 
-// What all frames have in common, drawn once and used in each of them.
+// Writes the parts that all frames have in common; they are drawn once and used in each of them.
 static void write_common(const Frames *frames, HtmlWriter *html)
 {
     const ResultView *view = &frames->view;
@@ -271,7 +271,7 @@ static bool is_printed(const Frames *frames, int32_t k)
     return k % every == every / 2;
 }
 
-// What a reader wants to see first: the last sliding, where there is one.
+// A reader wants to see the last sliding first, where there is one.
 static int32_t first_shown(const Frames *frames)
 {
     const ResultView *view = &frames->view;

@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Of the pictures; a page shows them as wide as its column.
+// Size of the pictures; a page shows them as wide as its column.
 static const double WIDTH = 140, DPI = 240;   // mm; of maps
 
 // Units of the drawing of several curves.
@@ -48,7 +48,7 @@ static const struct {
 
 // --- pictures ------------------------------------------------------------------------------------
 
-// What is drawn on a fresh page, and the words with it: ours, caption is markup.
+// Drawing on a fresh page, and the words with it; they are ours, and caption is markup.
 typedef struct Drawing {
     bool (*draw)(void *context, const PictureStyle *style, Page *page, Error *err);
     void *context;

@@ -12,7 +12,7 @@ static const double LEGEND_PITCH = 1.5;   // line to line, over the size of the 
 static const double FRAME_LEAST = 0.6;   // of its width that a legend beside it leaves
 static const double LEGEND_SPACE = 8;   // points between entries of one line
 
-// What the labelled series take; height 0: there is no legend.
+// Size of the legend of the labelled series; height 0: there is no legend.
 static LegendSize legend_measure(const Page *page, const Axes *axes, const PlotPanel *panel,
                                  double share)
 {

@@ -40,7 +40,7 @@ static int32_t find_lines(const double *values, int32_t count, bool is_log, doub
     return found;
 }
 
-// Of [count] rising lines the one nearest to `value`.
+// Finds among [count] rising lines the one nearest to `value`.
 static int32_t nearest_line(const double *lines, int32_t count, double value)
 {
     int32_t low = 0, high = count - 1;

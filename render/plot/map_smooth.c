@@ -57,7 +57,7 @@ static void find_lines(const MapGrid *grid, const Point *place, bool of_columns,
     }
 }
 
-// Of [count] lines and `parts` between any two the k-th.
+// Place of the k-th finer line, with [count] lines and `parts` between any two.
 static double fine_line(const double *lines, int32_t count, int32_t parts, int32_t k)
 {
     int32_t at = k / parts, next = at + 1 < count ? at + 1 : at;

@@ -22,7 +22,7 @@ bool map_smooth(const MapGrid *grid, const double *values, const Point *place, i
                 SmoothGrid *smooth, Error *err);
 void smooth_destroy(SmoothGrid *smooth);   // zeroed is fine
 
-// Of each point that has a value the median of those in MAP_MEDIANS by MAP_MEDIANS cells around it.
+// Median, for each point that has a value, of those in MAP_MEDIANS by MAP_MEDIANS cells around it.
 void map_medians(const MapGrid *grid, const double *values, double *medians);
 
 #endif

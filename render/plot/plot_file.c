@@ -56,7 +56,7 @@ static bool read_series(const PlotReader *reader, YamlNode map, PlotSeries *seri
     return true;
 }
 
-// What stands at y = 1, 2, ...
+// Reads the names that stand at y = 1, 2, ...
 static bool read_names(const PlotReader *reader, YamlNode list, PlotPanel *panel)
 {
     int32_t count = yaml_count(reader->file, list), k = 0;
@@ -126,7 +126,7 @@ static bool read_map(const PlotReader *reader, YamlNode node, PlotPanel *panel)
     return false;
 }
 
-// What a panel shows; each part may be missing.
+// Reads the data of a panel; each part may be missing.
 static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     YamlNode list = plot_child(reader, map, "series"), colors = plot_child(reader, map, "map");

@@ -6,7 +6,7 @@
 
 #include "render/plot/plot.h"
 
-// Of the page: its height over its width, and a width that suits, mm.
+// Size of the page: its height over its width, and a width that suits, mm.
 void plot_grid_size(const Plot *plot, double *height, double *width);
 
 // below: where the legend stands.

@@ -22,14 +22,14 @@ YamlNode plot_child(const PlotReader *reader, YamlNode map, const char *key);
 // A key that is in none of the `known` names, each with a space behind it, is refused.
 bool plot_check_keys(const PlotReader *reader, YamlNode map, const char *what, const char *known);
 
-// What is read keeps its value where the key is missing. names: NULL at the end.
+// The result keeps its value where the key is missing. names: NULL at the end.
 bool plot_read_choice(const PlotReader *reader, YamlNode map, const char *key,
                       const char *const *names, int32_t *choice);
 bool plot_read_text(const PlotReader *reader, YamlNode map, const char *key, char *text,
                     size_t size);
 // null is NaN.
 bool plot_read_number(const PlotReader *reader, YamlNode node, const char *what, double *value);
-// Of a list of exactly `wanted` numbers.
+// Reads a list of exactly `wanted` numbers.
 bool plot_read_numbers(const PlotReader *reader, YamlNode list, const char *what, int32_t wanted,
                        double *values);
 // A list of numbers, or FILE.h5:NAME: *values is [*count], the caller's; NULL where the key is

@@ -10,7 +10,7 @@ typedef struct Camera {
     double distance;   // from there, length
 } Camera;
 
-// Of a box from `low` to `high`.
+// Camera before a box from `low` to `high`.
 Camera camera_before(const double low[3], const double high[3]);
 
 // seen: across, up, and how far away; lengths.

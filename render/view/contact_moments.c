@@ -45,8 +45,8 @@ static bool take_asked(const ResultView *view, const char *at, ContactMoments *m
     return true;
 }
 
-// Of rapid events the one nearest to `wanted`; without a wish the last that carried the whole
-// block, or else the last.
+// Finds the rapid event nearest to `wanted`; without a wish the last that carried the whole block,
+// or else the last.
 static const ViewEvent *find_event(const ResultView *view, const double *wanted)
 {
     const ViewEvent *best = NULL;

@@ -14,7 +14,7 @@
 
 enum { FACE_PATCHES_MAX = FACE_NODES_MAX };
 
-// What of the history the faces are made of.
+// Arrays of the history that the faces are made of.
 typedef struct Faces {
     double *corner, *point;   // as history.h5 has them
     int32_t corners, count, width;
@@ -67,7 +67,7 @@ static void middle_of(const double a[2], const double b[2], double middle[2])
     for (int32_t d = 0; d < 2; ++d) middle[d] = (a[d] + b[d]) / 2;
 }
 
-// Of a triangle's side k, and in its middle.
+// Patch of corner k of a triangle; in a T6, of the node on side k.
 static void triangle_patch(const Face *face, int32_t k, double at[PATCH_CORNERS][2])
 {
     static const double centre[2] = {1.0 / 3, 1.0 / 3};

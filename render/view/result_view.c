@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is read is checked here once; the figures trust it.
+// Arrays are checked here once, when they are read; the figures trust them.
 #include "render/view/result_view.h"
 
 #include "base/memory.h"
@@ -103,7 +103,7 @@ static bool range_check(const ResultView *view, Error *err)
 
 enum { SLIP_COMPONENTS = 2 };   // in space
 
-// Of a vector, how large it is; of slip its part along the drive.
+// Magnitude of a vector; for slip its component along the drive.
 static double vector_value(ResultSeries series, const double *vector)
 {
     return series == SERIES_SLIP ? vector[0] : hypot(vector[0], vector[1]);

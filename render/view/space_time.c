@@ -112,7 +112,7 @@ static double slip_at(const SpaceTime *data, int32_t i, double U, int64_t *at)
     return slip[0] + part * (slip[data->nodes] - slip[0]);
 }
 
-// What is not finite stays not known.
+// Values that are not finite stay unknown.
 static void columns_mean(const SpaceTime *data, const PixelGrid *grid, float *by_column)
 {
     double width = (grid->U_high - grid->U_low) / grid->columns;

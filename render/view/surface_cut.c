@@ -98,7 +98,7 @@ static int32_t clip(const SpaceCut *cut, int32_t k, double sign, SurfacePoint *p
     return found;
 }
 
-// What all planes but `own` take away of it.
+// Clips the points to the part that all planes but `own` take away.
 static int32_t clip_to_taken(const SpaceCut *cut, int32_t own, SurfacePoint *points, int32_t count)
 {
     for (int32_t j = 0; j < cut->count && count > 1; ++j)

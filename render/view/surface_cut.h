@@ -13,10 +13,11 @@ bool space_cut_read(const char *words, SpaceCut *cut, Error *err);
 SurfacePoint surface_point_at(const Block *block, ElementKind kind, const int32_t *nodes,
                               const double *at);
 
-// What the cut leaves of a triangle of the boundary; where the cut goes through it an outline.
+// Adds the part of a boundary triangle that the cut leaves; where the cut goes through it, an
+// outline.
 bool surface_add_outside(const SurfacePoint corner[3], const SpaceCut *cut, Surface *surface,
                          Error *err);
-// What it leaves of a line between two points.
+// Adds the part of a line between two points that the cut leaves.
 bool surface_add_line(const SurfacePoint *two, const SpaceCut *cut, SurfaceParts *lines,
                       Error *err);
 // Plane k through all elements, as far as the other planes take away; and its edges with them.

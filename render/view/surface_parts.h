@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is seen of a block in space, as small triangles and lines. Used by surface, surface_cut and
+// Visible parts of a block in space, as small triangles and lines. Used by surface, surface_cut and
 // space_page.
 #ifndef AMONTONS_RENDER_VIEW_SURFACE_PARTS_H
 #define AMONTONS_RENDER_VIEW_SURFACE_PARTS_H

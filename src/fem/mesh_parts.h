@@ -20,7 +20,8 @@ void mesh_parts_destroy(MeshParts *parts);
 const char *mesh_part_text(const Mesh *mesh, const MeshParts *parts, int32_t part,
                            char text[PART_TEXT_SIZE]);
 
-// What to write in a scene to have the block alone: that part which has most groups of a block.
+// Text to write in a scene to have the block alone: it names the part that has most groups of a
+// block.
 const char *mesh_parts_advice(const Mesh *mesh, const MeshParts *parts, char text[PART_TEXT_SIZE]);
 
 // Sets ERROR_INPUT, with the parts and the advice; returns false.

@@ -88,7 +88,7 @@ double load_reference(const Scene *scene)
     return largest > 0 ? largest : 1;
 }
 
-// What is held needs no load, and what flies towards the plane has its momentum.
+// A block that is held needs no load, and a block that flies towards the plane has its momentum.
 static bool set_load(Model *model, Error *err)
 {
     const Scene *scene = model->scene;

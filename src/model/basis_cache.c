@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// Of `count` unknowns of `whole`; T = 1 where these are all.
+// Archives the images of `count` unknowns among `whole`; T = 1 where these are all.
 static void archive_images(Transform *by, int32_t count, int32_t whole, Archive *archive)
 {
     if (archive_fills(archive)) *by = (Transform){.size = whole, .count = count};
@@ -78,7 +78,7 @@ static void archive_basis(void *self, Archive *archive)
     reduced->full_dofs = dofs;
 }
 
-// Of a basis that is there.
+// Archives the modes of a basis that is there already.
 static void archive_modes(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;

@@ -28,7 +28,8 @@ static bool add_formula(const char *text, Interface *interface, Error *err)
 static bool reaches_over(const char *path, const char *axis, const double measured[2],
                          const double contact[2], Error *err)
 {
-    // Of positions, over the contact's length: a file may hold five digits, far less than a cell.
+    // Rounding of positions, over the contact's length: a file may hold five digits, and this is
+    // far less than a cell.
     static const double ROUNDING = 1e-4;
     double slack = ROUNDING * (contact[1] - contact[0]);
     if (measured[0] > contact[0] + slack || measured[1] < contact[1] - slack)

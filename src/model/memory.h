@@ -15,8 +15,8 @@ typedef struct MemorySizes {
 
 double memory_there(void);   // of this computer, or what a limit leaves of it, bytes
 
-// What a run takes at most, about, bytes: on the reduced block and its reduction, or on the whole
-// mesh. 0: not known, as on the whole mesh in the plane.
+// Estimate of the largest memory that a run takes, bytes: on the reduced block and its reduction,
+// or on the whole mesh. 0: not known, as on the whole mesh in the plane.
 double memory_expected(const MemorySizes *sizes, bool reduced);
 
 #endif

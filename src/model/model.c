@@ -19,7 +19,8 @@ void model_destroy(Model *model)
 
 _Static_assert(MATERIALS_MAX == SCENE_MATERIALS_MAX + 1, "a material for each region, and one");
 
-// Of the contact: a layer, or pads of one material, touch the floor where no other does.
+// Least part of the contact that the contact region must cover, so that a layer, or pads of one
+// material, touch the floor and no other material does.
 static const double FLOOR_PART = 0.9;
 
 static bool is_alike(const Material *a, const Material *b)
@@ -75,8 +76,8 @@ double model_slip_per_mu(const Model *model)
     return friction_slip(&one, pressure, model->height, model->materials.mean.young);
 }
 
-// Of the layer or the pads that the block stands on, where these have a material of their own; else
-// 0, as where they stand beside others.
+// Mean height of the layer or the pads that the block stands on, where these have a material of
+// their own; else 0, as where they stand beside others.
 static double floor_height(const Model *model)
 {
     const Materials *materials = &model->materials;

@@ -13,7 +13,7 @@
 #include "record/observation.h"
 #include "scene/scene.h"
 
-// What the strip covers of the face around the node at its end.
+// Part of the face around the strip's end node that the strip covers.
 typedef struct RodEnd {
     int32_t region[2];   // the material below the node and that above
     double below;   // which part of it is below, 1
@@ -79,7 +79,7 @@ double model_machine_yield(const Model *model);
 // caller.
 bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err);
 
-// What is behind the rod, for a BulkOperator of the model's interface.
+// Machine behind the rod, for a BulkOperator of the model's interface.
 Machine model_machine(const Model *model);
 
 // Where the rod touches a block of this height: the centre of its strip over the plane and its

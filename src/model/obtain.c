@@ -24,11 +24,11 @@
 #include <stdio.h>
 #include <string.h>
 
-// Of the interior's responses, in the energy norm.
+// Relative error of the interior's responses in the energy norm.
 static const double REDUCTION_TOLERANCES[] = {
     [ACCURACY_DRAFT] = 5e-2, [ACCURACY_STANDARD] = 2e-2, [ACCURACY_FINE] = 2e-3};
 
-// What happens inside of the block is asked for, not the interface alone.
+// Returns true if the scene asks for the inside of the block, not for the interface alone.
 static bool wants_modes(const Scene *scene)
 {
     return scene->output.fields || scene->output.whole;
@@ -205,7 +205,7 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     return true;
 }
 
-// Of what a basis depends on: its name in the cache, empty for none.
+// Names the basis in the cache by a hash of all that it depends on; empty for none.
 static void name_basis(const Model *model, const ReductionBlock *block, char name[HASH_TEXT_SIZE])
 {
     const Scene *scene = model->scene;
@@ -250,7 +250,7 @@ static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *blo
     return check_memory(model, parts, err);
 }
 
-// What velocities and times are measured with.
+// Sets the scales that velocities and times are measured with.
 static void set_scales(Model *model)
 {
     const Scene *scene = model->scene;

@@ -26,7 +26,7 @@ static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error 
     return error_is_clean(err);
 }
 
-// Of the elements of region k: 0 where there are none.
+// Mean width of the elements of region k; 0 where there are none.
 static double mean_width(const Model *model, int32_t k)
 {
     const Mesh *mesh = &model->mesh;

@@ -27,7 +27,7 @@ static Estimate lowest_branch(const Drops *drops, int32_t count)
     return (Estimate){lowest.low, (lowest.high - lowest.low) / 2};
 }
 
-// What a trend leaves open beside scatter.
+// Adds the error that a trend leaves beside scatter.
 static void add_ahead(const Regime *regime, Estimate *estimate)
 {
     estimate->error = hypot(estimate->error, regime->ahead * estimate->value);
@@ -113,7 +113,8 @@ Answers answers_of(const Drops *drops)
 
 // --- run.json -----------------------------------------------------------------------------------
 
-// Of the drops of one kind that count; by the number of pads that slid, then the lowest first.
+// Writes the branches of the drops of one kind that count; by the number of pads that slid, then
+// the lowest first.
 static void write_branches(const Drops *drops, DropKind kind, int32_t first, double tolerance,
                            JsonWriter *json)
 {
@@ -197,7 +198,7 @@ static void write_run_in(const Regime *regime, JsonWriter *json)
     json_end(json);
 }
 
-// Of the later half of the pad slidings: what the start left is gone by then.
+// Lowest mu in the later half of the pad slidings: the effect of the start is gone by then.
 static double lowest_pad_sliding(const Drops *drops)
 {
     int32_t count = drops_series(drops, DROP_PADS, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a run answers about the load ratio mu = F_T / F_N, defined here and nowhere else. The load
+// Answers of a run about the load ratio mu = F_T / F_N, defined here and nowhere else. The load
 // drops (record/drops) come to repeat with a period, or they do not (record/series): those of this
 // regime count, the start's do not.
 //   mu_M      macroscopic static friction coefficient: mean of the peaks before bulk sliding. In a

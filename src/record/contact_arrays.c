@@ -41,7 +41,7 @@ static uint8_t shown_status(const FrictionLaw *law, uint8_t status, double speed
     return friction_weakens(law, speed) ? 2 : 3;
 }
 
-// Of node i, its component c.
+// Reads component c of the slip of node i.
 static void read_slip(ContactArrays *arrays, const Observation *seen, int32_t i, int32_t c)
 {
     int32_t t = interface_unknown(seen->interface, i, c), k = arrays->tangents * i + c;
@@ -52,8 +52,8 @@ static void read_slip(ContactArrays *arrays, const Observation *seen, int32_t i,
     arrays->shear[k] = -seen->state->reaction[t] / seen->interface->weight[i];
 }
 
-// Of node i: formulas and plug-ins are looked at before the run in steady slip alone, and may fall
-// below 0 where it leads. Friction would then drive the block.
+// Refuses a negative coefficient at node i. Formulas and plug-ins are checked before the run in
+// steady slip alone, and may fall below 0 where the run leads. Friction would then drive the block.
 static bool check_coefficient(const ContactArrays *arrays, const Observation *seen, int32_t i,
                               Error *err)
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the contact nodes do in the step seen last, an array a quantity: what record/history writes
-// and a caller of amontons.h sees. Slip is a vector of as many components as there are tangents, x
-// first. The arrays stay where they are. A Recorder, before both.
+// State of the contact nodes in the step seen last, one array for each quantity. record/history
+// writes the arrays, and a caller of amontons.h sees them. Slip is a vector of as many components
+// as there are tangents, x first. The arrays stay where they are. This is a Recorder that runs
+// before both.
 #ifndef AMONTONS_RECORD_CONTACT_ARRAYS_H
 #define AMONTONS_RECORD_CONTACT_ARRAYS_H
 
@@ -30,7 +31,7 @@ bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
 void contact_arrays_destroy(ContactArrays *arrays);
 bool contact_arrays_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-// What slip is counted from; the arrays follow from the step that is recorded next.
+// Archives the origin of slip; the arrays follow from the step that is recorded next.
 void contact_arrays_archive(ContactArrays *arrays, Archive *archive);
 
 #endif

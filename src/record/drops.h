@@ -75,8 +75,8 @@ Drop drops_as(const Drops *drops, DropKind kind, int32_t k);
 // mu of the drops of one kind from number `first` of the list on, into drops->series, their kind
 // the number of pads that slid, with the contact's state. Returns how many they are.
 int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
-// Of the load drops from number `first` of the list on, the event before which the fewest cells
-// slipped on the pad where slow slip turned fast; NULL: no such drop.
+// Among the load drops from number `first` of the list on, finds the event before which the fewest
+// cells slipped on the pad where slow slip turned fast; NULL: no such drop.
 const Event *drops_least_resolved(const Drops *drops, int32_t first);
 
 bool drops_archive(Drops *drops, Archive *archive, Error *err);

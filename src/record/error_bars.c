@@ -8,10 +8,12 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Of mu, over the cells that slip where slow slip turns fast, or over nodes along the contact, if
-// that is more: what a mesh scatters by, and the way to ever smaller cells, before meshes tell.
-// From a tenth to ten times as much was met, on blocks as on pads (validation/benchmark/priors.md):
-// so that is worth no more than one level. In space the same holds (validation/space/priors.md).
+// Usual relative scatter of mu with the mesh, and usual distance to the limit of ever smaller
+// cells, before levels tell. Both are divided by the number of cells that slip where slow slip
+// turns fast (USUAL), or by the number of nodes along the contact (USUAL_LEAST); the larger
+// quotient counts. From a tenth to ten times as much was met, on blocks as on pads
+// (validation/benchmark/priors.md): so this knowledge counts as one level. In space the same holds
+// (validation/space/priors.md).
 static const double USUAL = 0.05, USUAL_LEAST = 0.2;
 enum { USUAL_LEVELS = 1 };
 static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh
@@ -110,7 +112,8 @@ static double spread_of_runs(const Levels *levels, int32_t from, AnswerKind kind
     return freedoms > 0 ? sqrt(square / freedoms) : (double)NAN;
 }
 
-// Of the mean over runs, from what each run knows of itself; a run that does not know counts as 0.
+// Error of the mean over runs, from the error that each run states; a run that states none counts
+// as 0.
 static double drops_part(const Level *level, AnswerKind kind)
 {
     double square = 0;
@@ -143,7 +146,8 @@ static double cells_of(const Level *level)
     return isnan(level->slip_cells) ? level->nodes_along - 1 : fmax(level->slip_cells, 0.5);
 }
 
-// Of the contact, by all meshes: on one of them the fewest may be those of an odd event.
+// Part of the contact that slips where slow slip turns fast, from all meshes that resolve slip: on
+// one of them the smallest part may belong to an unusual event.
 static double slipping_part(const Levels *levels)
 {
     double nodes = 0, cells = 0;
@@ -160,21 +164,21 @@ double levels_cells(const Levels *levels)
     return slipping_part(levels) * levels->list[levels->count - 1].nodes_along;
 }
 
-// Of a level's value, over `origin`.
+// Scatter of a level's value, relative to `origin`.
 static double scatter_of(const Level *level, double usual, double origin)
 {
     return hypot(usual / level->nodes_along, level->end_wait / origin);
 }
 
-// Of a level's mean, from its spread over branches.
+// Variance of a level's mean, from the spread of its runs over branches.
 static double variance_of_runs(const Level *level, double spread)
 {
     return isnan(spread) ? 0 : spread * spread / level->run_count;
 }
 
-// What the levels say together: value = a + b / n on n nodes along the contact, each level off by a
-// scatter that falls like 1 / n, and by what its few runs leave of their spread over branches; b is
-// about 0, as far as what is usual, before anything is known.
+// Fit through all levels: value = a + b / n for n nodes along the contact. Each level is off by a
+// scatter that falls like 1 / n, and by the part of the spread over branches that its few runs
+// leave. Before anything is known, b is about 0 within the usual size.
 typedef struct Limit {
     double value;   // a: in the limit of ever smaller cells
     double mesh;   // of a, 95 %, from scatter and b; NaN: one level

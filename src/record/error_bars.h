@@ -102,14 +102,15 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of th
 // Levels that count: damped ones whose runs all have such an answer, at whose drops the same pads
 // slide as on the last, and whose last nodes do not hold the block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
-// Of cell size from the last level to one that is twice as fine as the coarsest of these. A bar is
-// met by no less: neighbours agree by chance, and on what only coarse meshes do.
+// Ratio of cell sizes from the last level to one that is twice as fine as the coarsest of these. A
+// bar needs at least this span: neighbours agree by chance, and coarse meshes alone agree on a
+// value that only they have.
 double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left
 // Likewise to one that is four times as fine as the first, where coarse meshes may all have other
 // drops than fine ones: on several pads, and where levels differ in it. 1: none is left, or needed.
 double levels_confirm_left(const Levels *levels);
 
-// Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
+// Value from the level's own runs: mean of mu_M, lowest mu_hold; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);
 
 // That slip on the last level where slow slip turns fast, by the part of the contact that does on
@@ -123,8 +124,8 @@ bool levels_run_in(const Levels *levels);
 // How far the answer of all levels is known: the bar, or what the last mesh alone usually leaves.
 double levels_known_to(const Levels *levels, AnswerKind kind);
 
-// What one mesh alone, without its runs, usually leaves open, and what the drops of a run leave:
-// into how far answers are known. NaN: nothing is known.
+// Sets how far the answers are known: the error that one mesh alone usually leaves, together with
+// the error that the drops of a run leave. NaN: nothing is known.
 void level_answer_for(const Level *level, Answers *answers);
 
 // Puts value, error and parts of both answers in the place of those of one run; without any whole
@@ -132,8 +133,8 @@ void level_answer_for(const Level *level, Answers *answers);
 // not known the last mesh alone says how far answers are.
 void levels_answer_for(const Levels *levels, Answers *answers);
 
-// Of the last three levels, for the asked answer: ln(difference before / last difference) over ln
-// of the last cell sizes' ratio; NaN: not three levels.
+// Order of convergence from the last three levels, for the asked answer: ln(difference before /
+// last difference) over ln of the last cell sizes' ratio; NaN: not three levels.
 double levels_order(const Levels *levels);
 
 void levels_write_json(const Levels *levels, JsonWriter *json);   // one object, `accuracy`

@@ -60,7 +60,7 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     json_end(json);
 }
 
-// Of none all are null.
+// All values are null if no run was cut.
 static void write_cut(const LevelCut *cut, JsonWriter *json)
 {
     static const LevelCut none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};

@@ -134,7 +134,7 @@ static void end_slow(Events *events, const Interface *interface)
     events->slow = -1;
 }
 
-// What is known of a rapid event once it is over.
+// Sets the values of a rapid event that are known only when it is over.
 static void end_rapid(Events *events, const Interface *interface)
 {
     Event *event = &events->list[events->rapid];
@@ -346,7 +346,7 @@ bool events_record(void *self, const Observation *seen, Error *err)
     return followed;
 }
 
-// What is still under way ends with the run; its last step is `last`.
+// Events that are still under way end with the run; its last step is `last`.
 void events_close(Events *events, const Observation *last)
 {
     if (!events->list) return;   // the run failed before they were created

@@ -81,7 +81,7 @@ typedef struct Events {
 extern const double LEAST_RAPID;
 
 const char *event_name(EventKind kind);   // static storage
-// Of a kind as history.h5 has it; "unknown": it is none. Static storage.
+// Name of a kind as history.h5 stores it; "unknown": it is none. Static storage.
 const char *event_words(double stored);
 
 // rate_scale: the rod's velocity, or what else quasi-static slip goes at; rapid is twice that.

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-// Of a point: points that follow the nodes stand where materials meet (fem/recovery).
+// Node of a point: points that follow the nodes stand where materials meet (fem/recovery).
 static int32_t node_of(const FieldFiles *files, int64_t point)
 {
     int32_t nodes = files->mesh->node_count;
@@ -54,7 +54,7 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
 
 enum { VTK_LINE_CELL = 3, VTK_TRIANGLE_CELL = 5, VTK_QUAD_CELL = 9, FACE_CELLS_MAX = 4 };
 
-// Of points by their numbers among those of a face; whole: in their order.
+// Adds a cell of points by their numbers among those of a face; whole: in their order.
 static void add_cell(FieldCells *line, const int32_t *points, const uint8_t *which, int32_t count)
 {
     static const uint8_t types[] = {[2] = VTK_LINE_CELL, VTK_TRIANGLE_CELL, VTK_QUAD_CELL};
@@ -168,8 +168,8 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
     return field_file_write(path, &grid, err);
 }
 
-// What belongs to a point: its own, and of a corner that touches nothing the mean of the points
-// beside it on its faces. values: [line_point_count * components], known at the contact nodes.
+// Sets the value of each corner that touches nothing to the mean of the two points beside it, on
+// the last face that has it. values: [line_point_count * components], known at the contact nodes.
 static void fill_corners(const FieldFiles *files, int32_t components, double *values)
 {
     const ContactFaces *faces = files->faces;

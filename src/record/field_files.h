@@ -24,7 +24,7 @@ typedef struct FieldCells {
     uint8_t *types;   // [cell_count]
 } FieldCells;
 
-// What every time of a mesh shares, and room for one.
+// Data that all times of a mesh share, and work arrays for one time.
 typedef struct FieldFiles {
     const Mesh *mesh;   // not owned
     const Material *materials;   // not owned; the caller's to set, before the first file
@@ -37,7 +37,7 @@ typedef struct FieldFiles {
     double *line_values;   // [FIELD_LINE_ARRAYS * line points * 3] work
 } FieldFiles;
 
-// Of the whole mesh. Nothing is owned.
+// State of the whole mesh. Nothing is owned.
 typedef struct FieldState {
     const double *displacement, *velocity;   // [dim * nodes]
     double time;

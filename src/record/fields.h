@@ -19,7 +19,7 @@ typedef struct FieldsDef {
 
 enum { FIELD_SLOTS = 8 };
 
-// What the writer needs of one time.
+// Data of one time that the writer needs.
 typedef struct FieldTimeCopy {
     double *storage;   // of all that follows; owned
     double *unknowns[2];   // [dof_count] displacement and velocity of the system that is stepped

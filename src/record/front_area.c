@@ -19,7 +19,8 @@ static Place point_place(const Interface *interface, int32_t point)
     return (Place){corner[0], corner[1]};
 }
 
-// Of a face by its corners, which are the first of its points: three of 3 or 6, four of 4 or 9.
+// Area of a face from its corners, which are the first of its points: three of 3 or 6, four of 4 or
+// 9.
 static double face_area(const Interface *interface, const int32_t *point, int32_t count)
 {
     int32_t corners = count % 3 == 0 && count < 9 ? 3 : 4;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is read off an accepted step, once, for all recorders: forces, front, rates, and how well
-// the step keeps its balances. It is handed to them in the order in which they were added: events
-// first (the others read them), then drops, pads, history, fields, the caller.
+// Quantities of an accepted step, computed once for all recorders: forces, front, rates, and how
+// well the step keeps its balances. The recorders get them in the order in which they were added:
+// events first (the others read them), then drops, pads, history, fields, the caller.
 #ifndef AMONTONS_RECORD_OBSERVATION_H
 #define AMONTONS_RECORD_OBSERVATION_H
 
@@ -41,7 +41,7 @@ typedef struct Observation {
     double equation_error;   // largest residual of M a + C v + K u = f + r, relative to F_N
 } Observation;
 
-// What the observation is measured against.
+// Scales that the observation is measured against.
 typedef struct ObservationScales {
     double load;   // F_N, force/width
     double length;   // L, length
@@ -50,7 +50,7 @@ typedef struct ObservationScales {
     double slip_velocity;   // velocity
 } ObservationScales;
 
-// What node i does, as events, fronts and pictures count it.
+// Status of node i as events, fronts and pictures count it: slow creep counts as stick.
 static inline uint8_t seen_status(const Observation *seen, int32_t i)
 {
     uint8_t status = seen->state->status[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What one accepted step shows of each pad: forces and slip, summed over its nodes. Asked by
-// record/events, record/pads and record/history.
+// Forces and slip of each pad in one accepted step, summed over its nodes. Called by record/events,
+// record/pads and record/history.
 #ifndef AMONTONS_RECORD_PAD_SUMS_H
 #define AMONTONS_RECORD_PAD_SUMS_H
 

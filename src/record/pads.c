@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a pad does is seen from two marks of each contact node: it has stuck since the last sliding,
-// and it has slipped since it stuck. A pad is detached when each of its nodes has slipped or is
-// open, and at least one of them has slipped: a lifted corner holds nothing, whether or not it ever
-// stuck. A pad slips rapidly between the rates at which record/events begins and ends rapid events,
-// so that the same thresholds hold for pads and block.
+// The state of a pad follows from two marks of each contact node: it has stuck since the last
+// sliding, and it has slipped since it stuck. A pad is detached when each of its nodes has slipped
+// or is open, and at least one of them has slipped: a lifted corner holds nothing, whether or not
+// it ever stuck. A pad slips rapidly between the rates at which record/events begins and ends rapid
+// events, so that the same thresholds hold for pads and block.
 #include "record/pads.h"
 
 #include "base/memory.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What each pad does between two slidings: what it carries when mu is largest, when
-// it first slips, when all of it has, in what order pads detach, and how much of a pad slips slowly
-// before its slip turns fast (events in which whole pads slid: record/drops). Fed after
-// record/events; written by run/report, a pad an object of results.pads. The course of loads and
-// slip over all steps is in history.h5 (pads/...).
+// Course of each pad between two slidings: its loads when mu is largest, when it first slips, when
+// all of it has slipped, in what order pads detach, and how much of a pad slips slowly before its
+// slip turns fast (events in which whole pads slid: record/drops). Fed after record/events; written
+// by run/report, a pad an object of results.pads. The course of loads and slip over all steps is in
+// history.h5 (pads/...).
 #ifndef AMONTONS_RECORD_PADS_H
 #define AMONTONS_RECORD_PADS_H
 

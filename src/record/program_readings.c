@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// Of mu: a level that is known no better is none. As in record/steady.
+// Range of mu, relative to mu: a level with a larger error is not accepted. As in record/steady.
 static const double STEADY_RANGE = 2e-3;
 // Relative; steps end at points up to rounding.
 static const double REACHED = 3e-12;
@@ -20,7 +20,8 @@ bool program_jumps(const RodCourse *course)
 
 // --- what a stretch shows -----------------------------------------------------------------------
 
-// Of mu in the bins where slip is from `from` to `to`, and in the one before, as steps may be long.
+// Range of mu in the bins where slip is from `from` to `to`, and in the bin before, as steps may be
+// long.
 static void range_of(const ProgramStretch *stretch, double from, double to, double range[2])
 {
     range[0] = INFINITY;
@@ -46,8 +47,9 @@ static Estimate level_of(const ProgramStretch *stretch)
     return error <= STEADY_RANGE * fabs(middle) ? (Estimate){middle, error} : NONE;
 }
 
-// What nodes that are not quite at the rod's velocity do to the direct effect (mu may be steeper
-// there than on the way), and the length of the step behind a peak to that.
+// Error of the reference point. After a velocity step it comes from nodes that are not quite at the
+// rod's velocity (mu may be steeper there than on the way); after a hold, from the length of the
+// step behind the peak.
 static double top_error(const ProgramStretch *stretch)
 {
     const ProgramReading *reading = &stretch->reading;
@@ -81,7 +83,7 @@ static Estimate distance_of(const ProgramStretch *stretch, const Estimate *after
     return NONE;
 }
 
-// Of the stretch as far as it was seen.
+// Reads the stretch as far as it was seen.
 static ProgramReading read_stretch(const ProgramStretch *stretch)
 {
     ProgramReading reading = stretch->reading;
@@ -100,7 +102,7 @@ static ProgramReading read_stretch(const ProgramStretch *stretch)
 
 // --- steps --------------------------------------------------------------------------------------
 
-// What kind of reading a stretch is that follows `old` with a jump from `v` to `next`.
+// Begins the reading of a stretch that follows `old` with a jump from velocity `v` to `next`.
 static ProgramReading begin_reading(const ProgramStretch *old, double v, double next)
 {
     ProgramReading reading = {.kind = READING_NONE, .before = NONE, .velocity = next};

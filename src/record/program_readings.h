@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What an experiment reads off a rod that changes its velocity at once: velocity steps, and
+// Readings of an experiment in which the rod changes its velocity at once: velocity steps and
 // slide-hold-slide. mu here is the friction of the contact, its shear over its normal force:
 // F_T/F_N without the block's inertia, since on a rigid drive a jump is a blow. Slip is the mean of
 // the contact.
@@ -37,8 +37,8 @@ typedef struct ProgramReading {
     Estimate distance;   // length; NaN: not known
 } ProgramReading;
 
-// What a level is compared with. After a velocity step: the first step in which all of the contact
-// has the rod's velocity; after a hold: the first largest mu.
+// Reference point that a level is compared with. After a velocity step it is the first step in
+// which all of the contact has the rod's velocity; after a hold it is the first largest mu.
 typedef struct ProgramTop {
     double mu, slip;   // slip since the jump, length; mu NaN: none yet
     double off;   // largest |ln(v/V)| of a node; of a hold: how far mu falls in the step behind

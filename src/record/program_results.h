@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the readings of a run come to (record/program_readings): a, a - b and the slip distance by
-// all velocity steps, and healing per decade of time held, by a straight line: its error is the
-// standard error of the line, and what the errors of the healings can do to its slope. Called by
-// run/report and run/summary.
+// Results from the readings of a run (record/program_readings): a, a - b and the slip distance from
+// all velocity steps, and healing per decade of time held, from a straight line. The error of the
+// healing combines the standard error of the line and the change of slope that the errors of the
+// readings allow. Called by run/report and run/summary.
 #ifndef AMONTONS_RECORD_PROGRAM_RESULTS_H
 #define AMONTONS_RECORD_PROGRAM_RESULTS_H
 

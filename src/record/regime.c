@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-// Of the drive's way over the drops that count: a stretch that lags by more is left behind. What
-// sticks lags by all of it; in a regime it is no more than scatter, over several rounds.
+// Part of the drive's way over the drops that count: a stretch that lags by more is left behind. A
+// stretch that sticks lags by all of it; in a regime the lag is only scatter, over several rounds.
 static const double LAG = 0.25;
 enum { TREND_DROPS = 8 };   // that a drift is told from while parts stick
 

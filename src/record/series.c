@@ -35,8 +35,8 @@ typedef struct Agreement {
     int32_t parts;   // of a state
 } Agreement;
 
-// What a load is shared out by can change by twice the tolerance: so much leaves one part and comes
-// to another.
+// The parts of a load may change by twice the tolerance in sum: a change leaves one part and
+// appears in another.
 static bool agree(const SeriesItem *item, const SeriesItem *later, const Agreement *asked)
 {
     double allowed = asked->tolerance * fabs(later->value), moved = 0;

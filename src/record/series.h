@@ -48,15 +48,16 @@ SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, 
 // From its scatter, by Student's 95 %.
 bool series_trend_stands_out(const SeriesTrend *trend);
 
-// Of the means of three times `third` items, the last difference over the one before.
+// Means are taken over three successive groups of `third` items. Returns the last difference of two
+// neighbouring means, over the difference before it.
 double series_fading(const SeriesItem *items, int32_t third);
 
-// What a normal variable's mean is off by, 95 %, in standard errors that are known by so many
-// degrees of freedom; infinite below 1.
+// Half width of the 95 % confidence interval of a normal variable's mean, in standard errors that
+// are estimated with so many degrees of freedom (Student's t); infinite below 1.
 double student(int32_t freedoms);
 
-// Of `count` items in the order in which they came, which are whole rounds of `round` items each;
-// 1: they do not repeat.
+// Estimates from `count` items in the order in which they came. They are whole rounds of `round`
+// items each; 1: they do not repeat.
 Estimate series_mean(const SeriesItem *items, int32_t count, int32_t round);
 Estimate series_lowest_decile(const SeriesItem *items, int32_t count);
 

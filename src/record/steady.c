@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// Of mu: twice what the steps of a standard run leave open.
+// Range of mu, relative to mu: twice the error that the steps of a standard run leave.
 static const double STEADY_RANGE = 2e-3;
 
 static const Estimate NONE = {NAN, NAN};
@@ -23,7 +23,7 @@ static bool all_slips(const Steady *steady, const Observation *seen)
     return slipping > 0 && steady->events->rapid < 0;
 }
 
-// Of the way since `from`, if it is long enough.
+// Mean of mu over the way since `from`, if it is long enough.
 static Estimate since(const Steady *steady)
 {
     double way = steady->to - steady->from;

@@ -27,7 +27,7 @@ Estimate steady_mu(const Steady *steady);
 // Where no bulk sliding counts mu_M is that of steady sliding, its error half the range in which it
 // keeps; other meshes have another, as with load drops.
 void steady_answer(const Steady *steady, Answers *answers);
-// What mu_M is: "peaks", "steady sliding", or "none: " and why.
+// The meaning of mu_M: "peaks", "steady sliding", or "none: " and why.
 const char *steady_words(const Steady *steady, const Answers *answers);   // static storage
 // Into results: mu_M_is, mu_steady, its error and from where on.
 void steady_write_json(const Steady *steady, const Answers *answers, JsonWriter *json);

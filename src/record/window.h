@@ -22,7 +22,7 @@ typedef struct Window {
     const Events *events;   // not owned
     Recorders inside, outside;
     int32_t steps;   // handed on inside
-    // Of around and last:
+    // The fields below serve `around` and `last`.
     int32_t slidings;   // that have ended
     bool slides, ended;   // the rapid event under way is a sliding; one ended in the step seen last
     double before, onset;   // time of the step seen last; of the one before the rapid event

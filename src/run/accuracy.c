@@ -103,8 +103,8 @@ static bool has_time_for_level(const Accuracy *accuracy, double step)
     return level_seconds(accuracy, step) + more <= accuracy_seconds_left(accuracy);
 }
 
-// Of cell size, to the mesh that puts a bar to the test: where pads may slide otherwise on finer
-// meshes the farther one, if there is time for it. 1: none is left.
+// Ratio of cell sizes to the mesh that puts a bar to the test: the farther one where pads may slide
+// otherwise on finer meshes, if there is time for it. 1: none is left.
 static double span_left(const Accuracy *accuracy)
 {
     double left = levels_span_left(&accuracy->levels, accuracy->levels.asked);
@@ -112,8 +112,9 @@ static double span_left(const Accuracy *accuracy)
     return far > left && has_time_for_level(accuracy, far) ? far : left;
 }
 
-// Of cell size to the next level: from the third on one that resolves slip, by what all tell, or
-// that puts a bar to the test which is short enough.
+// Ratio of cell sizes to the next level. From the third level on it is large enough that slip has
+// enough cells there, as all levels tell, but at most STEP_SPLIT; or it leads to the mesh that
+// tests a bar which is short enough.
 static double next_step(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;

@@ -189,7 +189,7 @@ static void expect_full(Accuracy *accuracy, const Simulation *simulation, double
     accuracy->stepping = way * stepping;
 }
 
-// Of a run that was stopped: no error where it was time that stopped it.
+// Notes a run that was stopped. This is an error only if the caller stopped it, not if time did.
 static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *err)
 {
     const volatile sig_atomic_t *stop = accuracy->options->stop;

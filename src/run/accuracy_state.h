@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the parts of a search for an error bar share: run/accuracy goes from mesh to mesh,
-// run/accuracy_member does one run. amontons.h declares what the caller sees.
+// State that the parts of a search for an error bar share: run/accuracy goes from mesh to mesh,
+// run/accuracy_member does one run. amontons.h declares the part that the caller sees.
 //
-// Time (accuracy.within) ends a search inside a run. Of what is given a part is kept for the run in
-// full on the last mesh that has a whole one; not begun is a run, or a mesh, that would take longer
-// than what is left before, by the forecast. What was cut short has no part in the bar. Where it
-// was the first run of all, its own answers stand, without a bar.
+// Time (accuracy.within) ends a search inside a run. A part of this time is kept for the run in
+// full on the last mesh that has a whole one. A run, or a mesh, is not begun if the forecast says
+// that it takes longer than the time left before that. A run that was cut short has no part in the
+// bar. If it was the first run of all, its own answers stand, without a bar.
 #ifndef AMONTONS_RUN_ACCURACY_STATE_H
 #define AMONTONS_RUN_ACCURACY_STATE_H
 
 #include "record/error_bars.h"
 #include "run/simulation_state.h"
 
-// Of cell size from level to level, where cells can only be halved: no .geo with `refine`; and at
-// most, where the last mesh does not resolve slip.
+// Ratio of cell sizes from level to level where cells can only be halved (no .geo with `refine`),
+// and the largest ratio where the last mesh does not resolve slip.
 enum { STEP_SPLIT = 2 };
 
 typedef struct Accuracy {
@@ -40,7 +40,7 @@ int32_t accuracy_runs_first(const Accuracy *accuracy);
 double accuracy_full(const Accuracy *accuracy, double times);
 // For runs behind the bar, s: what the run in full needs is kept back. INFINITY: no limit.
 double accuracy_seconds_left(const Accuracy *accuracy);
-// What more slidings could still change is a small part of the bar wanted.
+// Returns true if the change that more slidings could make is a small part of the bar wanted.
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
 // One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the

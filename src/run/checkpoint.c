@@ -85,8 +85,8 @@ typedef struct HistoryTry {
     const HistoryEnd *end;
 } HistoryTry;
 
-// In a process of its own, which ends without writing, its chunks are looked up too, by cutting it.
-// Of a window that the run has not come to it has no row.
+// Cuts the history in a child process, which ends without writing: this looks up its chunks, too. A
+// history has no row in a window that the run has not reached.
 static bool try_history(void *context, FILE *reply, Error *err)
 {
     const HistoryTry *try = context;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The explicit scheme in the place of step control: central differences on the full mesh
 // (stepping/explicit_reference). RECORDS states are recorded, and while slip is rapid as many as
-// with implicit steps, whatever the length of the run. Recorders see the same state as with these;
-// what only those have (rungs, error control) stands still.
+// with implicit steps, whatever the length of the run. Recorders see the same state as with
+// implicit steps; parts that only those have (step-size levels, error control) stand still.
 #include "run/explicit_loop.h"
 
 #include "stepping/stable_step.h"

@@ -4,9 +4,9 @@
 // explicit step that would take longer than many a run; so both schemes start from one state of
 // rest.
 //
-// What the recorders see as one step is one recording interval, many explicit steps long, so that
-// recording is not what a benchmark measures. RunCounters.accepted counts the explicit steps, and
-// run.json's `rungs` has one entry, the explicit step size. Called by run/simulation.
+// Recorders see one recording interval, many explicit steps long, as one step, so that a benchmark
+// does not measure the recording. RunCounters.accepted counts the explicit steps, and run.json's
+// `rungs` has one entry, the explicit step size. Called by run/simulation.
 #ifndef AMONTONS_RUN_EXPLICIT_LOOP_H
 #define AMONTONS_RUN_EXPLICIT_LOOP_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the runs behind an error bar (run/accuracy) change of their scene: its mesh and its loads.
+// Changes that the runs behind an error bar (run/accuracy) make to their scene: mesh and loads.
 #ifndef AMONTONS_RUN_LEVEL_SCENE_H
 #define AMONTONS_RUN_LEVEL_SCENE_H
 

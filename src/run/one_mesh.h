@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the mesh of one run tells of the error that it leaves. Called by run/simulation for a run
-// that stands alone, and by run/accuracy_member for those behind an error bar.
+// Error that the mesh of one run leaves, as far as this run tells it. Called by run/simulation for
+// a run that stands alone, and by run/accuracy_member for those behind an error bar.
 #ifndef AMONTONS_RUN_ONE_MESH_H
 #define AMONTONS_RUN_ONE_MESH_H
 
@@ -12,9 +12,9 @@ void one_mesh_read(const Simulation *simulation, Level *level);
 // How far the answers of this run alone are known.
 void one_mesh_answer(const Simulation *simulation, Answers *answers);
 
-// What the last nodes of the contact add to mu. Slow slip grows from the trailing end; where its
-// front comes to the last nodes of the leading end before the block slides, these hold the block on
-// while mu rises, and by how much depends on their size: shorter cells let go sooner
+// Increase of mu by the last nodes of the contact. Slow slip grows from the trailing end; where its
+// front comes to the last nodes of the leading end before the block slides, these hold the block
+// while mu rises. The rise depends on their size: shorter cells let go sooner
 // (validation/paper/README.md). The rise from when the front comes to them until the block slides
 // is an error of the mesh. In space a row of nodes lets go one by one, and bars hold without this
 // (validation/space/priors.md). Watched after each step.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a scene asks to be written: recorders are opened before t = 0, pictures drawn from the
+// Output that a scene asks for: recorders are opened before t = 0, pictures are drawn from the
 // finished history.
 #include "run/output.h"
 
@@ -92,7 +92,7 @@ static bool open_history(Simulation *simulation, Error *err)
                     [NUMBER_LOAD] = simulation->model.scales.load,
                     [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
                     [NUMBER_CRITICAL_VELOCITY] = simulation->model.law.critical_velocity,
-                    // Of what never sticks they are scales, not levels to draw.
+                    // For a law under which nothing sticks they are scales, not levels to draw.
                     [NUMBER_MU_STATIC] = creeps ? NAN : simulation->model.law.mu_static,
                     [NUMBER_MU_KINETIC] = creeps ? NAN : simulation->model.law.mu_kinetic,
                     [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
@@ -202,7 +202,7 @@ void output_warn_of_window(Simulation *simulation)
                      simulation->seen.U, simulation->seen.t);
 }
 
-// What was to be written in a window that the run did not come to is not drawn; the run was warned.
+// A picture of a window that the run did not reach is not drawn; the run was warned.
 static bool has_data(const Simulation *simulation, const char *figure)
 {
     const Window *window = &simulation->window;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a scene asks to be written, opened as recorders or drawn at the end. Called by
-// run/simulation; what is not asked for is never called.
+// Output that a scene asks for, opened as recorders or drawn at the end. Called by run/simulation;
+// output that is not asked for is never called.
 #ifndef AMONTONS_RUN_OUTPUT_H
 #define AMONTONS_RUN_OUTPUT_H
 

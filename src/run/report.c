@@ -34,7 +34,8 @@ static void write_steps(JsonWriter *json, const RunCounters *counters)
     json_end(json);
 }
 
-// What rounds: OpenBLAS's kernels, and those that this processor could run.
+// Rounding depends on the kernels: writes those of OpenBLAS, and those that this processor could
+// run.
 static void write_kernels(JsonWriter *json)
 {
     json_begin_object(json, "kernels");

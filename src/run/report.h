@@ -6,7 +6,7 @@
 
 #include "run/simulation_state.h"
 
-// What there is to say of a simulation beyond what it holds. Nothing is owned.
+// Data of a report beside the simulation itself. Nothing is owned.
 typedef struct RunReport {
     const Simulation *simulation;
     const Error *failure;   // NULL: done

@@ -5,9 +5,10 @@
 //     "amontons-state, reduced"  computation  identity  time, end of the history
 //     { parts of the state }  checksum
 //
-// What can be made again from the scene is not saved: mesh, matrices, the rungs' factors. What
-// depends on rounding in the past is: factors that the next step may use again, the order of sweeps
-// (contact/contact_matrix), products that are carried on (stepping/state).
+// Data that can be made again from the scene is not saved: mesh, matrices, the factors of the
+// step-size levels. Data that depends on earlier rounding is saved: factors that the next step may
+// use again, the order of sweeps (contact/contact_matrix), products that are carried on
+// (stepping/state).
 #include "run/saved_state.h"
 
 #include "base/clock.h"
@@ -30,7 +31,8 @@ enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
 
 // --- of what ------------------------------------------------------------------------------------
 
-// What may differ: how far it goes, and what is only shown of it.
+// Returns false for keys that may differ: how far the run goes, what is only shown, and names of
+// files whose contents are compared instead.
 static bool key_counts(const char *key)
 {
     static const char *const free[] = {"title",           "mesh.file",       "friction.file",
@@ -230,7 +232,7 @@ bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err)
     return save(simulation, false, state, err);
 }
 
-// What the state's archive holds, checked as a whole.
+// Opens the archive in the state and checks it as a whole.
 static bool open_archive(const SavedState *state, Archive *archive, Error *err)
 {
     Hash hash = hash_start();
@@ -276,7 +278,7 @@ bool amontons_simulation_restore(Simulation *simulation, const SavedState *state
     return steering_is_open(simulation, err) && restore(simulation, true, state, err);
 }
 
-// What it allocates is not the loop's.
+// Its allocations do not count as those of the loop.
 bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
 {
     int64_t before = simulation_allocations(simulation);

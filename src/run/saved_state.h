@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a state of a simulation consists of, in one list, and whether a saved one belongs to it. The
-// functions that save and restore are public: amontons_simulation.h.
+// Parts of a simulation's state, in one list, and the check whether a saved state belongs to it.
+// The functions that save and restore are public: amontons_simulation.h.
 #ifndef AMONTONS_RUN_SAVED_STATE_H
 #define AMONTONS_RUN_SAVED_STATE_H
 

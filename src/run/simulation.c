@@ -101,7 +101,7 @@ static bool record_step(Simulation *simulation, Error *err)
     errors->complementarity = fmax(errors->complementarity, seen.contact_error);
     errors->penetration = fmax(errors->penetration, seen.penetration);
     errors->equation = fmax(errors->equation, seen.equation_error);
-    // What supports take up is not known here: no balance of moments with them.
+    // The forces of supports are not known here, so no balance of moments is checked with them.
     bool balances = simulation->scene.load.support_count == 0;
     if (balances && control->counters.accepted > 0)
         errors->moment = fmax(errors->moment, seen.moment_error);
@@ -186,8 +186,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What a scene must have to be run; claims the folder, and reads the checkpoint where it is to go
-// on from one.
+// Checks what a scene must have to be run; claims the folder, and reads the checkpoint where the
+// run is to be continued from one.
 static bool accept(Simulation *simulation, SavedState *state, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -283,8 +283,9 @@ static bool simulation_has_event(const Simulation *simulation)
     return slid || simulation->mu_fell;
 }
 
-// What is left is less than a rung that is built: not worth a factorisation. The periodic regime is
-// looked at only when an event has ended.
+// A run is also finished if the time that is left is shorter than every step size whose matrices
+// are factored: a new factorisation is not worth it. The periodic regime is looked at only when an
+// event has ended.
 bool simulation_is_finished(const Simulation *simulation)
 {
     const StepControl *control = &simulation->control;
@@ -354,8 +355,8 @@ Answers simulation_answers(const Simulation *simulation)
     return answers;
 }
 
-// Of several meshes and runs, where there are; of this run else. *least: the load drop that counts
-// before which the fewest cells slipped; NULL: none.
+// Answers of several meshes and runs, where there are such; else of this run. *least: the load drop
+// that counts before which the fewest cells slipped; NULL: none.
 static Answers answers_to_report(const Simulation *simulation, const Event **least)
 {
     Answers answers = simulation_answers(simulation);

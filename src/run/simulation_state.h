@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the stages of a simulation share. run/simulation is the list of stages; amontons.h declares
-// what the caller sees.
+// State that the stages of a simulation share. run/simulation is the list of stages; amontons.h
+// declares the part that the caller sees.
 #ifndef AMONTONS_RUN_SIMULATION_STATE_H
 #define AMONTONS_RUN_SIMULATION_STATE_H
 
@@ -93,7 +93,7 @@ static inline int64_t simulation_allocations(const Simulation *simulation)
     return memory_counters().allocations - simulation->control.ladder.allocations;
 }
 
-// What amontons_run and run/accuracy are made of, beside the pieces in amontons.h.
+// These functions make up amontons_run and run/accuracy, beside the pieces in amontons.h.
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
 bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
                           Simulation **simulation, Error *err);

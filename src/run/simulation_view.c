@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a caller of amontons.h may look at between two steps.
+// Quantities that a caller of amontons.h may read between two steps.
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "run/simulation_state.h"

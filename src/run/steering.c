@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a caller of amontons.h may change between two steps. The energy ledger needs nothing of it:
-// work is summed over the stages with the velocity and the load that act in them.
+// Changes that a caller of amontons.h may make between two steps. The energy ledger does not depend
+// on them: work is summed over the stages with the velocity and the load that act in them.
 #include "base/decimal_point.h"
 #include "run/simulation_state.h"
 #include "base/clock.h"

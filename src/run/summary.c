@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a run came to, for amontons.h: counters from the parts that keep them, phases with their
-// times, answers. Nothing is computed here that is not known already.
+// Results of a run for amontons.h: counters from the parts that keep them, phases with their times,
+// answers. Nothing is computed here that is not known already.
 #include "run/summary.h"
 
 #include "base/decimal_point.h"

@@ -6,11 +6,11 @@
 // S_C of one node hardly depends on the mesh and w_i shrinks with it, so this is a matter of
 // element size: above it l_sc is shorter than an element.
 //
-// What is seen only in the run is whether the length over which slip runs away, on whichever pad
-// it does, has cells enough. Of 48 blocks, pads and grooves (46 of set A, 2 of set B; those of
-// validation/pads and Figure 1) on a mesh and on one of half the size, mu_hold moved by more than
-// 0.7 % in 15 of 20 with fewer than 8 cells there (median 0.9 %, largest 3.9 %), and in 7 of 28
-// with more (median 0.3 %, largest 3.2 %).
+// Only the run shows whether the length over which slip runs away, on whichever pad it does, has
+// enough cells. Of 48 blocks, pads and grooves (46 of set A, 2 of set B; those of validation/pads
+// and Figure 1) on a mesh and on one of half the size, mu_hold moved by more than 0.7 % in 15 of 20
+// with fewer than 8 cells there (median 0.9 %, largest 3.9 %), and in 7 of 28 with more (median 0.3
+// %, largest 3.2 %).
 #include "run/warnings.h"
 
 #include "friction/friction_start.h"
@@ -113,9 +113,9 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings)
                      least, coarse, count);
 }
 
-// Of the displacement gradient. What the theory of small strains leaves out, half its square in the
-// strains and its first power in where forces act, is such a part of what it has: at 5 % more than
-// any error bar that a run gives.
+// Largest displacement gradient without a warning. The theory of small strains leaves out half its
+// square in the strains and its first power in where forces act, relative to what it keeps: at 5 %
+// this is more than any error bar that a run gives.
 static const double GRADIENT_SMALL = 0.05;
 
 // Across how much of the block's length, in space of its floor, region k takes the load.
@@ -159,8 +159,8 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
         100 * material_gradient(material, pressure, 0), 100 * GRADIENT_SMALL);
 }
 
-// Of the way along the drive: so far sides may go ahead or behind, or the block across the drive,
-// before it is said. A symmetric block keeps within rounding.
+// Part of the way along the drive that the block's sides may go ahead or behind, or the block go
+// across the drive, before a warning. A symmetric block keeps within rounding.
 static const double TURNING_SEEN = 0.01;
 
 void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings)
@@ -216,7 +216,7 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
                  (double)SLIP_CELLS_ENOUGH, finer_mesh(scene));
 }
 
-// Of the mesh's part.
+// Returns why the mesh's part of the bar is unknown.
 static const char *why_unknown(const Levels *levels)
 {
     const Level *last = &levels->list[levels->count - 1];
@@ -312,7 +312,8 @@ void warnings_of_units(const Model *model, RunWarnings *warnings)
     }
 }
 
-// Of a gap: over the block's height; its slope, whose square is the error of pressing along z.
+// Largest gap over the block's height, and steepest slope of a gap. The square of the slope is the
+// error of pressing along z.
 static const double GAP_LARGE = 0.5, GAP_STEEP = 0.2;
 
 typedef struct Slope {
@@ -365,7 +366,7 @@ void warnings_of_gaps(const Model *model, RunWarnings *warnings)
                      "a gap as large as the block: up to %.3g under a block that is %.3g high; is "
                      "it in the scene's unit of length, and of the right sign?",
                      largest, model->height);
-    // What the block may come to touch: as far as the mean pressure presses it down, times 10.
+    // The block can reach gaps up to 10 times as deep as the mean pressure presses it down.
     double pressure = model->scales.load / (model->length * model->breadth);
     double reach = least + 10 * pressure / model->materials.mean.young * model->height;
     Slope slope = steepest_floor(interface, reach);

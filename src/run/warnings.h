@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What makes a scene's answer doubtful though it can be computed: what the scene alone tells
-// (amontons_scene_warning), weakening that is too fast for viscosity and mesh, a rod that misses
-// its face, and at the end of a run slip that had too few cells to turn fast on. Written to
+// Warnings that a scene's answer is doubtful though it can be computed: those that the scene alone
+// tells (amontons_scene_warning), weakening that is too fast for viscosity and mesh, a rod that
+// misses its face, and at the end of a run slip that had too few cells to turn fast on. Written to
 // run.json (warnings), handed to the caller in RunSummary. Each says in a few words what is wrong,
 // then a colon and the rest: the legend of a sweep's picture has room for the former. Called by
 // run/simulation once its model stands, and when it is done.
@@ -59,7 +59,8 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
 // An error bar that was asked for and is not met: how far the answer is known, and why no farther.
 void warnings_of_bar(const Levels *levels, RunWarnings *warnings);
 
-// Of answers of the last mesh that lay outside the bar of all.
+// Warns of meshes left out for other load drops, of a bar that is not confirmed, and of answers of
+// the last mesh that lie outside the bar of all.
 void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings);
 
 void warnings_add(RunWarnings *warnings, const char *format, ...)

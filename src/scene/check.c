@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What keys mean together: each alone was checked when it was set (scene/value). The first
+// Checks of several keys together: each alone was checked when it was set (scene/value). The first
 // contradiction is reported, at the line of the value that is wrong, with what would be right.
 #include "scene/check.h"
 
@@ -115,7 +115,7 @@ static bool check_friction_keys(const Check *check)
     return true;
 }
 
-// What holds at rest is the most: mu_K <= mu_S. One's own law is looked at by scene/own_law.
+// The coefficient at rest is the largest: mu_K <= mu_S. One's own law is checked by scene/own_law.
 static bool check_friction(const Check *check)
 {
     if (!check_friction_keys(check)) return false;
@@ -138,7 +138,7 @@ static bool check_friction(const Check *check)
     return true;
 }
 
-// Of the region, or of `material`.
+// The number is that of the region, or else that of `material`.
 static bool check_materials(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -230,7 +230,7 @@ static double least_factor(const SceneProgram *program)
     return least;
 }
 
-// What follows U must have a U that rises.
+// A program that is given by U needs a U that rises.
 static bool check_programs(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -283,7 +283,7 @@ static bool check_time(const Check *check)
     return true;
 }
 
-// What it begins with, what it ends with, what is written in it.
+// Checks how the window begins, how it ends, and what is written in it.
 static bool check_window(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -335,7 +335,8 @@ static bool check_output(const Check *check)
     return true;
 }
 
-// Of one of several materials only the mesh tells whether friction acts on it: run/warnings.
+// Where there are several materials, only the mesh tells whether friction acts on one of them:
+// run/warnings.
 const char *amontons_scene_warning(const Scene *scene)
 {
     if (!(friction_drop(&scene->friction) > 0) || scene->material.eta1 > 0) return NULL;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What no key can know alone: required keys, and keys that must suit each other. Called by
+// Checks that no key can make alone: required keys, and keys that must suit each other. Called by
 // scene/scene_read.
 #ifndef AMONTONS_SCENE_CHECK_H
 #define AMONTONS_SCENE_CHECK_H

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// What is not the scene's law must be one of the built-in laws, or a formula of its own.
+// A law that is not the scene's law must be one of the built-in laws, or a formula of its own.
 static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law,
                        const FrictionLaw *law, Error *err)
 {
@@ -62,7 +62,8 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, Friction
            scene_remember(scene, law, &key, err);
 }
 
-// What it does not give is as in the scene; numbers of another formula are not those of its law.
+// Numbers that the item does not give are those of the scene; for another formula they are 0, as
+// the numbers of the scene's law do not belong to it.
 static void complete(const FrictionLaw *law, SceneContactLaw *item)
 {
     bool formula = *item->formula != 0;

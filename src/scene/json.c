@@ -72,7 +72,7 @@ static void write_items(const SceneItems *items, const Scene *scene, JsonWriter 
     json_end(json);
 }
 
-// Of an output.fields that is a map the keys follow by themselves.
+// If output.fields is a map, its keys follow by themselves.
 void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
     const void *field = (const char *)scene + key->offset;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a value may be: its range, in numbers and in words.
+// Ranges of values, in numbers and in words.
 #include "scene/keys.h"
 
 #include <math.h>

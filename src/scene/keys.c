@@ -32,7 +32,7 @@ static const char *const figure_choices[] = {
     {                                                                                              \
         name, type, offsetof(Scene, field), unit, range, standard, .sentence = __VA_ARGS__         \
     }
-// Of keys that Scene has under their names.
+// The macros below are for keys whose names are also the paths in Scene.
 #define NUMBER(name, ...) KEY(#name, KEY_NUMBER, name, __VA_ARGS__)
 #define WORDS(type, name, ...) KEY(#name, type, name, "1", RANGE_ANY, __VA_ARGS__)
 #define CHOICE(name, standard, sentence, ...)                                                      \

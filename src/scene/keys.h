@@ -99,8 +99,8 @@ int32_t scene_key_above(const char *name, const char **part);
 // The known key or group (of keys) nearest to `name`; NULL when none is near.
 const char *scene_key_nearest(const char *name);
 
-// Of a number, where it is not 0. Beyond them a product of some numbers is 0 or infinite, and loops
-// that double a step do not end.
+// Least and largest size of a number that is not 0. Beyond them a product of some numbers is 0 or
+// infinite, and loops that double a step do not end.
 static const double SCENE_SMALLEST = 1e-60, SCENE_LARGEST = 1e60;
 static inline bool scene_size_holds(double value)
 {
@@ -110,7 +110,7 @@ static inline bool scene_size_holds(double value)
 
 bool scene_range_holds(SceneRange range, double value);
 const char *scene_range_words(SceneRange range);
-// What a value of the key may be, for errors and the reference: "one of stress, strain".
+// Allowed values of the key in words, for errors and the reference: "one of stress, strain".
 void scene_key_allowed(const SceneKey *key, char *words, int32_t size);
 
 // The value of `key` in `scene` as it would be written in YAML.

@@ -9,7 +9,7 @@
 // Number k of a region: its own, or else that of `material`.
 double scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k);
 
-// What material k of a model is called: 0 `material`, then the regions in their order.
+// Name of material k of a model: 0 is `material`, then the regions follow in their order.
 const char *scene_region_name(const Scene *scene, int32_t k);
 
 // The number at a path of keys ("materials.pads.young"). false: none is given there.

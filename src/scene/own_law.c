@@ -24,8 +24,9 @@ double scene_fastest_slip(const Scene *scene)
     return fastest;
 }
 
-// What measures things where nothing holds at rest and nothing ends: mu of steady slip at the
-// slowest rate that the start knows of, plus what it has rested beyond that, and at that of sound.
+// Scales for a law without a coefficient at rest and without a limit velocity: mu at the reference
+// velocity, raised by the healing that the contacts have at the start, and mu of steady slip at the
+// fastest slip rate.
 static void set_scales(const Scene *scene, FrictionMemory *memory)
 {
     double fastest = scene_fastest_slip(scene);

@@ -24,7 +24,7 @@ typedef struct SceneNumbersOf {
 // Which of the numbers of the map `friction` a formula calls by this name or symbol; -1: none.
 int32_t scene_friction_number(const char *name);
 
-// What the scene gives for a law of one's own; `of` must outlive it.
+// Friction source from the scene's keys for a law of one's own; `of` must outlive it.
 FrictionSource scene_friction_source(const SceneNumbersOf *of);
 
 // The slip rate up to which a formula or plug-in is asked: friction.velocity_max, or that of sound.

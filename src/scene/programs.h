@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a scene says of how rod and load change (rod.program, load.program), as the definitions of
-// the layers below. Used by model/step_rule, run/ and the checks of a scene.
+// Programs of rod and load in a scene (rod.program, load.program), as the definitions of the layers
+// below. Used by model/step_rule, run/ and the checks of a scene.
 #ifndef AMONTONS_SCENE_PROGRAMS_H
 #define AMONTONS_SCENE_PROGRAMS_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What callers of the library do with scenes; scene_read reads them.
+// Functions on scenes for callers of the library; scene_read reads scenes.
 #include "scene/scene.h"
 
 #include "amontons.h"

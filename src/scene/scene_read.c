@@ -254,7 +254,7 @@ static bool gather_file(Reader *reader, Error *err)
     return gather_children(reader, "", &root, err);
 }
 
-// What the file gives. *scene is overwritten, and of no use after a failure.
+// Reads the values that the file gives. *scene is overwritten, and of no use after a failure.
 static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
     *scene = (Scene){.trusted = reader->trusted};

@@ -63,7 +63,7 @@ enum {
     SCENE_MATERIAL_NUMBERS
 };
 
-// What differs from `material` in a region, an entry of `materials` (scene/materials).
+// Numbers of a region that differ from `material`: an entry of `materials` (scene/materials).
 typedef struct SceneMaterial {
     char group[GROUP_NAME_SIZE];   // a physical surface
     bool given[SCENE_MATERIAL_NUMBERS];
@@ -84,7 +84,7 @@ typedef struct SceneStates {
     FrictionStateText state[STATES_MAX];
 } SceneStates;
 
-// What the map `friction` has beside the kind of law and its three numbers.
+// Keys of the map `friction` beside the kind of law and its three numbers.
 typedef struct SceneOwnFriction {
     SceneNumbers velocity, mu, parameters;
     SceneInterpolation interpolation;
@@ -92,7 +92,7 @@ typedef struct SceneOwnFriction {
     SceneStates states;   // of a formula
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
-    // Of laws with memory (friction/friction_memory).
+    // The following numbers belong to laws with memory (friction/friction_memory).
     double slip_distance, healing_time, healing;
     double direct_effect, evolution_effect, mu_reference, reference_velocity;
     SceneEvolution evolution;
@@ -100,7 +100,8 @@ typedef struct SceneOwnFriction {
     char along[SCENE_TEXT_SIZE];   // factor on mu, a formula of x; empty: 1
 } SceneOwnFriction;
 
-// What differs on one contact curve: an item of friction.contacts (scene/contact_laws).
+// Law of one contact curve that differs from the scene's: an item of friction.contacts
+// (scene/contact_laws).
 typedef struct SceneContactLaw {
     char group[GROUP_NAME_SIZE];
     bool has_law, has_static, has_kinetic, has_critical;   // what the item gives

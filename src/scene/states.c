@@ -6,7 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
-// Of scene/own_law, and what a formula has without it.
+// Returns true for names that scene/own_law or every formula uses already.
 static bool is_taken(const char *name)
 {
     static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons cache` asks of io/cache/cache_folder.
+// Functions of io/cache/cache_folder for `amontons cache`.
 #include "amontons_cache.h"
 #include "base/decimal_point.h"
 #include "io/cache/cache_folder.h"

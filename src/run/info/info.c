@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a file holds, in text: the kind is told by the name's end; a folder is a result.
+// Contents of a file in text: the name's end tells the kind; a folder is a result.
 #include "run/info/info.h"
 
 #include "amontons.h"

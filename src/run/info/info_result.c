@@ -73,8 +73,8 @@ static bool write_estimate(const char *text, const char *path, FILE *out)
     return true;
 }
 
-// What is missing in run.json (a failed run has no mu_M) is left out. It may be long: each event is
-// in it, and no tree is made of it.
+// Entries that are missing in run.json (a failed run has no mu_M) are left out. The file may be
+// long: each event is in it, and no tree is made of it.
 static bool write_run(const char *folder, FILE *out, Error *err)
 {
     char path[PATH_SIZE], *text = NULL;
@@ -117,7 +117,7 @@ static void write_events(double *const column[EVENT_COLUMNS], int32_t count, FIL
     if (count > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", count - EVENTS_SHOWN_MAX);
 }
 
-// Of history.h5, or of history.h5.part where the run was killed: io/hdf5/result_file opens
+// Reads history.h5, or history.h5.part where the run was killed: io/hdf5/result_file opens
 // whichever is there.
 static bool write_history(const char *folder, FILE *out, Error *err)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What this library is, and where what comes with it lies.
+// Version of this library, and the places of the files that come with it.
 #include "amontons.h"
 #include "base/kernels.h"
 #include "base/place.h"

@@ -20,7 +20,7 @@
 
 enum { OVERRIDES = 6, SETTING_SIZE = 120, OPEN_FOLDERS = 8 };
 
-// Of the film's frames, as rapid slip has the other half.
+// Part of the film's frames for slow slip: rapid slip has the other half.
 static const double SLOW_SHARE = 0.5;
 static const double BEHIND = 0.01;   // of what the film shows: kept behind it
 

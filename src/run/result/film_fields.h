@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a film shows of the block between two times that were stored: the run of a result is
-// computed once more, and fields are kept while the rod, or the fastest point of the contact, moves
-// on by as little as the film's frames are apart. Called by run/result/film.
+// Fields of the block for a film, between two times that were stored. The run of a result is
+// computed once more, and fields are kept each time the rod, or the fastest point of the contact,
+// has moved on by as little as from one frame of the film to the next. Called by run/result/film.
 #ifndef AMONTONS_RUN_RESULT_FILM_FIELDS_H
 #define AMONTONS_RUN_RESULT_FILM_FIELDS_H
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of an earlier result go the files that its list names (io/files/own_list). They go in two steps:
-// clear moves them, and the list last, into a folder of their own; settle removes that once the
-// new result has begun; without it, release puts them back. Whatever moment a kill meets, the name
-// of that folder says what is to be done by the next who claims the place:
+// The files of an earlier result that its list names (io/files/own_list) are removed in two steps.
+// clear moves them, and the list last, into a folder of their own; settle removes that once the new
+// result has begun; without it, release puts them back. At whatever moment a run is killed, the
+// name of that folder says what the next process that claims the place has to do:
 //   amontons.aside     files were on their way, there or back: back
 //   amontons.earlier   all were there: what the new run left goes, then back
 //   amontons.gone      the new run had begun: they go
@@ -27,7 +27,8 @@ static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock";
 static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
                   GONE[] = "amontons.gone";
-// What a file has behind its name: nothing, or while it is written; the last is to replace a part.
+// Endings of a file: none when it is whole, .part while it is written, .part.part while it is
+// written to replace a .part.
 static const char *const ENDINGS[] = {"", ".part", ".part.part"};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
@@ -191,7 +192,7 @@ static bool is_folder(const char *folder, const char *name)
     return lstat(path, &what) == 0 && S_ISDIR(what.st_mode);
 }
 
-// What a computation that failed, or was killed, has left aside: see above.
+// Puts back the files that a computation which failed, or was killed, has left aside: see above.
 static bool put_back(const char *folder, Error *err)
 {
     if (is_folder(folder, GONE) && !end_aside(folder, GONE, "", err)) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons static` leaves: the sums as JSON, every node's values as HDF5 (for comparison node
-// by node), the fields for ParaView.
-// The JSON comes last: where it stands, the others are whole.
+// Files that `amontons static` writes: the sums as JSON, every node's values as HDF5 (for
+// comparison node by node), the fields for ParaView. The JSON comes last: if it exists, the others
+// are whole.
 #include "run/static/static_solve.h"
 
 #include "base/memory.h"
