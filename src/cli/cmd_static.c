@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-// Units of a force, an energy and a moment, each per width, and of a length; empty: normalised.
+// Units of a force, an energy and a moment, in the plane each per width, and of a length; empty:
+// normalised.
 typedef struct Units {
     const char *force, *energy, *moment, *length;
 } Units;
@@ -22,10 +23,11 @@ static void print_rod(const StaticSummary *summary, const Units *unit)
 // Sums, and last the balances by which to judge them.
 static void print_summary(const Scene *scene, const StaticSummary *summary)
 {
-    static const Units si = {" N/m", " J/m", " N", " m"}, none = {"", "", "", ""};
+    static const Units plane = {" N/m", " J/m", " N", " m"}, space = {" N", " J", " N m", " m"},
+                       none = {"", "", "", ""};
     const char *title = amontons_scene_title(scene);
     bool is_si = amontons_scene_is_si(scene);
-    Units unit = is_si ? si : none;
+    Units unit = !is_si ? none : summary->dim == 2 ? plane : space;
     double tangential = summary->rod_nodes > 0 ? summary->rod_force : -summary->shear_force;
     say("%s\n\n", *title ? title : "equilibrium");
     say("  contact        %d nodes: %d stick, %d slip, %d open\n", summary->contact_nodes,

@@ -208,6 +208,14 @@ class Space(OwnCache):
         self.assertEqual(warned("0.1*y"), [])
         self.assertEqual(warned("2.5 * max(0, 0.1875 - x)^2", "mesh.set.nx=8"), [])   # 0.16 where they may touch, then 0.47
 
+    def test_forces_are_not_per_width(self):
+        path = self.folder / "scene.yaml"
+        path.write_text(SCENE)
+        done = subprocess.run([PROGRAM, "static", path, "--set", "units=si", "material={poisson: 0.34, young: 1, density: 1, eta1: 1, eta2: 1}",
+                               "rod.displacement=1e-3"], capture_output=True, text=True, env=self.environment)
+        self.assertRegex(done.stdout, r"F_z \S+ N, F_x \S+ N from the floor, moment of the pressure \S+ N m\n")
+        self.assertNotIn("N/m", done.stdout + done.stderr)
+
     def test_height_map(self):
         """A measured z(x, y), its points in any order: between them bilinear, as this formula is."""
         wanted = self.call("static", "rod.displacement=2e-3", "contact.gap=2e-3*(x + 0.1)*(y + 0.2)")["results"]
