@@ -91,12 +91,12 @@ static void answer_lengths(const Drops *drops, Answers *answers)
 
 Answers answers_of(const Drops *drops)
 {
+    double mu_max = isfinite(drops->mu_max) ? drops->mu_max : (double)NAN;   // before any step
     Answers answers = {.mu_M_low = NAN,
                        .mu_M_high = NAN,
                        .mu_M_spread = NAN,
-                       .mu_max = isfinite(drops->mu_max) ? drops->mu_max : (double)NAN,
-                       .mu_max_jump = isfinite(drops->mu_max) ? drops->mu_max - drops->mu_beside
-                                                              : (double)NAN,
+                       .mu_max = mu_max,
+                       .mu_max_jump = mu_max - drops->mu_beside,
                        .mu_M_known_to = NAN,
                        .mu_hold_known_to = NAN,
                        .mu_max_known_to = NAN,

@@ -304,12 +304,8 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     simulation->deadline = accuracy->deadline;
     if (!simulation_loop(simulation, err)) TRY(is_time_up(accuracy, simulation, err));
     Answers answers = simulation_answers(simulation);
-    if (accuracy_is_known(accuracy, &answers) && levels_reach(levels, simulation->seen.U)) {
-        patterns_add_drops(&accuracy_last_level(accuracy)->patterns, &simulation->drops,
-                           answers.first);
-        levels_add_run(levels, 1, simulation->seen.U, &answers,
-                       simulation->control.counters.accepted);
-    }
+    if (accuracy_is_known(accuracy, &answers) && levels_reach(levels, simulation->seen.U))
+        accuracy_count_run(accuracy, simulation, 1, &answers);
     while (levels_lack_runs(accuracy) && accuracy_seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";

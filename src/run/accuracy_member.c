@@ -233,6 +233,15 @@ static void pass_over(Accuracy *accuracy, Error *err)
     *err = (Error){0};
 }
 
+void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double pressure,
+                        const Answers *answers)
+{
+    patterns_add_drops(&accuracy_last_level(accuracy)->patterns, &simulation->drops,
+                       answers->first);
+    levels_add_run(&accuracy->levels, pressure, simulation->seen.U, answers,
+                   simulation->control.counters.accepted);
+}
+
 bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
 {
     Level *level = accuracy_last_level(accuracy);
@@ -264,9 +273,7 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
     level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
-    patterns_add_drops(&level->patterns, &simulation->drops, answers.first);
-    levels_add_run(&accuracy->levels, pressure, simulation->seen.U, &answers,
-                   simulation->control.counters.accepted);
+    accuracy_count_run(accuracy, simulation, pressure, &answers);
     accuracy->members++;
     if (keeps_model(simulation))
         level->making += begun - started;

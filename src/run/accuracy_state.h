@@ -43,6 +43,10 @@ double accuracy_seconds_left(const Accuracy *accuracy);
 // Returns true if the change that more slidings could make is a small part of the bar wanted.
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
+// Adds a run that came to its end, and the pads that slid in it, to the last level.
+void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double pressure,
+                        const Answers *answers);
+
 // One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the
 // mesh has too few contact nodes, as many as the one before, its cells are too long for slip, or
 // the run failed. Then, as when time is out, nothing was added.

@@ -355,17 +355,6 @@ Answers simulation_answers(const Simulation *simulation)
     return answers;
 }
 
-// Answers of several meshes and runs, where there are such; else of this run. *least: the load drop
-// that counts before which the fewest cells slipped; NULL: none.
-static Answers answers_to_report(const Simulation *simulation, const Event **least)
-{
-    Answers answers = simulation_answers(simulation);
-    *least = drops_least_resolved(&simulation->drops, answers.first);
-    one_mesh_answer(simulation, &answers);
-    if (simulation->levels) levels_answer_for(simulation->levels, &answers);
-    return answers;
-}
-
 static bool hand_out_report(const Simulation *simulation, const RunReport *report, Error *err)
 {
     const RunOptions *options = &simulation->options;
@@ -399,8 +388,11 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     events_close(&simulation->events, &simulation->seen);
     if (simulation->recorders.count > 0)
         simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
-    const Event *least = NULL;
-    Answers answers = answers_to_report(simulation, &least);
+    Answers answers = simulation_answers(simulation);
+    double own_mu_M = answers.mu_M.value;
+    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
+    one_mesh_answer(simulation, &answers);
+    if (simulation->levels) levels_answer_for(simulation->levels, &answers);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
@@ -419,7 +411,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
         if (!hand_out_report(simulation, &report, err)) return false;
     }
     summary_fill(simulation, &counters, &answers, summary);
-    summary->bar_own_mu_M = simulation_answers(simulation).mu_M.value;
+    summary->bar_own_mu_M = own_mu_M;
     return true;
 }
 

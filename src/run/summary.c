@@ -176,28 +176,26 @@ static void note_program(const ProgramReadings *readings, RunSummary *summary)
 
 RunSummary summary_none(void)
 {
-    RunSummary none = {0};
-    double *const numbers[] = {&none.mu_M,
-                               &none.mu_hold,
-                               &none.mu_max,
-                               &none.mu_steady,
-                               &none.mu_M_error,
-                               &none.mu_hold_error,
-                               &none.mu_M_known_to,
-                               &none.mu_hold_known_to,
-                               &none.mu_max_known_to,
-                               &none.mu_M_spread,
-                               &none.run_in_drift,
-                               &none.run_in_drops_left,
-                               &none.critical_length,
-                               &none.slip_length,
-                               &none.slip_cells,
-                               &none.energy_error,
-                               &none.moment_error,
-                               &none.complementarity_error};
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = NAN;
-    for (int32_t k = 0; k < 3; k++) none.mu_M_parts[k] = none.mu_hold_parts[k] = NAN;
-    return none;
+    return (RunSummary){.mu_M = NAN,
+                        .mu_hold = NAN,
+                        .mu_max = NAN,
+                        .mu_steady = NAN,
+                        .mu_M_error = NAN,
+                        .mu_hold_error = NAN,
+                        .mu_M_known_to = NAN,
+                        .mu_hold_known_to = NAN,
+                        .mu_max_known_to = NAN,
+                        .mu_M_parts = {NAN, NAN, NAN},
+                        .mu_hold_parts = {NAN, NAN, NAN},
+                        .mu_M_spread = NAN,
+                        .run_in_drift = NAN,
+                        .run_in_drops_left = NAN,
+                        .critical_length = NAN,
+                        .slip_length = NAN,
+                        .slip_cells = NAN,
+                        .energy_error = NAN,
+                        .moment_error = NAN,
+                        .complementarity_error = NAN};
 }
 
 // counters, answers: made by the caller, who writes them into run.json as well.

@@ -91,8 +91,7 @@ bool own_file_visit(const char *folder, OwnFileFound found, void *context, Error
 static bool add(const char *path, void *context, Error *err)
 {
     (void)context;
-    bool listed = false;
-    return own_list_has(path, &listed, err) && (listed || own_list_add(path, err));
+    return own_list_add(path, err);
 }
 
 bool own_file_adopt(const char *folder, Error *err)
