@@ -178,10 +178,7 @@ def fields(struct: Any, options: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in options.items():
         if name not in options_of:
             raise TypeError(f"{name!r} is no option; there are {', '.join(options_of)}")
-        if kinds[name] is not ctypes.c_char_p:
-            given[name] = value
-        else:
-            given[name] = c_text_or_none(value)
+        given[name] = c_text_or_none(value) if kinds[name] is ctypes.c_char_p else value
     return given
 
 
