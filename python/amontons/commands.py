@@ -214,7 +214,7 @@ def optimise(study: Any, settings: Settings | None = None, folder: Any = None, *
 
 def fit(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
         slurm: str | None = None, trust: bool = False,
-             progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
+        progress: Callable[[c.SweepView], object] | None = None) -> dict[str, Any]:
     """The numbers of a scene that measurements speak for: `amontons fit`. A dict: "keys" ({key: {"value", "low", "high",
     "low_open", "high_open"}}: the best, its region, and whether that goes on beyond the range), "misfit", "measurements",
     "widened" (regions, as the misfit is above what errors explain), "own_share" (of the errors' squares, the program's own),
