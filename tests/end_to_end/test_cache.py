@@ -13,6 +13,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from preload_fixture import preload
+
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", BIN))
@@ -104,7 +106,7 @@ class SameBits(Cached):
         self.assertTrue(SHIFTED.exists())
         for shift in ("16", "32", "48"):
             for cache in ("", None):
-                folder, report = self.run_scene(*settings, cache=cache, LD_PRELOAD=str(SHIFTED), MEMORY_SHIFT=shift,
+                folder, report = self.run_scene(*settings, cache=cache, **preload(SHIFTED), MEMORY_SHIFT=shift,
                                                 LONGER="x" * int(shift), **kernels)
                 self.assertEqual(report["model"]["from_cache"], cache is None)
                 self.assertEqual(report["kernels"]["openblas"], "Prescott")

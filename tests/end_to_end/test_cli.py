@@ -17,6 +17,7 @@ import time
 import unittest
 from pathlib import Path
 
+from preload_fixture import preload
 from sanitizer_fixture import runtime
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
@@ -61,8 +62,8 @@ class Help(unittest.TestCase):
     def unknown(self, *words, **environment):
         """The program with an OpenBLAS that does not know the processor; its standard output."""
         plain = {name: value for name, value in os.environ.items() if name != "OPENBLAS_CORETYPE"}
-        preloaded = ":".join(filter(None, (os.environ.get("LD_PRELOAD"), str(PROGRAM.parents[1] / "tests/unknown_processor.so"))))
-        done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=60, env=plain | {"LD_PRELOAD": preloaded} | environment)
+        preloaded = preload(PROGRAM.parents[1] / "tests/unknown_processor.so")
+        done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=60, env=plain | preloaded | environment)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout
 

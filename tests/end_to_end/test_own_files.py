@@ -13,6 +13,7 @@ from pathlib import Path
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 sys.path.insert(0, str(SOURCE / "validation/hostile"))
 import cases  # noqa: E402
+from preload_fixture import preload  # noqa: E402
 
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
 PATIENCE = 60 * float(os.environ.get("AMONTONS_PATIENCE", 1))
@@ -193,7 +194,7 @@ class OwnFiles(unittest.TestCase):
         folder = self.fresh()
         cases.put(folder, {"none.c": "#include <errno.h>\nint flock(int f, int o) { (void)f; (void)o; errno = ENOLCK; return -1; }\n"})
         subprocess.run(["cc", "-shared", "-fPIC", "none.c", "-o", "none.so"], cwd=folder, check=True)
-        env = os.environ | {"AMONTONS_CACHE": str(folder / "cache"), "LD_PRELOAD": str(folder / "none.so")}
+        env = os.environ | {"AMONTONS_CACHE": str(folder / "cache"), **preload(folder / "none.so")}
         for words in (["run", "scene.yaml", "-o", "free"], ["sweep", "study.yaml", "-o", "frees"]):
             done = subprocess.run([PROGRAM, *words], cwd=folder, env=env, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)

@@ -32,6 +32,7 @@ from cases import ROOT, SCENE, STUDY
 from tries import PROGRAM, SCRATCH, answer_of
 
 sys.path.append(str(ROOT / "tests/end_to_end"))
+from preload_fixture import preload      # noqa: E402
 from sanitizer_fixture import runtime  # noqa: E402   (a sanitizer wants to be loaded first)
 
 SHIM = Path(os.environ.get("AMONTONS_FAULTS", PROGRAM.parents[1] / "tests/file_faults.so")).resolve()
@@ -86,7 +87,7 @@ def faults_of(path):
 def call(words, folder, fault=""):
     """The program, with a cache of its own in the folder."""
     env = os.environ | {"AMONTONS_CACHE": str(folder / "cache")}
-    env |= {"LD_PRELOAD": f"{runtime(SHIM)} {SHIM}", "FILE_FAULT": fault} if fault else {}
+    env |= preload(runtime(SHIM), SHIM) | {"FILE_FAULT": fault} if fault else {}
     return subprocess.run([PROGRAM, *words], cwd=folder, env=env, stdin=subprocess.DEVNULL, capture_output=True,
                           text=True, timeout=PATIENCE)
 

@@ -28,6 +28,9 @@ import cases
 from cases import ROOT, STUDY
 from tries import PROGRAM, SCRATCH
 
+sys.path.append(str(ROOT / "tests/end_to_end"))
+from preload_fixture import preload  # noqa: E402
+
 # Largest difference of mu over the run, over the largest mu; the same number of steps is not asked.
 TOLERANCE = 1e-6
 SCENE = cases.SCENE.replace("U: 0.0008", "U: 0.006")   # with slidings, which multiply a difference
@@ -149,7 +152,7 @@ def memory_cases(place):
         yield f"library in Python, OMP_NUM_THREADS {threads}", place.run_python({"OMP_NUM_THREADS": threads})
     for shift in ("16", "32", "48"):
         yield f"malloc and stack {shift} bytes further", place.run(
-            env={"LD_PRELOAD": str(SHIFTED), "MEMORY_SHIFT": shift, "LONGER": "x" * int(shift)})
+            env={**preload(SHIFTED), "MEMORY_SHIFT": shift, "LONGER": "x" * int(shift)})
     for what in ("cold", "warm"):
         yield f"{what} cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
     others = {"AMONTONS_CACHE": str(place.scratch / "others")}
