@@ -99,15 +99,6 @@ void step_control_restart(StepControl *control)
     control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
 }
 
-// Chooses whether the next step from `now` solves the whole contact or its symmetric part.
-static void choose_side(StepControl *control)
-{
-    bool halved = control->ladder.half && !control->lopsided &&
-                  half_step_take_law(&control->half, control->scheme.law);
-    control->ladder.side = halved ? LADDER_EVEN : LADDER_WHOLE;
-    control->scheme.odd_acts = !control->odd_decays || control->half.odd_part > ODD_LIMIT;
-}
-
 static BothSides sides_of(StepControl *control)
 {
     return (BothSides){&control->certificate, &control->half, &control->ladder};
@@ -317,24 +308,6 @@ static void scan_growth(StepControl *control, int32_t k)
         !both_sides_ask(sides_of(control), &control->now, SIDES_FIND_NO_RUNAWAY, known, 0);
 }
 
-// `now` and `next` exchange their arrays.
-static void accept_step(StepControl *control, int32_t k, const StepOutcome *outcome)
-{
-    control->ledger = book_step(control, k, outcome);
-    State accepted = control->next;
-    control->next = control->now;
-    control->now = accepted;
-    control->outcome = *outcome;
-    control->last_step = ladder_step(&control->ladder, k);
-    control->counters.accepted++;
-    if (k >= wave_rung(control))
-        oscillation_record_add(&control->oscillations, &control->now, control->last_step,
-                               control->certified);
-    else
-        control->counters.stepped_over_oscillations += !control->certified;
-    control->ladder.accepted[k]++;
-}
-
 // A step that was shortened only to end where the run ends does not choose the next rung.
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
@@ -344,37 +317,40 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         [STEP_UNBALANCED] = "its energies do not balance",
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
     StepCounters *counters = &control->counters;
+    Ladder *ladder = &control->ladder;
+    StepOutcome outcome;
+    bool certified = true, odd_decays, retried = false;
     int32_t k = fit_rung(control, control->rung, remaining);
-    bool shortened = k != control->rung, retried = false, certified = true, odd_decays;
+    bool shortened = k != control->rung;
+
+    // Steps are tried with smaller and smaller rungs until one is accepted.
     for (;;) {
-        StepOutcome outcome;
-        double speed, mu;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
-        control->scheme.solver.sweeps_on = k == control->ladder.rung_count - 1;
-        choose_side(control);
+        control->scheme.solver.sweeps_on = k == ladder->rung_count - 1;
+        // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
+        // where that does not decay.
+        bool halved = ladder->half && !control->lopsided &&
+                      half_step_take_law(&control->half, control->scheme.law);
+        ladder->side = halved ? LADDER_EVEN : LADDER_WHOLE;
+        control->scheme.odd_acts = !control->odd_decays || control->half.odd_part > ODD_LIMIT;
+
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         if (outcome.lopsided) {
             control->lopsided = true;
             continue;
         }
         Verdict verdict = judge_step(control, k, &outcome, &certified, &odd_decays);
-        if (verdict == STEP_ACCEPTED) {
-            control->certified = certified;
-            control->odd_decays = odd_decays;
-            accept_step(control, k, &outcome);
-            scan_growth(control, k);
-            if (!shortened || retried)
-                control->rung = next_rung(control, k, outcome.error, retried);
-            break;
-        }
+        if (verdict == STEP_ACCEPTED) break;
+
         counters->unsolved += verdict == STEP_UNSOLVED;
         counters->rejected_error += verdict == STEP_INACCURATE;
         counters->rejected_energy += verdict == STEP_UNBALANCED;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
         k = smaller_rung(control, k, verdict, &outcome);
-        if (k < control->ladder.rung_count) continue;
+        if (k < ladder->rung_count) continue;
+        double speed, mu;
         if (!friction_states_hold(&control->scheme.memory, control->now.slip_rate, &speed, &mu))
             FAIL(err, ERROR_COMPUTE,
                  "at t = %.9g friction comes to states, or to a mu (%g at velocity %g), that no "
@@ -383,6 +359,27 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
              control->now.time, control->def.step_min, reasons[verdict]);
     }
+
+    // Accepted: the ledger is booked, and `now` and `next` exchange their arrays.
+    control->ledger = book_step(control, k, &outcome);
+    State accepted = control->next;
+    control->next = control->now;
+    control->now = accepted;
+    control->outcome = outcome;
+    control->last_step = ladder_step(ladder, k);
+    control->certified = certified;
+    control->odd_decays = odd_decays;
+    counters->accepted++;
+    ladder->accepted[k]++;
+    if (k >= wave_rung(control))
+        oscillation_record_add(&control->oscillations, &control->now, control->last_step,
+                               certified);
+    else
+        counters->stepped_over_oscillations += !certified;
+
+    // What the next step needs: whether slip runs away, and the rung.
+    scan_growth(control, k);
+    if (!shortened || retried) control->rung = next_rung(control, k, outcome.error, retried);
 cleanup:
     return error_is_clean(err);
 }
@@ -428,13 +425,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void counters_archive(StepCounters *counters, Archive *archive)
-{
-    archive_counts_of(archive, &counters->accepted, &counters->rejected_error,
-                      &counters->rejected_energy, &counters->rejected_uncertified,
-                      &counters->unsolved, &counters->stepped_over_oscillations);
-}
-
 bool step_control_archive(StepControl *control, Archive *archive, Error *err)
 {
     state_archive(&control->now, archive);
@@ -455,7 +445,10 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_index(archive, &control->coarsest, 0, control->ladder.rung_count + 1);
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
-    counters_archive(&control->counters, archive);
+    StepCounters *counters = &control->counters;
+    archive_counts_of(archive, &counters->accepted, &counters->rejected_error,
+                      &counters->rejected_energy, &counters->rejected_uncertified,
+                      &counters->unsolved, &counters->stepped_over_oscillations);
     int64_t last = control->scheme.solver.newton.factorisations;
     int64_t last_halved = control->half.solver.newton.factorisations;
     return ladder_archive(&control->ladder, last, last_halved, archive, err);
