@@ -99,8 +99,8 @@ static double end_residual(const Sdirk *scheme, State *to)
     return dense_max_abs(viscous, to->dof_count);
 }
 
-// Stage i of a step of length `step` with rung k: v_i, and what later stages, the ledger and, of the
-// last stage, the end state need of it.
+// Solves stage i of a step with rung k: v_i, and what later stages, the ledger and, of the last
+// stage, the end state need of it.
 static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, State *to,
                         StepOutcome *outcome, Error *err)
 {
@@ -199,8 +199,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
     for (int32_t d = 0; d < dofs; d++)
         scheme->viscous[d] = scheme->rhs[d] - rate * momentum[d] - scaled * elastic[d];
-    for (int32_t c = 0; c < count; c++)
-        scheme->viscous[interface_dofs[c]] += contact.reaction[c];
+    for (int32_t c = 0; c < count; c++) scheme->viscous[interface_dofs[c]] += contact.reaction[c];
 
     // Powers. The load's work beyond that of the load as it was goes by stages.
     if (scheme->course)
