@@ -16,6 +16,15 @@
 
 #include "contact/contact_problem.h"
 
+// The part of motions and forces that is looked at: all of them, or the symmetric or antisymmetric
+// part, on one side.
+typedef enum ContactPart {
+    PART_WHOLE,
+    PART_SYMMETRIC,
+    PART_ANTISYMMETRIC,
+    CONTACT_PARTS
+} ContactPart;
+
 typedef struct ContactHalf {
     Interface interface;   // how many nodes and unknowns one side has; nothing else; 0: the contact
         // is not its own image

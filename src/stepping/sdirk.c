@@ -52,13 +52,13 @@ enum { PRESSURES_LIMIT = 40 };
 
 // The whole contact, or its symmetric part on one side. false: it has no solution that was found.
 static bool solve_contact(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
-                          bool *lopsided)
+                          bool *asymmetric)
 {
-    if (scheme->ladder->side == LADDER_WHOLE)
-        return contact_solve(&scheme->solver, problem, contact);
-    bool alike, solved = half_step_solve(scheme->half, problem, scheme->odd, contact, &alike);
+    if (scheme->part == PART_WHOLE) return contact_solve(&scheme->solver, problem, contact);
+    bool alike,
+        solved = half_step_solve(scheme->half, problem, scheme->antisymmetric, contact, &alike);
     contact_solver_take_counts(&scheme->solver, &scheme->half->solver);
-    *lopsided = !alike;
+    *asymmetric = !alike;
     return solved;
 }
 
@@ -174,15 +174,15 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
                               .rod_softness = rod->softness,
                               .rod_lag = rod->lag,
                               .rod_reach = scheme->reach,
-                              .matrix = ladder_contact(scheme->ladder, k),
+                              .matrix = ladder_contact(scheme->ladder, k, scheme->part),
                               .g = scheme->g,
                               .bound = scheme->bound};
-    outcome->solved = solve_contact(scheme, &problem, &contact, &outcome->lopsided);
+    outcome->solved = solve_contact(scheme, &problem, &contact, &outcome->asymmetric);
     int32_t again = PRESSURES_LIMIT;
     while (outcome->solved &&
            friction_states_press(&scheme->memory, contact.velocity, contact.reaction))
         outcome->solved = again-- > 0 &&
-                          solve_contact(scheme, &problem, &contact, &outcome->lopsided);
+                          solve_contact(scheme, &problem, &contact, &outcome->asymmetric);
     if (!outcome->solved) goto cleanup;
 
     // Velocities found against a rod on a spring, and their bounds, become those in space.
@@ -231,11 +231,13 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
                 Error *err)
 {
     *outcome = (StepOutcome){0};
-    if (!ladder_rung(scheme->ladder, k, err)) goto cleanup;
-    // The matrix of the antisymmetric part comes before the stages, as it may make the rung anew.
-    bool odd = scheme->odd_acts && scheme->ladder->side != LADDER_WHOLE;
-    scheme->odd = odd ? ladder_contact_of(scheme->ladder, k, LADDER_ODD) : NULL;
-    if (odd && !scheme->odd && scheme->ladder->side != LADDER_WHOLE) goto cleanup;
+    // The matrices of the contact. That of the antisymmetric part comes before the stages, as it may
+    // make the rung anew.
+    if (!ladder_rung(scheme->ladder, k, scheme->part, err)) goto cleanup;
+    bool both = scheme->part != PART_WHOLE && scheme->antisymmetric_acts;
+    scheme->antisymmetric = both ? ladder_contact(scheme->ladder, k, PART_ANTISYMMETRIC) : NULL;
+    if (!scheme->ladder->half) scheme->part = PART_WHOLE;   // S is not its own mirror image
+    if (both && !scheme->antisymmetric && scheme->part != PART_WHOLE) goto cleanup;
 
     // The contact as it was is the first guess of the stages.
     size_t bytes = (size_t)from->interface_count * sizeof(double);
