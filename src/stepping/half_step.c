@@ -41,10 +41,10 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
-    half->odd_g = NEW_ARRAY(double, side->count, err);
-    half->odd_bound = NEW_ARRAY(double, side->count, err);
-    half->odd_velocity = NEW_ARRAY(double, side->count, err);
-    half->odd_reaction = NEW_ARRAY(double, side->count, err);
+    half->anti_g = NEW_ARRAY(double, side->count, err);
+    half->anti_bound = NEW_ARRAY(double, side->count, err);
+    half->anti_velocity = NEW_ARRAY(double, side->count, err);
+    half->anti_reaction = NEW_ARRAY(double, side->count, err);
     if (!contact_newton_create(side, &half->newton, err)) return false;
     Block one = {.interface = side, .law = &half->law, .rod = &half->rod};
     for (ContactPart part = PART_SYMMETRIC; alike && part <= PART_ANTISYMMETRIC; part++) {
@@ -64,7 +64,7 @@ void half_step_destroy(HalfStep *half)
     contact_half_destroy(&half->half);
     state_destroy(&half->state);
     memory_free_all(half->rod.softness, half->rod.lag, half->laws, half->g, half->bound,
-                    half->odd_g, half->odd_bound, half->odd_velocity, half->odd_reaction);
+                    half->anti_g, half->anti_bound, half->anti_velocity, half->anti_reaction);
     contact_newton_destroy(&half->newton);
     *half = (HalfStep){0};
 }
@@ -103,16 +103,18 @@ const State *half_step_fold(HalfStep *half, const State *state)
 
 // Adds the antisymmetric part, to first order. one: the problem of the symmetric part.
 static bool follow_antisymmetric(HalfStep *half, const ContactProblem *one, ContactMatrix *matrix,
-                                 const ContactSolution *even, ContactSolution *solution)
+                                 const ContactSolution *symmetric, ContactSolution *solution)
 {
     ContactProblem problem = *one;
     problem.matrix = matrix;
-    problem.g = half->odd_g;
-    problem.bound = half->odd_bound;
-    ContactSolution odd = {half->odd_velocity, half->odd_reaction, even->status, even->rod_touches};
-    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &odd)) return false;
-    contact_half_add(&half->half, true, odd.velocity, solution->velocity);
-    contact_half_add_forces(&half->half, true, odd.reaction, solution->reaction);
+    problem.g = half->anti_g;
+    problem.bound = half->anti_bound;
+    ContactSolution antisymmetric = {half->anti_velocity, half->anti_reaction, symmetric->status,
+                                     symmetric->rod_touches};
+    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &antisymmetric))
+        return false;
+    contact_half_add(&half->half, true, antisymmetric.velocity, solution->velocity);
+    contact_half_add_forces(&half->half, true, antisymmetric.reaction, solution->reaction);
     return true;
 }
 
@@ -122,14 +124,14 @@ static bool fold_problem(HalfStep *half, const ContactProblem *problem)
     const ContactHalf *side = &half->half;
     int32_t count = side->interface.count;
     contact_half_fold_forces(side, false, problem->g, half->g);
-    contact_half_fold_forces(side, true, problem->g, half->odd_g);
+    contact_half_fold_forces(side, true, problem->g, half->anti_g);
     contact_half_fold(side, false, problem->bound, half->bound);
-    contact_half_fold(side, true, problem->bound, half->odd_bound);
+    contact_half_fold(side, true, problem->bound, half->anti_bound);
     double force = dense_max_abs(half->g, count);
     double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
-    half->antisymmetric_part = fmax(dense_max_abs(half->odd_g, count) / force,
-                                    dense_max_abs(half->odd_bound, count) / speed);
-    return half->antisymmetric_part <= ALIKE;
+    half->asymmetry = fmax(dense_max_abs(half->anti_g, count) / force,
+                                    dense_max_abs(half->anti_bound, count) / speed);
+    return half->asymmetry <= ALIKE;
 }
 
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
@@ -161,7 +163,7 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
 void half_step_archive(HalfStep *half, Archive *archive)
 {
     if (!half->exists) return;
-    archive_number(archive, &half->antisymmetric_part);
+    archive_number(archive, &half->asymmetry);
     contact_solver_archive(&half->solver, &half->half.interface, archive);
     certificate_archive(&half->symmetric, archive);
     certificate_archive(&half->antisymmetric, archive);

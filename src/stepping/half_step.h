@@ -23,12 +23,11 @@ typedef struct HalfStep {
     Rod rod;   // of one side: softness and lag
     State state;   // one side of the last one folded: what the contact knows of it, nothing else
     double *g, *bound;   // [interface.count] work, like the next
-    ContactNewton newton;   // of the antisymmetric part, like the next
-    double *odd_g, *odd_bound, *odd_velocity, *odd_reaction;
+    ContactNewton newton;   // of the antisymmetric part, like the next four
+    double *anti_g, *anti_bound, *anti_velocity, *anti_reaction;   // [interface.count] work
     Certificate symmetric, antisymmetric;
-    double
-        antisymmetric_part;   // of the last problem, over the symmetric one: followed where it is
-        // not rounding
+    double asymmetry;   // antisymmetric part of the last problem, over the symmetric one: followed
+        // where it is not rounding
     bool antisymmetric_decays;   // in the state that parts_hold was last asked about
 } HalfStep;
 
@@ -42,8 +41,8 @@ bool half_step_take_law(HalfStep *half, const FrictionLaw *law);
 // `state` on one side; stands until the next is folded.
 const State *half_step_fold(HalfStep *half, const State *state);
 
-// Solves `problem`, whose matrix is that of the symmetric part, all else of both sides, from what is
-// in `solution`. antisymmetric: the matrix of that part; NULL: it decays. *alike: whether the
+// Solves `problem`, whose matrix is that of the symmetric part, all else of both sides, from what
+// is in `solution`. antisymmetric: the matrix of that part; NULL: it decays. *alike: whether the
 // problem is its own mirror image; false: it is not solved.
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
                      ContactSolution *solution, bool *alike);

@@ -231,8 +231,8 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
                 Error *err)
 {
     *outcome = (StepOutcome){0};
-    // The matrices of the contact. That of the antisymmetric part comes before the stages, as it may
-    // make the rung anew.
+    // The matrices of the contact. That of the antisymmetric part comes before the stages, as it
+    // may make the rung anew.
     if (!ladder_rung(scheme->ladder, k, scheme->part, err)) goto cleanup;
     bool both = scheme->part != PART_WHOLE && scheme->antisymmetric_acts;
     scheme->antisymmetric = both ? ladder_contact(scheme->ladder, k, PART_ANTISYMMETRIC) : NULL;

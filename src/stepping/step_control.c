@@ -179,8 +179,8 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
            parts_ask(parts_of(control), state, PARTS_EXCLUDE_RUNAWAY, all, 0);
 }
 
-// Cheapest first. *certified and *antisymmetric_decays: of the state the step leads to; where the certificate
-// is switched off true and false, without a look.
+// The cheapest questions come first. *certified and *antisymmetric_decays are of the state that the
+// step leads to; where the certificate is switched off they are true and false, without a look.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
                           bool *certified, bool *antisymmetric_decays)
 {
@@ -335,7 +335,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
                       half_step_take_law(&control->half, control->scheme.law);
         control->scheme.part = halved ? PART_SYMMETRIC : PART_WHOLE;
         control->scheme.antisymmetric_acts = !control->antisymmetric_decays ||
-                                             control->half.antisymmetric_part > ANTISYMMETRIC_LIMIT;
+                                             control->half.asymmetry > ANTISYMMETRIC_LIMIT;
 
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         if (outcome.asymmetric) {
