@@ -130,7 +130,7 @@ static bool fold_problem(HalfStep *half, const ContactProblem *problem)
     double force = dense_max_abs(half->g, count);
     double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
     half->asymmetry = fmax(dense_max_abs(half->anti_g, count) / force,
-                                    dense_max_abs(half->anti_bound, count) / speed);
+                           dense_max_abs(half->anti_bound, count) / speed);
     return half->asymmetry <= ALIKE;
 }
 
