@@ -27,13 +27,19 @@ bool contact_discs_create(const Interface *interface, ContactNewton *newton, Con
     discs->row = NEW_ARRAY(DiscRow, interface->contact_count, err);
     discs->kept = NEW_ARRAY(DiscRow, interface->contact_count, err);
     discs->taken = NEW_ARRAY(double, interface->count, err);
-    return error_is_clean(err) && disc_factors_create(interface, &discs->factors, err);
+    int64_t count = interface->count;
+    discs->factors.lu = memory_bytes((int64_t)sizeof(float) * count * count, err);
+    discs->factors.pivots = NEW_ARRAY(int32_t, count, err);
+    discs->factors.single = NEW_ARRAY(float, count, err);
+    discs->factors.column = NEW_ARRAY(double, count, err);
+    return error_is_clean(err);
 }
 
 void contact_discs_destroy(ContactDiscs *discs)
 {
-    memory_free_all(discs->row, discs->kept, discs->taken);
-    disc_factors_destroy(&discs->factors);
+    DiscFactors *factors = &discs->factors;
+    memory_free_all(discs->row, discs->kept, discs->taken, factors->lu, factors->pivots,
+                    factors->single, factors->column);
     *discs = (ContactDiscs){0};
 }
 
@@ -117,29 +123,19 @@ static bool judge_all(Settling *settling)
     return changed;
 }
 
-// --- equations ----------------------------------------------------------------------------------
+// --- equations and their derivative -------------------------------------------------------------
 
-// Residual of the equations of node i: along d, and across it by (1 - theta).
-static void node_residual(const Settling *settling, int32_t i, double off[2])
-{
-    const Interface *interface = settling->problem->interface;
-    const DiscRow *row = &settling->discs->row[i];
-    int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
-    const double *r = settling->at->reaction + t, *v = settling->at->velocity + t, *d = row->d;
-    off[0] = d[0] * r[0] + d[1] * r[1] + row->mu * settling->at->reaction[n];
-    off[1] = (1 - row->theta) * (d[0] * r[1] - d[1] * r[0]) +
-             row->theta * row->rho * (d[0] * v[1] - d[1] * v[0]);
-}
-
-// Into newton->step: what the rows of what is free are off, those of a slipping node turned into
-// the directions that were factored, where `kept`. Returns the largest force that any is off.
+// Residuals of the equations of what is free, into newton->step: of a slipping node along d, and
+// across it by (1 - theta). Where `kept`, they are turned into the directions that were factored.
+// Returns the largest force that any is off.
 static double find_residual(const Settling *settling, bool kept)
 {
     const ContactProblem *problem = settling->problem;
+    const Interface *interface = problem->interface;
     const ContactEquations *equations = &settling->newton->equations;
     const ContactSolution *at = settling->at;
     double largest = 0, *step = settling->newton->step;
-    int32_t rods = interface_rod(problem->interface, 0);
+    int32_t rods = interface_rod(interface, 0);
     for (int32_t a = 0; a < equations->free_count; a++) {
         int32_t k = equations->free[a];
         if (k >= rods) {
@@ -149,76 +145,116 @@ static double find_residual(const Settling *settling, bool kept)
             largest = fmax(largest, fabs(step[a]));
             continue;
         }
-        int32_t i = dof_node(problem->interface->dim, k);
+        // Both equations of a node, whose tangents follow one another.
+        int32_t i = dof_node(interface->dim, k), t = interface_tangent(interface, i);
         const DiscRow *row = &settling->discs->row[i], *old = &settling->discs->kept[i];
-        double off[2], across;
-        node_residual(settling, i, off);
-        across = row->theta < 1 ? off[1] / (1 - row->theta) : 0;
+        const double *r = at->reaction + t, *v = at->velocity + t, *d = row->d;
+        double along = d[0] * r[0] + d[1] * r[1] +
+                       row->mu * at->reaction[interface_normal(interface, i)];
+        double turning = (1 - row->theta) * (d[0] * r[1] - d[1] * r[0]) +
+                         row->theta * row->rho * (d[0] * v[1] - d[1] * v[0]);
+        double across = row->theta < 1 ? turning / (1 - row->theta) : 0;
+        double force = along;
         if (kept) {
-            double cosine = row->d[0] * old->d[0] + row->d[1] * old->d[1];
-            double sine = old->d[0] * row->d[1] - old->d[1] * row->d[0];
-            double along = off[0];
-            off[0] = cosine * along - sine * across;
-            off[1] = (1 - old->theta) * (sine * along + cosine * across);
+            double cosine = d[0] * old->d[0] + d[1] * old->d[1];
+            double sine = old->d[0] * d[1] - old->d[1] * d[0];
+            force = cosine * along - sine * across;
+            turning = (1 - old->theta) * (sine * along + cosine * across);
         }
-        step[a++] = off[0];
-        step[a] = off[1];
-        largest = fmax(largest, hypot(off[0], across));
+        step[a++] = force;
+        step[a] = turning;
+        largest = fmax(largest, hypot(force, across));
     }
     return largest;
 }
 
-// In double precision, into the factors of the plane.
+// Column b of the derivative, out [free_count], of what `newton` lists as free.
+static void derivative_column(const ContactNewton *newton, const DiscRow *rows, int32_t b,
+                              double *out)
+{
+    const ContactEquations *equations = &newton->equations;
+    const ContactProblem *problem = equations->problem;
+    int32_t own = equations->free[b], rod = interface_rod(problem->interface, 0);
+    const double *column = newton->closed + (int64_t)problem->interface->count * own;
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        int32_t k = equations->free[a];
+        if (k >= rod) {
+            out[a] = column[k];
+            continue;
+        }
+        const DiscRow *row = &rows[dof_node(3, k)];
+        const double *d = row->d;
+        out[a++] = d[0] * column[k] + d[1] * column[k + 1] + row->mu * column[k + 2];
+        out[a] = (1 - row->theta) * (d[0] * column[k + 1] - d[1] * column[k]);
+    }
+    if (own >= rod) {
+        if (equations->at->rod_touches[own - rod]) out[b] += rod_stiffness(problem, own - rod);
+        return;
+    }
+    const DiscRow *row = &rows[dof_node(3, own)];
+    int32_t axis = dof_axis(3, own), first = b - axis;
+    out[first] += row->along[axis];
+    out[first + 1] += row->theta * row->rho * (axis == 0 ? -row->d[1] : row->d[0]);
+}
+
+// LU in double precision, into the factors of the plane. false: the derivative is singular.
 static bool factor_double(const Settling *settling)
 {
     ContactNewton *newton = settling->newton;
     int64_t size = newton->equations.free_count;
     for (int32_t b = 0; b < size; b++)
-        disc_column(newton, settling->discs->row, b, newton->factors.lu + b * size);
+        derivative_column(newton, settling->discs->row, b, newton->factors.lu + b * size);
     return dense_lu(newton->factors.lu, (int32_t)size, newton->factors.pivots);
 }
 
-// --- steps --------------------------------------------------------------------------------------
-
-// Factors are of this S and of these statuses, and steps with them gain.
-static bool may_reuse(const Settling *settling)
+// LU in single precision, of the derivative over the largest entry of S.
+static bool factor_single(const Settling *settling)
 {
+    DiscFactors *factors = &settling->discs->factors;
     const ContactNewton *newton = settling->newton;
-    int64_t factored = settling->problem->matrix->factored;
-    return newton->factors_gain && !newton->creeps && !settling->factors_anew && factored > 0 &&
-           factored == newton->factorisations &&
-           contact_has_statuses(&newton->equations, newton->factors.status);
+    int64_t size = newton->equations.free_count;
+    double scale = 1 / settling->problem->matrix->diagonal;
+    float *out = factors->lu;
+    for (int32_t b = 0; b < size; b++, out += size) {
+        derivative_column(newton, settling->discs->row, b, factors->column);
+        for (int32_t a = 0; a < size; a++) out[a] = (float)(scale * factors->column[a]);
+    }
+    bool regular = dense_lu_single(factors->lu, (int32_t)size, factors->pivots);
+    factors->rows = regular ? (int32_t)size : 0;
+    return regular;
 }
 
+// Factors of the derivative at the rows as they are, which are kept. false: it is singular.
 static bool factor(Settling *settling)
 {
     ContactNewton *newton = settling->newton;
     ContactFactors *factors = &newton->factors;
-    int32_t size = newton->equations.free_count;
     newton->factorisations++;
-    bool regular = settling->in_double
-                       ? factor_double(settling)
-                       : disc_factors_make(&settling->discs->factors, newton, settling->discs->row);
+    bool regular = settling->in_double ? factor_double(settling) : factor_single(settling);
     contact_copy_statuses(&newton->equations, factors->status);
     memcpy(settling->discs->kept, settling->discs->row,
            (size_t)settling->problem->interface->contact_count * sizeof(DiscRow));
-    factors->rows = regular && settling->in_double ? size : 0;
+    factors->rows = regular && settling->in_double ? newton->equations.free_count : 0;
     if (settling->in_double) settling->discs->factors.rows = 0;
     settling->problem->matrix->factored = regular ? newton->factorisations : 0;
     newton->factors_gain = true;
     return regular;
 }
 
-// Subtracts from newton->step the velocity change of these rows when the forces at open nodes are
-// removed.
-static void add_pull(const Settling *settling)
+// --- steps --------------------------------------------------------------------------------------
+
+// The residual in newton->step becomes the step that takes it away.
+static void find_step(const Settling *settling)
 {
     ContactNewton *newton = settling->newton;
     const ContactEquations *equations = &newton->equations;
-    int32_t rods = interface_rod(settling->problem->interface, 0);
+    int32_t size = equations->free_count, rods = interface_rod(settling->problem->interface, 0);
+    for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
+
+    // What the forces at open nodes do to these equations when they are removed.
     const DiscRow *rows = newton->reused ? settling->discs->kept : settling->discs->row;
-    contact_newton_find_pull(newton);
-    for (int32_t a = 0; a < equations->free_count; a++) {
+    if (newton->open_count > 0) contact_newton_find_pull(newton);
+    for (int32_t a = 0; newton->open_count > 0 && a < size; a++) {
         int32_t k = equations->free[a];
         const double *pull = newton->pull + k;
         if (k >= rods) {
@@ -229,37 +265,16 @@ static void add_pull(const Settling *settling)
         newton->step[a++] += row->d[0] * pull[0] + row->d[1] * pull[1] + row->mu * pull[2];
         newton->step[a] += (1 - row->theta) * (row->d[0] * pull[1] - row->d[1] * pull[0]);
     }
-}
 
-// The residual in newton->step becomes the step that takes it away.
-static void find_step(const Settling *settling)
-{
-    ContactNewton *newton = settling->newton;
-    int32_t size = newton->equations.free_count;
-    for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
-    if (newton->open_count > 0) add_pull(settling);
-    if (!settling->in_double && settling->discs->factors.rows > 0)
-        disc_factors_solve(&settling->discs->factors, newton, newton->step);
-    else
+    const DiscFactors *factors = &settling->discs->factors;
+    if (settling->in_double || factors->rows == 0) {
         dense_lu_solve(newton->factors.lu, size, newton->factors.pivots, newton->step);
-}
-
-// One step from rows, lists and reactions as they are. false: the derivative is singular, or a
-// number is not finite.
-static bool take_step(Settling *settling)
-{
-    ContactNewton *newton = settling->newton;
-    newton->reused = may_reuse(settling);
-    if (!newton->reused && !factor(settling)) return false;
-    double before = find_residual(settling, newton->reused);
-    if (!isfinite(before)) return false;
-    find_step(settling);
-    contact_newton_creep(newton);
-    size_t bytes = (size_t)newton->equations.free_count * sizeof(double);
-    memcpy(settling->discs->taken, newton->step, bytes);
-    contact_newton_take(newton);
-    settling->discs->iterations++;
-    return true;
+        return;
+    }
+    double scale = 1 / settling->problem->matrix->diagonal;
+    dense_lu_single_solve(factors->lu, factors->rows, factors->pivots, newton->step,
+                          factors->single);
+    for (int32_t a = 0; a < factors->rows; a++) newton->step[a] *= scale;
 }
 
 // Half of what is left of the last step is taken back.
@@ -285,39 +300,55 @@ static double residual_now(Settling *settling)
     return isfinite(largest) ? largest / settling->scales.force : INFINITY;
 }
 
-typedef enum Progress { GOES_ON, SOLVED } Progress;
-
-static Progress judge_step(Settling *settling)
-{
-    ContactNewton *newton = settling->newton;
-    double before = settling->residual;
-    for (int32_t halved = 0;; halved++) {
-        settling->scales = contact_scales(settling->problem, settling->at->reaction);
-        if (judge_all(settling)) {
-            contact_newton_settle(newton);
-            settling->residual = INFINITY;
-            return GOES_ON;
-        }
-        settling->residual = residual_now(settling);
-        if (newton->reused || settling->residual <= before || halved == HALVINGS) break;
-        halve_step(settling);
-    }
-    if (settling->residual <= settling->tolerance && !newton->exact) {
-        contact_newton_react(newton);
-        if (judge_all(settling)) return GOES_ON;
-        settling->residual = residual_now(settling);
-    }
-    if (settling->residual <= settling->tolerance) return SOLVED;
-    if (newton->reused && settling->residual > CHORD_GAIN * before) settling->factors_anew = true;
-    return GOES_ON;
-}
-
+// Newton's steps from rows, lists and reactions as they are. true: equations and statuses hold.
+// false: they do not within STEPS, a derivative is singular, or a number is not finite.
 static bool settle(Settling *settling)
 {
+    ContactNewton *newton = settling->newton;
     for (int32_t k = 0; k < STEPS; k++) {
-        if (!settling->newton->listed && !contact_newton_close(settling->newton)) return false;
-        if (!take_step(settling)) return false;
-        if (judge_step(settling) == SOLVED) return true;
+        if (!newton->listed && !contact_newton_close(newton)) return false;
+
+        // Factors are reused if they are the latest, of this S and of these statuses, and gain.
+        int64_t factored = settling->problem->matrix->factored;
+        newton->reused = newton->factors_gain && !newton->creeps && !settling->factors_anew &&
+                         factored > 0 && factored == newton->factorisations &&
+                         contact_has_statuses(&newton->equations, newton->factors.status);
+        if (!newton->reused && !factor(settling)) return false;
+
+        // The step.
+        if (!isfinite(find_residual(settling, newton->reused))) return false;
+        find_step(settling);
+        contact_newton_creep(newton);
+        memcpy(settling->discs->taken, newton->step,
+               (size_t)newton->equations.free_count * sizeof(double));
+        contact_newton_take(newton);
+        settling->discs->iterations++;
+
+        // Statuses at its end; where they stay, a step that leaves more than there was is halved.
+        double before = settling->residual;
+        bool changed;
+        for (int32_t halved = 0;; halved++) {
+            settling->scales = contact_scales(settling->problem, settling->at->reaction);
+            changed = judge_all(settling);
+            settling->residual = changed ? INFINITY : residual_now(settling);
+            if (changed || newton->reused || settling->residual <= before || halved == HALVINGS)
+                break;
+            halve_step(settling);
+        }
+        if (changed) {
+            contact_newton_settle(newton);
+            continue;
+        }
+
+        // The last digits are those of S v - g with all of its columns.
+        if (settling->residual <= settling->tolerance && !newton->exact) {
+            contact_newton_react(newton);
+            if (judge_all(settling)) continue;
+            settling->residual = residual_now(settling);
+        }
+        if (settling->residual <= settling->tolerance) return true;
+        if (newton->reused && settling->residual > CHORD_GAIN * before)
+            settling->factors_anew = true;
     }
     return false;
 }
@@ -415,7 +446,12 @@ void contact_discs_archive(ContactDiscs *discs, const Interface *interface, Arch
 {
     archive_section(archive, "contact discs");
     archive_counts_of(archive, &discs->iterations, &discs->sweeps, &discs->swept);
-    disc_factors_archive(&discs->factors, interface->count, archive);
+    DiscFactors *factors = &discs->factors;
+    archive_index(archive, &factors->rows, 0, interface->count + 1);
+    if (archive->failed) return;
+    int64_t entries = (int64_t)factors->rows * factors->rows;
+    archive_octets(archive, (uint8_t *)factors->lu, entries * (int64_t)sizeof(float));
+    archive_indices(archive, factors->pivots, factors->rows, 1, factors->rows + 1);
     for (int32_t i = 0; i < interface->contact_count; i++) {
         DiscRow *row = &discs->kept[i];
         archive_numbers(archive, row->d, TANGENTS_MAX);

@@ -22,7 +22,26 @@
 #ifndef AMONTONS_CONTACT_CONTACT_DISCS_H
 #define AMONTONS_CONTACT_CONTACT_DISCS_H
 
-#include "contact/disc_factors.h"
+#include "contact/contact_newton.h"
+#include "contact/slip.h"
+
+// The two equations of a slipping node.
+typedef struct DiscRow {
+    double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
+    double mu;
+    double theta, rho;   // rho: force/width per velocity
+    double along[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
+} DiscRow;
+
+// LU of the derivative in single precision: Newton's residual is of double precision, so that it
+// takes hardly a step more, and a factor half the time.
+typedef struct DiscFactors {
+    float *lu;   // [rows^2] of the derivative over the largest entry of S; owned, like what follows
+    int32_t *pivots;   // [rows]
+    float *single;   // [interface->count] work
+    double *column;   // [interface->count] work
+    int32_t rows;   // 0: there are none
+} DiscFactors;
 
 typedef struct ContactDiscs {
     ContactNewton *newton;   // lists, products with S and factors; not owned

@@ -111,9 +111,9 @@ void contact_half_destroy(ContactHalf *half)
 
 // --- S ------------------------------------------------------------------------------------------
 
-static double sign_of(const ContactHalf *half, int32_t k, bool odd)
+static double sign_of(const ContactHalf *half, int32_t k, bool antisymmetric)
 {
-    return odd ? -half->sign[k] : half->sign[k];
+    return antisymmetric ? -half->sign[k] : half->sign[k];
 }
 
 static bool in_middle(const ContactHalf *half, int32_t k)
@@ -122,9 +122,9 @@ static bool in_middle(const ContactHalf *half, int32_t k)
 }
 
 // No motion of that kind has it.
-static bool is_still(const ContactHalf *half, int32_t k, bool odd)
+static bool is_still(const ContactHalf *half, int32_t k, bool antisymmetric)
 {
-    return in_middle(half, k) && sign_of(half, k, odd) < 0;
+    return in_middle(half, k) && sign_of(half, k, antisymmetric) < 0;
 }
 
 // A column of S, and that of its image.
@@ -149,7 +149,8 @@ static double fill_entry(const ContactHalf *half, Columns columns, int32_t a, do
     return fmax(fabs(own - opposite), fabs(there - across));
 }
 
-bool contact_half_matrix(const ContactHalf *half, const double *schur, bool odd, double *out)
+bool contact_half_matrix(const ContactHalf *half, const double *schur, bool antisymmetric,
+                         double *out)
 {
     int64_t size = half->interface.count, whole = half->whole;
     double largest = 0, off = 0;
@@ -157,14 +158,15 @@ bool contact_half_matrix(const ContactHalf *half, const double *schur, bool odd,
     for (int32_t b = 0; b < size; b++) {
         Columns columns = {.own = schur + whole * half->unknown[b],
                            .across = schur + whole * half->image[b],
-                           .sign = sign_of(half, b, odd)};
+                           .sign = sign_of(half, b, antisymmetric)};
         for (int32_t a = 0; a < size; a++) {
             double *entry = out + size * b + a;
             *entry = 0;
-            if (!is_still(half, a, odd) && !is_still(half, b, odd))
-                off = fmax(off, fill_entry(half, columns, a, sign_of(half, a, odd), entry));
+            if (!is_still(half, a, antisymmetric) && !is_still(half, b, antisymmetric))
+                off =
+                    fmax(off, fill_entry(half, columns, a, sign_of(half, a, antisymmetric), entry));
             else if (a == b)
-                *entry = odd ? HELD * largest : columns.own[half->unknown[a]];
+                *entry = antisymmetric ? HELD * largest : columns.own[half->unknown[a]];
         }
     }
     return off <= ALIKE * largest;
@@ -172,33 +174,38 @@ bool contact_half_matrix(const ContactHalf *half, const double *schur, bool odd,
 
 // --- motions, forces, statuses ------------------------------------------------------------------
 
-void contact_half_fold(const ContactHalf *half, bool odd, const double *motion, double *out)
+void contact_half_fold(const ContactHalf *half, bool antisymmetric, const double *motion,
+                       double *out)
 {
     for (int32_t k = 0; k < half->interface.count; k++)
-        out[k] = 0.5 * (motion[half->unknown[k]] + sign_of(half, k, odd) * motion[half->image[k]]);
+        out[k] = 0.5 * (motion[half->unknown[k]] +
+                        sign_of(half, k, antisymmetric) * motion[half->image[k]]);
 }
 
-void contact_half_fold_forces(const ContactHalf *half, bool odd, const double *force, double *out)
+void contact_half_fold_forces(const ContactHalf *half, bool antisymmetric, const double *force,
+                              double *out)
 {
-    contact_half_fold(half, odd, force, out);
+    contact_half_fold(half, antisymmetric, force, out);
     for (int32_t k = 0; k < half->interface.count; k++)
         if (!in_middle(half, k)) out[k] *= 2;
 }
 
-void contact_half_add(const ContactHalf *half, bool odd, const double *motion, double *out)
+void contact_half_add(const ContactHalf *half, bool antisymmetric, const double *motion,
+                      double *out)
 {
     for (int32_t k = 0; k < half->interface.count; k++) {
         out[half->unknown[k]] += motion[k];
-        if (!in_middle(half, k)) out[half->image[k]] += sign_of(half, k, odd) * motion[k];
+        if (!in_middle(half, k)) out[half->image[k]] += sign_of(half, k, antisymmetric) * motion[k];
     }
 }
 
-void contact_half_add_forces(const ContactHalf *half, bool odd, const double *force, double *out)
+void contact_half_add_forces(const ContactHalf *half, bool antisymmetric, const double *force,
+                             double *out)
 {
     for (int32_t k = 0; k < half->interface.count; k++) {
         double share = in_middle(half, k) ? force[k] : 0.5 * force[k];
         out[half->unknown[k]] += share;
-        if (!in_middle(half, k)) out[half->image[k]] += sign_of(half, k, odd) * share;
+        if (!in_middle(half, k)) out[half->image[k]] += sign_of(half, k, antisymmetric) * share;
     }
 }
 

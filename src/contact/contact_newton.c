@@ -11,6 +11,51 @@
 #include <math.h>
 #include <string.h>
 
+// --- factors of the derivative ------------------------------------------------------------------
+
+bool contact_factors_create(const Interface *interface, ContactFactors *factors, Error *err)
+{
+    int64_t count = interface->count;
+    *factors = (ContactFactors){.lu = memory_bytes(8 * count * count, err)};
+    factors->pivots = NEW_ARRAY(int32_t, count, err);
+    factors->status = NEW_ARRAY(uint8_t, count, err);
+    return error_is_clean(err);
+}
+
+void contact_factors_destroy(ContactFactors *factors)
+{
+    memory_free_all(factors->lu, factors->pivots, factors->status);
+    *factors = (ContactFactors){0};
+}
+
+bool contact_factors_make(ContactFactors *factors, const ContactEquations *equations,
+                          const double *matrix)
+{
+    int32_t rows = equations->free_count;
+    contact_jacobian(equations, matrix, rows, factors->lu);
+    contact_copy_statuses(equations, factors->status);
+    factors->rows = dense_lu(factors->lu, rows, factors->pivots) ? rows : 0;
+    return factors->rows == rows;
+}
+
+void contact_factors_solve(const ContactFactors *factors, double *x)
+{
+    dense_lu_solve(factors->lu, factors->rows, factors->pivots, x);
+}
+
+// count: interface unknowns.
+void contact_factors_archive(ContactFactors *factors, int32_t count, Archive *archive)
+{
+    archive_section(archive, "contact factors");
+    archive_octets(archive, factors->status, count);
+    archive_index(archive, &factors->rows, 0, count + 1);
+    if (archive->failed) return;
+    archive_numbers(archive, factors->lu, (int64_t)factors->rows * factors->rows);
+    archive_indices(archive, factors->pivots, factors->rows, 1, factors->rows + 1);
+}
+
+// --- one step -----------------------------------------------------------------------------------
+
 bool contact_newton_create(const Interface *interface, ContactNewton *newton, Error *err)
 {
     int64_t count = interface->count;
@@ -108,39 +153,9 @@ bool contact_newton_list(ContactNewton *newton)
     return true;
 }
 
-// True if the stored factors are those of this matrix's latest factorisation. Factors of another
-// step size would converge too slowly.
-static bool factors_are_of(const ContactNewton *newton)
-{
-    int64_t factored = newton->equations.problem->matrix->factored;
-    return factored > 0 && factored == newton->factorisations;
-}
-
-// Anew. false: the derivative is singular.
-static bool factor(ContactNewton *newton)
-{
-    newton->factorisations++;
-    bool regular = contact_factors_make(&newton->factors, &newton->equations, newton->closed);
-    newton->equations.problem->matrix->factored = regular ? newton->factorisations : 0;
-    return regular;
-}
-
-// The factors are those of the derivative, or of one with these statuses with which steps still
-// gain (where friction creeps each row is another). false: the derivative is singular.
-static bool find_factors(ContactNewton *newton)
-{
-    newton->reused = factors_are_of(newton) && !newton->creeps && newton->factors_gain &&
-                     newton->factors.rows == newton->equations.free_count &&
-                     contact_has_statuses(&newton->equations, newton->factors.status);
-    if (newton->reused) return true;
-    if (!factor(newton)) return false;
-    newton->factors_gain = true;
-    return true;
-}
-
-// pull = S' r_O: what the forces at open nodes, which shall have none, do to all others when they
-// are taken away and, on O, -S_OO^-1 r_O: how these nodes would move if nothing else did. Rounding
-// is left as it is.
+// pull: velocity change of all nodes when the forces at open nodes, which shall have none, are
+// removed, S' r_O, and on O itself -S_OO^-1 r_O, the motion of these nodes while the others stay.
+// Forces of the size of rounding are left as they are.
 void contact_newton_find_pull(ContactNewton *newton)
 {
     int32_t count = newton->equations.problem->interface->count;
@@ -221,14 +236,32 @@ void contact_newton_creep(ContactNewton *newton)
 bool contact_newton_step(ContactNewton *newton)
 {
     const ContactEquations *equations = &newton->equations;
+    ContactMatrix *matrix = equations->problem->matrix;
     int32_t free_count = equations->free_count;
-    if (!find_factors(newton)) return false;
+
+    // Factors are reused if they are the latest, of this S and of these statuses, and steps with
+    // them still gain. Factors of another step size would converge too slowly, and where friction
+    // creeps each row changes from step to step.
+    newton->reused = matrix->factored > 0 && matrix->factored == newton->factorisations &&
+                     !newton->creeps && newton->factors_gain &&
+                     newton->factors.rows == free_count &&
+                     contact_has_statuses(equations, newton->factors.status);
+    if (!newton->reused) {
+        newton->factorisations++;
+        bool regular = contact_factors_make(&newton->factors, equations, newton->closed);
+        matrix->factored = regular ? newton->factorisations : 0;
+        if (!regular) return false;
+        newton->factors_gain = true;
+    }
+
+    // The right-hand side, with what the forces at open nodes do to the others.
     for (int32_t a = 0; a < free_count; a++) newton->step[a] = -newton->step[a];
     if (newton->open_count > 0) {
         contact_newton_find_pull(newton);
         contact_combine(equations, newton->pull, newton->more);
         dense_add_scaled(1, newton->more, free_count, newton->step);
     }
+
     contact_factors_solve(&newton->factors, newton->step);
     contact_newton_creep(newton);
     contact_newton_take(newton);

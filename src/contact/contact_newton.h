@@ -10,8 +10,16 @@
 #ifndef AMONTONS_CONTACT_CONTACT_NEWTON_H
 #define AMONTONS_CONTACT_CONTACT_NEWTON_H
 
-#include "contact/contact_factors.h"
+#include "contact/contact_equations.h"
 #include "contact/contact_problem.h"
+
+// LU of the derivative, kept from one Newton step to the next.
+typedef struct ContactFactors {
+    int32_t rows;   // 0: none is kept
+    double *lu;   // [rows^2]; owned, like all that follows
+    int32_t *pivots;   // [rows]
+    uint8_t *status;   // [contact_count + rod_count] that it is for (contact_copy_statuses)
+} ContactFactors;
 
 typedef struct ContactNewton {
     ContactEquations equations;   // of the solve under way. free: tangents of nodes that slip, rod
@@ -74,5 +82,18 @@ double contact_newton_residual(ContactNewton *newton);
 
 // Writes or reads all that outlives a solve. count: interface unknowns.
 void contact_newton_archive(ContactNewton *newton, int32_t count, Archive *archive);
+
+// The factors by themselves.
+bool contact_factors_create(const Interface *interface, ContactFactors *factors, Error *err);
+void contact_factors_destroy(ContactFactors *factors);
+
+// LU of the derivative as contact_jacobian has it. false: it is singular, and none is kept.
+bool contact_factors_make(ContactFactors *factors, const ContactEquations *equations,
+                          const double *matrix);
+
+// x [rows] := J^-1 x.
+void contact_factors_solve(const ContactFactors *factors, double *x);
+
+void contact_factors_archive(ContactFactors *factors, int32_t count, Archive *archive);
 
 #endif

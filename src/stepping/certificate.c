@@ -51,14 +51,16 @@ cleanup:
 }
 
 bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
-                       bool odd, Certificate *certificate, Error *err)
+                       ContactPart part, Certificate *certificate, Error *err)
 {
     int64_t count = half->interface.count;
+    bool antisymmetric = part == PART_ANTISYMMETRIC;
     TRY(create_work(block, certificate, err));
+    certificate->part = part;
     if (!whole->damping) goto cleanup;
     double *damping = certificate->half_damping = NEW_ARRAY(double, count *count, err);
     if (damping &&
-        contact_half_matrix(half, interface_operator_schur(whole->damping), odd, damping))
+        contact_half_matrix(half, interface_operator_schur(whole->damping), antisymmetric, damping))
         TRY(contact_matrix_create(damping, (int32_t)count, &certificate->damping_contact, err));
 cleanup:
     return error_is_clean(err);
@@ -121,9 +123,9 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, L
 {
     double started = clock_seconds(), ratio = log(growth) / M_PI;
     double narrow = ratio / sqrt(1 + ratio * ratio);
-    bool less = ladder_fill(ladder);   // BETWEEN_RUNGS is that of neighbours
+    bool less = ladder_fill(ladder, certificate->part);   // BETWEEN_RUNGS is that of neighbours
     for (int32_t k = range.first; less && k < range.end; k++) {
-        ContactMatrix *rung = ladder_contact(ladder, k);
+        ContactMatrix *rung = ladder_contact(ladder, k, certificate->part);
         if (rung) less = is_definite(certificate, state, rung, narrow, ladder_reach(ladder, k));
     }
     certificate->seconds += clock_seconds() - started;
@@ -184,7 +186,7 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
     bool found = false;
     moving_set_find(&certificate->moving, state, false);
     for (int32_t k = 0; k < ladder->rung_count && !found; k++) {
-        ContactMatrix *rung = k == resolved ? NULL : ladder_contact(ladder, k);
+        ContactMatrix *rung = k == resolved ? NULL : ladder_contact(ladder, k, certificate->part);
         found = rung && !is_resolved(certificate, state, rung, ladder_reach(ladder, k));
     }
     certificate->seconds += clock_seconds() - started;
@@ -215,9 +217,9 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
                                   RungRange range)
 {
     double ratio[3] = {0}, octaves;
-    if (!ladder_fill(ladder)) return false;   // so is the parabola
+    if (!ladder_fill(ladder, certificate->part)) return false;   // so is the parabola
     for (int32_t k = range.first; k < range.end; k++) {
-        ContactMatrix *rung = ladder_contact(ladder, k);
+        ContactMatrix *rung = ladder_contact(ladder, k, certificate->part);
         ratio[0] = ratio[1];
         ratio[1] = ratio[2];
         ratio[2] = rung ? certificate_ratio(certificate, state, rung, ladder_reach(ladder, k)) : 0;

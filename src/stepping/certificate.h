@@ -49,6 +49,7 @@
 #include "stepping/moving_set.h"
 
 typedef struct Certificate {
+    ContactPart part;   // of what is asked about
     InterfaceOperator *damping;   // holds S_C; NULL: C is singular, or it is halved; owned
     double *half_damping;   // [count^2] S_C halved; NULL: it is not; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
@@ -64,7 +65,7 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
 // The certificate of the symmetric or antisymmetric part on one side; its unknowns are those of
 // `block`, whose bulk is not asked for. Where S_C is not its own image nothing is certified.
 bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
-                       bool odd, Certificate *certificate, Error *err);
+                       ContactPart part, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
 
 // The slip set of `state` cannot gain energy. Where friction remembers: |lambda| < 1/reach of all

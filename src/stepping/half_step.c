@@ -41,15 +41,15 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
-    half->odd_g = NEW_ARRAY(double, side->count, err);
-    half->odd_bound = NEW_ARRAY(double, side->count, err);
-    half->odd_velocity = NEW_ARRAY(double, side->count, err);
-    half->odd_reaction = NEW_ARRAY(double, side->count, err);
+    half->anti_g = NEW_ARRAY(double, side->count, err);
+    half->anti_bound = NEW_ARRAY(double, side->count, err);
+    half->anti_velocity = NEW_ARRAY(double, side->count, err);
+    half->anti_reaction = NEW_ARRAY(double, side->count, err);
     if (!contact_newton_create(side, &half->newton, err)) return false;
     Block one = {.interface = side, .law = &half->law, .rod = &half->rod};
-    for (int32_t odd = 0; alike && odd < 2; odd++) {
-        Certificate *certificate = odd ? &half->odd : &half->even;
-        if (!certificate_halve(whole, &half->half, &one, odd, certificate, err)) return false;
+    for (ContactPart part = PART_SYMMETRIC; alike && part <= PART_ANTISYMMETRIC; part++) {
+        Certificate *certificate = part == PART_SYMMETRIC ? &half->symmetric : &half->antisymmetric;
+        if (!certificate_halve(whole, &half->half, &one, part, certificate, err)) return false;
         alike = certificate->damping_contact.schur != NULL;
     }
     half->exists = alike;
@@ -58,13 +58,13 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
 
 void half_step_destroy(HalfStep *half)
 {
-    certificate_destroy(&half->even);
-    certificate_destroy(&half->odd);
+    certificate_destroy(&half->symmetric);
+    certificate_destroy(&half->antisymmetric);
     contact_solver_destroy(&half->solver);
     contact_half_destroy(&half->half);
     state_destroy(&half->state);
     memory_free_all(half->rod.softness, half->rod.lag, half->laws, half->g, half->bound,
-                    half->odd_g, half->odd_bound, half->odd_velocity, half->odd_reaction);
+                    half->anti_g, half->anti_bound, half->anti_velocity, half->anti_reaction);
     contact_newton_destroy(&half->newton);
     *half = (HalfStep){0};
 }
@@ -101,18 +101,20 @@ const State *half_step_fold(HalfStep *half, const State *state)
     return one;
 }
 
-// `one` has what is even, as it is for one side.
-static bool follow_odd(HalfStep *half, const ContactProblem *one, ContactMatrix *matrix,
-                       const ContactSolution *even, ContactSolution *solution)
+// Adds the antisymmetric part, to first order. one: the problem of the symmetric part.
+static bool follow_antisymmetric(HalfStep *half, const ContactProblem *one, ContactMatrix *matrix,
+                                 const ContactSolution *symmetric, ContactSolution *solution)
 {
     ContactProblem problem = *one;
     problem.matrix = matrix;
-    problem.g = half->odd_g;
-    problem.bound = half->odd_bound;
-    ContactSolution odd = {half->odd_velocity, half->odd_reaction, even->status, even->rod_touches};
-    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &odd)) return false;
-    contact_half_add(&half->half, true, odd.velocity, solution->velocity);
-    contact_half_add_forces(&half->half, true, odd.reaction, solution->reaction);
+    problem.g = half->anti_g;
+    problem.bound = half->anti_bound;
+    ContactSolution antisymmetric = {half->anti_velocity, half->anti_reaction, symmetric->status,
+                                     symmetric->rod_touches};
+    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &antisymmetric))
+        return false;
+    contact_half_add(&half->half, true, antisymmetric.velocity, solution->velocity);
+    contact_half_add_forces(&half->half, true, antisymmetric.reaction, solution->reaction);
     return true;
 }
 
@@ -122,17 +124,17 @@ static bool fold_problem(HalfStep *half, const ContactProblem *problem)
     const ContactHalf *side = &half->half;
     int32_t count = side->interface.count;
     contact_half_fold_forces(side, false, problem->g, half->g);
-    contact_half_fold_forces(side, true, problem->g, half->odd_g);
+    contact_half_fold_forces(side, true, problem->g, half->anti_g);
     contact_half_fold(side, false, problem->bound, half->bound);
-    contact_half_fold(side, true, problem->bound, half->odd_bound);
+    contact_half_fold(side, true, problem->bound, half->anti_bound);
     double force = dense_max_abs(half->g, count);
     double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
-    half->odd_part = fmax(dense_max_abs(half->odd_g, count) / force,
-                          dense_max_abs(half->odd_bound, count) / speed);
-    return half->odd_part <= ALIKE;
+    half->asymmetry = fmax(dense_max_abs(half->anti_g, count) / force,
+                           dense_max_abs(half->anti_bound, count) / speed);
+    return half->asymmetry <= ALIKE;
 }
 
-bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *odd,
+bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
                      ContactSolution *solution, bool *alike)
 {
     const ContactHalf *side = &half->half;
@@ -155,14 +157,65 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
     contact_half_add(side, false, at.velocity, solution->velocity);
     contact_half_add_forces(side, false, at.reaction, solution->reaction);
     contact_half_unfold_statuses(side, &at, solution->status, solution->rod_touches);
-    return !odd || follow_odd(half, &one_side, odd, &at, solution);
+    return !antisymmetric || follow_antisymmetric(half, &one_side, antisymmetric, &at, solution);
 }
 
 void half_step_archive(HalfStep *half, Archive *archive)
 {
     if (!half->exists) return;
-    archive_number(archive, &half->odd_part);
+    archive_number(archive, &half->asymmetry);
     contact_solver_archive(&half->solver, &half->half.interface, archive);
-    certificate_archive(&half->even, archive);
-    certificate_archive(&half->odd, archive);
+    certificate_archive(&half->symmetric, archive);
+    certificate_archive(&half->antisymmetric, archive);
+}
+
+// --- certificates of the parts ------------------------------------------------------------------
+
+bool parts_hold(CertifiedParts parts, const State *state, double reach, bool *antisymmetric_decays)
+{
+    HalfStep *half = parts.half;
+    *antisymmetric_decays = false;
+    if (!parts.halved) return certificate_holds(parts.whole, state, reach);
+    const State *one = half_step_fold(half, state);
+    *antisymmetric_decays = certificate_holds(&half->antisymmetric, one, reach);
+    half->antisymmetric_decays = *antisymmetric_decays;
+    bool holds = certificate_holds(&half->symmetric, one, reach);
+    certificate_take_counts(parts.whole, &half->symmetric);
+    certificate_take_counts(parts.whole, &half->antisymmetric);
+    return holds && *antisymmetric_decays;
+}
+
+// The answer of one certificate.
+static bool answer(Certificate *certificate, const State *state, Ladder *ladder, PartsAsked asked,
+                   RungRange range, double growth)
+{
+    int32_t k = range.first;
+    switch (asked) {
+    case PARTS_RESOLVE: {
+        ContactMatrix *rung = ladder_contact(ladder, k, certificate->part);
+        return rung && certificate_step_resolves(certificate, state, rung, ladder_reach(ladder, k));
+    }
+    case PARTS_FIND_NO_RUNAWAY:
+        return !certificate_finds_runaway(certificate, state, ladder, k);
+    case PARTS_OSCILLATE_LESS:
+        return certificate_oscillates_less(certificate, state, ladder, range, growth);
+    case PARTS_EXCLUDE_RUNAWAY:
+        return certificate_excludes_runaway(certificate, state, ladder, range);
+    }
+    return false;
+}
+
+bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, RungRange range,
+               double growth)
+{
+    HalfStep *half = parts.half;
+    Ladder *ladder = parts.ladder;
+    if (!parts.halved) return answer(parts.whole, state, ladder, asked, range, growth);
+    const State *one = half_step_fold(half, state);
+    bool yes = answer(&half->symmetric, one, ladder, asked, range, growth);
+    if (yes && !half->antisymmetric_decays)
+        yes = answer(&half->antisymmetric, one, ladder, asked, range, growth);
+    certificate_take_counts(parts.whole, &half->symmetric);
+    certificate_take_counts(parts.whole, &half->antisymmetric);
+    return yes && ladder->half;   // else a rung was found that is not its own mirror image
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Steps of a state that is its own mirror image across y: their contact problems on one side
 // (contact/contact_half), at a quarter of the matrices and an eighth of their factors. A
-// disturbance to one side is odd and would not show. So each state is asked, too, whether what is
-// odd can gain energy, S_C - W of the odd part positive definite (stepping/certificate): where it
-// cannot, a disturbance to one side decays whatever else happens, and the even part is enough.
-// Where it may, what is odd, if only rounding, is stepped along to first order. From the first
-// problem on whose odd part is above rounding contact is solved as a whole. Owned by
+// disturbance to one side is antisymmetric and would not show. So each state is asked, too, whether
+// its antisymmetric part can gain energy, S_C - W of that part positive definite
+// (stepping/certificate): where it cannot, a disturbance to one side decays whatever else happens,
+// and the symmetric part is enough. Where it may, the antisymmetric part, if only rounding, is
+// stepped along to first order. From the first problem on whose antisymmetric part is above
+// rounding contact is solved as a whole. Owned by
 // stepping/step_control, which decides that.
 #ifndef AMONTONS_STEPPING_HALF_STEP_H
 #define AMONTONS_STEPPING_HALF_STEP_H
@@ -22,11 +23,12 @@ typedef struct HalfStep {
     Rod rod;   // of one side: softness and lag
     State state;   // one side of the last one folded: what the contact knows of it, nothing else
     double *g, *bound;   // [interface.count] work, like the next
-    ContactNewton newton;   // of what is odd, like the next
-    double *odd_g, *odd_bound, *odd_velocity, *odd_reaction;
-    Certificate even, odd;
-    double odd_part;   // of the last problem, over what is even: followed where it is not rounding
-    bool odd_decays;   // of the state last asked about (stepping/both_sides)
+    ContactNewton newton;   // of the antisymmetric part, like the next four
+    double *anti_g, *anti_bound, *anti_velocity, *anti_reaction;   // [interface.count] work
+    Certificate symmetric, antisymmetric;
+    double asymmetry;   // antisymmetric part of the last problem, over the symmetric one: followed
+        // where it is not rounding
+    bool antisymmetric_decays;   // in the state that parts_hold was last asked about
 } HalfStep;
 
 // whole: the certificate of both sides.
@@ -39,13 +41,38 @@ bool half_step_take_law(HalfStep *half, const FrictionLaw *law);
 // `state` on one side; stands until the next is folded.
 const State *half_step_fold(HalfStep *half, const State *state);
 
-// Solves `problem`, but for its matrix, what is even, that of both sides, from what is in
-// `solution`. odd: the matrix of what is odd; NULL: it decays. *alike: whether it is its own mirror
-// image; false: it is not solved.
-bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *odd,
+// Solves `problem`, whose matrix is that of the symmetric part, all else of both sides, from what
+// is in `solution`. antisymmetric: the matrix of that part; NULL: it decays. *alike: whether the
+// problem is its own mirror image; false: it is not solved.
+bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
                      ContactSolution *solution, bool *alike);
 
 // Writes or reads all that outlives a step.
 void half_step_archive(HalfStep *half, Archive *archive);
+
+// Questions of stepping/certificate to a state, as a whole or to its symmetric and antisymmetric
+// part. The latter is asked no further where it cannot gain energy. Nothing is owned.
+typedef struct CertifiedParts {
+    Certificate *whole;
+    HalfStep *half;
+    Ladder *ladder;
+    bool halved;   // the parts are asked
+} CertifiedParts;
+
+// certificate_holds. *antisymmetric_decays: of that part alone; false, too, where the whole is
+// asked. The questions that follow are about the state that this was asked about last.
+bool parts_hold(CertifiedParts parts, const State *state, double reach, bool *antisymmetric_decays);
+
+// Questions about the rungs of a range; the first two are about its first rung alone.
+typedef enum PartsAsked {
+    PARTS_RESOLVE,   // certificate_step_resolves
+    PARTS_FIND_NO_RUNAWAY,   // not certificate_finds_runaway, known to hold on that rung
+    PARTS_OSCILLATE_LESS,   // certificate_oscillates_less than `growth`
+    PARTS_EXCLUDE_RUNAWAY   // certificate_excludes_runaway
+} PartsAsked;
+
+// Whether the whole, or both parts, are so.
+bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, RungRange range,
+               double growth);
 
 #endif

@@ -16,19 +16,16 @@ void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder 
     ladder->rung_count = (int32_t)fmin(fmax(rungs, 1), LADDER_RUNGS_MAX);
 }
 
-// That which is asked for now.
-static void drop_contact(Ladder *ladder, int32_t k)
+static void drop_contact(Ladder *ladder, int32_t k, ContactPart part)
 {
-    contact_matrix_destroy(&ladder->contact[ladder->side][k]);
-    memory_free(ladder->half_schur[ladder->side][k]);
-    ladder->half_schur[ladder->side][k] = NULL;
+    contact_matrix_destroy(&ladder->contact[part][k]);
+    memory_free(ladder->half_schur[part][k]);
+    ladder->half_schur[part][k] = NULL;
 }
 
 static void drop_rung(Ladder *ladder, int32_t k)
 {
-    LadderSide side = ladder->side;
-    for (ladder->side = 0; ladder->side < LADDER_SIDES; ladder->side++) drop_contact(ladder, k);
-    ladder->side = side;
+    for (ContactPart part = 0; part < CONTACT_PARTS; part++) drop_contact(ladder, k, part);
     interface_operator_destroy(ladder->rung[k]);
     ladder->rung[k] = NULL;
 }
@@ -62,52 +59,48 @@ static OperatorTerms rung_terms(const Ladder *ladder, int32_t k)
     return (OperatorTerms){.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
 }
 
-// Makes the matrix that the contact sees of a rung that is built with its S, which is freed where
-// nobody else uses it.
-static bool make_half(Ladder *ladder, int32_t k, Error *err)
+static ContactMatrix *made_contact(Ladder *ladder, int32_t k, ContactPart part)
 {
-    int64_t count = ladder->half->interface.count;
-    double *schur = ladder->half_schur[ladder->side][k] = NEW_ARRAY(double, count *count, err);
-    if (!schur) return false;
-    if (!contact_half_matrix(ladder->half, interface_operator_schur(ladder->rung[k]),
-                             ladder->side == LADDER_ODD, schur)) {
-        ladder->side = LADDER_WHOLE;
-        ladder->half = NULL;
-        return true;
-    }
-    if (!ladder->contact[LADDER_WHOLE][k].schur) interface_operator_drop_schur(ladder->rung[k]);
-    return contact_matrix_create(schur, (int32_t)count, &ladder->contact[ladder->side][k], err);
-}
-
-static ContactMatrix *contact_of(Ladder *ladder, int32_t k)
-{
-    ContactMatrix *matrix = &ladder->contact[ladder->side][k];
+    ContactMatrix *matrix = &ladder->contact[part][k];
     return matrix->schur ? matrix : NULL;
 }
 
-// The operator is made anew where its S was dropped: seldom is more than one side asked for.
-static bool build_rung(Ladder *ladder, int32_t k, Error *err)
+// The operator is made anew where its S was dropped: seldom is more than one part asked for.
+static bool build_rung(Ladder *ladder, int32_t k, ContactPart part, Error *err)
 {
     InterfaceOperator *rung = ladder->rung[k];
     if (!rung || !interface_operator_schur(rung)) {
         interface_operator_destroy(rung);
-        ladder->rung[k] = interface_operator_create(ladder->system, rung_terms(ladder, k), err);
-        if (!ladder->rung[k]) return false;
+        rung = ladder->rung[k] =
+            interface_operator_create(ladder->system, rung_terms(ladder, k), err);
+        if (!rung) return false;
     }
-    if (ladder->side != LADDER_WHOLE && !make_half(ladder, k, err)) return false;
-    return ladder->side != LADDER_WHOLE ||
-           contact_matrix_create(interface_operator_schur(ladder->rung[k]),
-                                 ladder->system->interface_count, &ladder->contact[LADDER_WHOLE][k],
-                                 err);
+    if (part != PART_WHOLE) {
+        int64_t count = ladder->half->interface.count;
+        double *schur = ladder->half_schur[part][k] = NEW_ARRAY(double, count *count, err);
+        if (!schur) return false;
+        if (contact_half_matrix(ladder->half, interface_operator_schur(rung),
+                                part == PART_ANTISYMMETRIC, schur)) {
+            // S itself is freed where nobody else uses it.
+            if (!ladder->contact[PART_WHOLE][k].schur) interface_operator_drop_schur(rung);
+            return contact_matrix_create(schur, (int32_t)count, &ladder->contact[part][k], err);
+        }
+        drop_contact(ladder, k, part);
+        ladder->half = NULL;
+        if (made_contact(ladder, k, PART_WHOLE)) return true;
+    }
+    return contact_matrix_create(interface_operator_schur(rung), ladder->system->interface_count,
+                                 &ladder->contact[PART_WHOLE][k], err);
 }
 
 // The time of a factorisation is counted here, not in the step's.
-InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
+InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, ContactPart part, Error *err)
 {
-    if (!contact_of(ladder, k)) {
+    if (!ladder->half) part = PART_WHOLE;
+    if (!made_contact(ladder, k, part)) {
         double started = clock_seconds();
         int64_t before = memory_counters().allocations;
-        if (!build_rung(ladder, k, err)) {
+        if (!build_rung(ladder, k, part, err)) {
             drop_rung(ladder, k);
             error_context(err, "step %g", ladder_step(ladder, k));
         }
@@ -117,32 +110,24 @@ InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
     return ladder->rung[k];
 }
 
-bool ladder_fill(Ladder *ladder)
+bool ladder_fill(Ladder *ladder, ContactPart part)
 {
     Error err = {0};
     int32_t first = 0, last = ladder->rung_count - 1;
     while (first < last && !ladder->rung[first]) first++;
     while (last > first && !ladder->rung[last]) last--;
     for (int32_t k = first + 1; k < last; k++)
-        if (!ladder_rung(ladder, k, &err)) return false;
+        if (!ladder_rung(ladder, k, part, &err)) return false;
     return true;
 }
 
-ContactMatrix *ladder_contact(Ladder *ladder, int32_t k)
+ContactMatrix *ladder_contact(Ladder *ladder, int32_t k, ContactPart part)
 {
-    ContactMatrix *made = contact_of(ladder, k);
-    if (made || !ladder->rung[k]) return made;
     Error err = {0};
-    return ladder_rung(ladder, k, &err) ? contact_of(ladder, k) : NULL;
-}
-
-ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side)
-{
-    LadderSide asked = ladder->side;
-    ladder->side = side;
-    ContactMatrix *matrix = ladder_contact(ladder, k);
-    ladder->side = ladder->half ? asked : LADDER_WHOLE;
-    return matrix;
+    if (!made_contact(ladder, k, part) && ladder->rung[k] && (part == PART_WHOLE || ladder->half) &&
+        !ladder_rung(ladder, k, part, &err))
+        return NULL;
+    return made_contact(ladder, k, part);
 }
 
 // By the errors that were measured when the basis was made; the full mesh is not asked again.
@@ -156,31 +141,32 @@ double ladder_reduction_error(const Ladder *ladder)
     return error;
 }
 
-// Those matrices that are there, what the contact sees first of all.
+// Those matrices that are there.
 static bool archive_contact(Ladder *ladder, int32_t k, const int64_t *last, Archive *archive,
                             Error *err)
 {
-    LadderSide asked = ladder->side;
-    for (ladder->side = 0; ladder->side < LADDER_SIDES; ladder->side++) {
-        bool kept = contact_of(ladder, k) != NULL;
+    for (ContactPart part = 0; part < CONTACT_PARTS; part++) {
+        bool kept = made_contact(ladder, k, part) != NULL;
         archive_flag(archive, &kept);
-        if (kept && ladder->side != LADDER_WHOLE && !ladder->half) archive->failed = true;
+        if (kept && part != PART_WHOLE && !ladder->half) archive->failed = true;
         TRY(archive_check(archive, false, err));
         if (!kept) {
-            drop_contact(ladder, k);
+            drop_contact(ladder, k, part);
             continue;
         }
-        TRY(ladder_rung(ladder, k, err));
-        contact_matrix_archive(contact_of(ladder, k), last[ladder->side], archive);
+        TRY(ladder_rung(ladder, k, part, err));
+        ContactMatrix *matrix = made_contact(ladder, k, part);
+        if (!matrix) archive->failed = true;   // S is not its own mirror image
+        TRY(archive_check(archive, false, err));
+        contact_matrix_archive(matrix, last[part], archive);
     }
 cleanup:
-    ladder->side = asked;
     return error_is_clean(err);
 }
 
 bool ladder_archive(Ladder *ladder, int64_t last, int64_t last_halved, Archive *archive, Error *err)
 {
-    const int64_t each[LADDER_SIDES] = {last, last_halved, 0};   // that of what is odd is not kept
+    const int64_t each[CONTACT_PARTS] = {last, last_halved, 0};   // no antisymmetric one is kept
     double longest = ladder->step_max;
     int32_t count = ladder->rung_count;
     archive_section(archive, "ladder");

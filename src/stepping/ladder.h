@@ -11,9 +11,6 @@
 
 enum { LADDER_RUNGS_MAX = 128 };
 
-// The part of the contact that is asked for.
-typedef enum LadderSide { LADDER_WHOLE, LADDER_EVEN, LADDER_ODD, LADDER_SIDES } LadderSide;
-
 typedef struct Ladder {
     BulkOperator *system;   // not owned
     double step_max;   // of rung 0, time
@@ -22,10 +19,10 @@ typedef struct Ladder {
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
     // S of the rungs that are built, or its symmetric or antisymmetric part on one side, when first
     // asked for. S itself is kept only where it was. Owned.
-    ContactMatrix contact[LADDER_SIDES][LADDER_RUNGS_MAX];
-    double *half_schur[LADDER_SIDES][LADDER_RUNGS_MAX];   // that of `contact`, but for both sides
-    const ContactHalf *half;   // by which it is halved; NULL: never; not owned
-    LadderSide side;   // asked for now
+    ContactMatrix contact[CONTACT_PARTS][LADDER_RUNGS_MAX];
+    double *half_schur[CONTACT_PARTS][LADDER_RUNGS_MAX];   // of `contact`, but for the whole
+    const ContactHalf *half;   // by which it is halved; NULL: never, or not any more, as a S turned
+        // out not to be its own mirror image; not owned
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
     double seconds;   // wall time spent on building rungs
     int64_t allocations;   // counted, arrays that this took
@@ -39,14 +36,15 @@ double ladder_step(const Ladder *ladder, int32_t k);
 double ladder_reach(const Ladder *ladder, int32_t k);   // gamma dt: displacement over velocity
 // The coarsest rung whose step is at most `step`; rung_count when there is none.
 int32_t ladder_find(const Ladder *ladder, double step);
-// NULL with the error set when the matrix cannot be factored.
-InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
+// The operator of rung k, with the matrix that the contact sees of that part; with the whole one
+// where S turns out not to be its own mirror image: `half` then becomes NULL. NULL with the error
+// set when the matrix cannot be factored.
+InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, ContactPart part, Error *err);
 // Builds what lies between rungs that are built; false: one cannot be factored.
-bool ladder_fill(Ladder *ladder);
-// The matrix that the contact sees of rung k; NULL: it is not built. From here on it is whole where
-// a S turns out not to be its own image.
-ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
-ContactMatrix *ladder_contact_of(Ladder *ladder, int32_t k, LadderSide side);
+bool ladder_fill(Ladder *ladder, ContactPart part);
+// The matrix that the contact sees of that part of rung k, made when first asked for. NULL: the
+// rung is not built, or S is not its own mirror image.
+ContactMatrix *ladder_contact(Ladder *ladder, int32_t k, ContactPart part);
 
 // The largest error that the reduction of the bulk left in a rung that steps were accepted on.
 double ladder_reduction_error(const Ladder *ladder);

@@ -43,106 +43,23 @@ void sdirk_destroy(Sdirk *scheme)
     *scheme = (Sdirk){0};
 }
 
-// A step on its way: the rung's step and matrix, and where it starts and ends.
-typedef struct Trial {
-    double step, scaled;   // dt, gamma dt
-    int32_t rung;
-    const State *from;
-    State *to;
-    StepOutcome *outcome;
-} Trial;
-
 // Every so many steps the end state is put into the full equation, every term computed anew.
 enum { AUDIT_EVERY = 32 };
-
-// bound = (position to reach at `time` - u*) / (gamma dt): the plane for normals, the rod for rods.
-// Those of a rod on a spring are for velocities against it, until they are released.
-static void fill_bounds(Sdirk *scheme, const double *predictor, double time, double scaled_step)
-{
-    const Interface *interface = scheme->interface;
-    const int32_t *dofs = scheme->system->interface_dofs;
-    scheme->reach = scaled_step;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t n = interface_normal(interface, i);
-        scheme->bound[n] = (-predictor[dofs[n]] - interface_gap(interface, i)) / scaled_step;
-    }
-    for (int32_t j = 0; j < interface->rod_count; j++) {
-        int32_t x = interface_rod(interface, j);
-        double at = predictor[dofs[x]];
-        bool rigid = scheme->rod->stiffness == 0;
-        scheme->bound[x] =
-            rigid ? rod_bound(scheme->rod, j, at, time, scaled_step)
-                  : rod_bound_on_spring(scheme->rod, j, at, scheme->rod_start, scaled_step);
-    }
-}
-
-// k (U - R*): the spring's force at the end of the stage, had the rod no velocity.
-static void pull_rod(const Sdirk *scheme, int32_t rung, double time)
-{
-    const Rod *rod = scheme->rod;
-    if (rod->stiffness == 0) return;
-    interface_operator_pull(scheme->ladder->rung[rung],
-                            rod->stiffness * (rod_displacement(rod, time) - scheme->rod_start));
-}
-
-// Velocities found against a rod on a spring, and their bounds, become those in space. Returns the
-// rod's own; 0 of one that goes where it is driven.
-static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *velocity)
-{
-    if (scheme->rod->stiffness == 0) return 0;
-    double own = interface_operator_release(bulk, velocity);
-    for (int32_t j = 0; j < scheme->interface->rod_count; j++)
-        scheme->bound[interface_rod(scheme->interface, j)] += own;
-    return own;
-}
 
 // A law that asks for pressure takes at most so many problems in a row, each with the pressures of
 // the one before.
 enum { PRESSURES_LIMIT = 40 };
 
-// The whole contact, or one side of it. Whether it was settled.
-static bool settle(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
-                   bool *lopsided)
+// The whole contact, or its symmetric part on one side. false: it has no solution that was found.
+static bool solve_contact(Sdirk *scheme, const ContactProblem *problem, ContactSolution *contact,
+                          bool *asymmetric)
 {
-    if (scheme->ladder->side == LADDER_WHOLE)
-        return contact_solve(&scheme->solver, problem, contact);
-    bool alike, solved = half_step_solve(scheme->half, problem, scheme->odd, contact, &alike);
+    if (scheme->part == PART_WHOLE) return contact_solve(&scheme->solver, problem, contact);
+    bool alike,
+        solved = half_step_solve(scheme->half, problem, scheme->antisymmetric, contact, &alike);
     contact_solver_take_counts(&scheme->solver, &scheme->half->solver);
-    *lopsided = !alike;
+    *asymmetric = !alike;
     return solved;
-}
-
-// Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
-// settled.
-static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSolution *contact,
-                        double *v, Error *err)
-{
-    int32_t rung = trial->rung;
-    bool *solved = &trial->outcome->solved;
-    InterfaceOperator *bulk = scheme->ladder->rung[rung];
-    const Interface *interface = scheme->interface;
-    TRY(interface_operator_condense(bulk, scheme->rhs, scheme->g, err));
-    ContactProblem problem = {.interface = interface,
-                              .law = scheme->law,
-                              .rod_kind = scheme->rod->kind,
-                              .rod_softness = scheme->rod->softness,
-                              .rod_lag = scheme->rod->lag,
-                              .rod_reach = scheme->reach,
-                              .matrix = ladder_contact(scheme->ladder, rung),
-                              .g = scheme->g,
-                              .bound = scheme->bound};
-    *solved = settle(scheme, &problem, contact, &trial->outcome->lopsided);
-    int32_t again = PRESSURES_LIMIT;
-    while (*solved && friction_states_press(&scheme->memory, contact->velocity, contact->reaction))
-        *solved = again-- > 0 && settle(scheme, &problem, contact, &trial->outcome->lopsided);
-    if (!*solved) goto cleanup;
-    scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
-    TRY(interface_operator_expand(bulk, contact->velocity, v, err));
-    // Held nodes are held exactly, not to the rounding of the substitution.
-    for (int32_t k = 0; k < interface->count; k++)
-        v[scheme->system->interface_dofs[k]] = contact->velocity[k];
-cleanup:
-    return error_is_clean(err);
 }
 
 // y += factor x. Not BLAS's, whose fused multiply-adds round otherwise: a block of period 2 can
@@ -167,19 +84,6 @@ static double estimate_error(Sdirk *scheme, const State *from, const State *to, 
     return bulk_operator_size(scheme->system, error);
 }
 
-// scheme->viscous = C v of a stage that was solved, from its own equation: rhs + r - M v/(gamma dt)
-// - gamma dt K v, given M v and K v.
-static void find_viscous(Sdirk *scheme, const double *momentum, const double *elastic,
-                         const ContactSolution *contact, double scaled)
-{
-    const BulkOperator *system = scheme->system;
-    double *viscous = scheme->viscous, rate = 1 / scaled;
-    for (int32_t i = 0; i < system->dof_count; i++)
-        viscous[i] = scheme->rhs[i] - rate * momentum[i] - scaled * elastic[i];
-    for (int32_t k = 0; k < system->interface_count; k++)
-        viscous[system->interface_dofs[k]] += contact->reaction[k];
-}
-
 // Largest |M a + C v + K u - f - r|, C v and K u computed for it. K u stays: what the steps add up
 // of it must not drift.
 static double end_residual(const Sdirk *scheme, State *to)
@@ -195,132 +99,161 @@ static double end_residual(const Sdirk *scheme, State *to)
     return dense_max_abs(viscous, to->dof_count);
 }
 
-// The contact as it was, a first guess for the stages.
-static void guess_contact(const State *from, State *to)
-{
-    size_t bytes = (size_t)from->interface_count * sizeof(double);
-    memcpy(to->status, from->status, (size_t)from->contact_count);
-    memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
-    memcpy(to->slip_rate, from->slip_rate, bytes);
-    memcpy(to->reaction, from->reaction, bytes);
-}
-
-// Puts the start of stage i into its arrays: u_i* into scheme->predictor, K u_i* into
-// scheme->force, M w_i into to->inertia.
-static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
-{
-    const State *from = trial->from;
-    int32_t dofs = from->dof_count;
-    size_t bytes = (size_t)dofs * sizeof(double);
-    memcpy(scheme->predictor, from->displacement, bytes);
-    memcpy(scheme->force, from->elastic_force, bytes);
-    memcpy(trial->to->inertia, from->momentum, bytes);
-    scheme->rod_start = from->rod_way;
-    for (int32_t j = 0; j < i; j++) {
-        double weight = scheme->tableau.a[i][j];
-        const double *velocity = scheme->stage_velocity + (int64_t)j * dofs;
-        const double *elastic = scheme->stage_elastic + (int64_t)j * dofs;
-        const double *impulse = scheme->stage_impulse + (int64_t)j * dofs;
-        add_scaled(trial->step * weight, velocity, dofs, scheme->predictor);
-        add_scaled(trial->step * weight, elastic, dofs, scheme->force);
-        add_scaled(weight, impulse, dofs, trial->to->inertia);
-        scheme->rod_start += trial->step * weight * scheme->rod_rate[j];
-    }
-}
-
-// The last stage is the end of the step: everything else that the state holds.
-static void end_step(Sdirk *scheme, const Trial *trial)
-{
-    const BulkOperator *system = scheme->system;
-    State *to = trial->to;
-    const double *elastic = scheme->stage_elastic +
-                            (int64_t)(scheme->tableau.stages - 1) * to->dof_count;
-    double rate = 1 / trial->scaled;
-    to->time = trial->from->time + trial->step;
-    to->rod_way = scheme->rod_start + trial->scaled * scheme->rod_rate[scheme->tableau.stages - 1];
-    for (int32_t k = 0; k < to->dof_count; k++) {
-        to->displacement[k] = scheme->predictor[k] + trial->scaled * to->velocity[k];
-        to->elastic_force[k] = scheme->force[k] + trial->scaled * elastic[k];
-        to->inertia[k] = rate * (to->momentum[k] - to->inertia[k]);
-        trial->outcome->load_work += system->load[k] *
-                                     (to->displacement[k] - trial->from->displacement[k]);
-    }
-}
-
-// Stage i: v_i, and what later stages and the ledger need of it.
-static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error *err)
+// Solves stage i of a step with rung k: v_i, and what later stages, the ledger and, of the last
+// stage, the end state need of it.
+static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, State *to,
+                        StepOutcome *outcome, Error *err)
 {
     BulkOperator *system = scheme->system;
+    InterfaceOperator *bulk = scheme->ladder->rung[k];
+    const Interface *interface = scheme->interface;
     const Tableau *tableau = &scheme->tableau;
-    State *to = trial->to;
+    Rod *rod = scheme->rod;
+    const int32_t *interface_dofs = system->interface_dofs;
     int32_t dofs = system->dof_count, count = to->interface_count;
-    bool last = i + 1 == tableau->stages;
+    size_t bytes = (size_t)dofs * sizeof(double);
+    bool last = i + 1 == tableau->stages, sprung = rod->stiffness != 0;
     double *velocity = last ? to->velocity : scheme->stage_velocity + (int64_t)i * dofs;
     double *momentum = last ? to->momentum : scheme->stage_impulse + (int64_t)i * dofs;
-    double *elastic = scheme->stage_elastic + (int64_t)i * dofs, rate = 1 / trial->scaled;
+    double *elastic = scheme->stage_elastic + (int64_t)i * dofs;
+    double step = ladder_step(scheme->ladder, k), scaled = ladder_reach(scheme->ladder, k);
+    double rate = 1 / scaled;   // 1/(gamma dt)
+    double time = from->time + tableau->c[i] * step;
+    double factor = load_factor(scheme->course, time);
+
+    // Where the stage starts: u_i* in scheme->predictor, K u_i* in scheme->force, M w_i in
+    // to->inertia.
+    memcpy(scheme->predictor, from->displacement, bytes);
+    memcpy(scheme->force, from->elastic_force, bytes);
+    memcpy(to->inertia, from->momentum, bytes);
+    scheme->rod_start = from->rod_way;
+    for (int32_t j = 0; j < i; j++) {
+        double weight = tableau->a[i][j];
+        add_scaled(step * weight, scheme->stage_velocity + (int64_t)j * dofs, dofs,
+                   scheme->predictor);
+        add_scaled(step * weight, scheme->stage_elastic + (int64_t)j * dofs, dofs, scheme->force);
+        add_scaled(weight, scheme->stage_impulse + (int64_t)j * dofs, dofs, to->inertia);
+        scheme->rod_start += step * weight * scheme->rod_rate[j];
+    }
+
+    // The right-hand side: inertia, load, and the elastic force of the start.
+    for (int32_t d = 0; d < dofs; d++)
+        scheme->rhs[d] = rate * to->inertia[d] + system->load[d] - scheme->force[d];
+    if (scheme->course) add_scaled(factor - 1, system->load, dofs, scheme->rhs);
+
+    // bound = (position to reach - u*)/(gamma dt): the plane for normals, the rod for rod nodes.
+    // Those of a rod on a spring are for velocities against it, until they are released below.
+    scheme->reach = scaled;
+    for (int32_t c = 0; c < interface->contact_count; c++) {
+        int32_t n = interface_normal(interface, c);
+        scheme->bound[n] = (-scheme->predictor[interface_dofs[n]] - interface_gap(interface, c)) /
+                           scaled;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        double at = scheme->predictor[interface_dofs[x]];
+        scheme->bound[x] = sprung ? rod_bound_on_spring(rod, j, at, scheme->rod_start, scaled)
+                                  : rod_bound(rod, j, at, time, scaled);
+    }
+    // k (U - R*): the spring's force at the end of the stage, had the rod no velocity.
+    if (sprung)
+        interface_operator_pull(bulk,
+                                rod->stiffness * (rod_displacement(rod, time) - scheme->rod_start));
+    friction_states_start_stage(&scheme->memory, tableau, step, i, from);
+
+    // A v = rhs + r, condensed on the interface, with the conditions of contact. A law that asks
+    // for pressure is solved again with the pressures that were found.
+    TRY(interface_operator_condense(bulk, scheme->rhs, scheme->g, err));
     ContactSolution contact = {.velocity = to->slip_rate,
                                .reaction = to->reaction,
                                .status = to->status,
                                .rod_touches = to->rod_touches};
-    double time = trial->from->time + tableau->c[i] * trial->step;
-    double factor = load_factor(scheme->course, time);
-    start_stage(scheme, trial, i);
-    for (int32_t k = 0; k < dofs; k++)
-        scheme->rhs[k] = rate * to->inertia[k] + system->load[k] - scheme->force[k];
-    if (scheme->course) add_scaled(factor - 1, system->load, dofs, scheme->rhs);
-    fill_bounds(scheme, scheme->predictor, time, trial->scaled);
-    pull_rod(scheme, trial->rung, time);
-    friction_states_start_stage(&scheme->memory, tableau, trial->step, i, trial->from);
-    TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
-    if (!trial->outcome->solved) goto cleanup;
+    ContactProblem problem = {.interface = interface,
+                              .law = scheme->law,
+                              .rod_kind = rod->kind,
+                              .rod_softness = rod->softness,
+                              .rod_lag = rod->lag,
+                              .rod_reach = scheme->reach,
+                              .matrix = ladder_contact(scheme->ladder, k, scheme->part),
+                              .g = scheme->g,
+                              .bound = scheme->bound};
+    outcome->solved = solve_contact(scheme, &problem, &contact, &outcome->asymmetric);
+    int32_t again = PRESSURES_LIMIT;
+    while (outcome->solved &&
+           friction_states_press(&scheme->memory, contact.velocity, contact.reaction))
+        outcome->solved = again-- > 0 &&
+                          solve_contact(scheme, &problem, &contact, &outcome->asymmetric);
+    if (!outcome->solved) goto cleanup;
+
+    // Velocities found against a rod on a spring, and their bounds, become those in space.
+    scheme->rod_rate[i] = sprung ? interface_operator_release(bulk, contact.velocity) : 0;
+    for (int32_t j = 0; sprung && j < interface->rod_count; j++)
+        scheme->bound[interface_rod(interface, j)] += scheme->rod_rate[i];
+    TRY(interface_operator_expand(bulk, contact.velocity, velocity, err));
+    // Held nodes are held exactly, not to the rounding of the substitution.
+    for (int32_t c = 0; c < count; c++) velocity[interface_dofs[c]] = contact.velocity[c];
     friction_states_end_stage(&scheme->memory, i, to);
+
+    // C v of the stage, from its own equation: rhs + r - M v/(gamma dt) - gamma dt K v.
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
-    find_viscous(scheme, momentum, elastic, &contact, trial->scaled);
-    if (scheme->course)   // by stages, beyond the work of the load as it was
-        trial->outcome->load_work += trial->step * tableau->a[tableau->stages - 1][i] *
-                                     (factor - 1) * dense_dot(system->load, velocity, dofs);
-    trial->outcome->power[i] =
-        energy_stage(scheme->interface, velocity, scheme->viscous, dofs, &contact);
-    if (last) {
-        end_step(scheme, trial);
+    for (int32_t d = 0; d < dofs; d++)
+        scheme->viscous[d] = scheme->rhs[d] - rate * momentum[d] - scaled * elastic[d];
+    for (int32_t c = 0; c < count; c++) scheme->viscous[interface_dofs[c]] += contact.reaction[c];
+
+    // Powers. The load's work beyond that of the load as it was goes by stages.
+    if (scheme->course)
+        outcome->load_work += step * tableau->a[tableau->stages - 1][i] * (factor - 1) *
+                              dense_dot(system->load, velocity, dofs);
+    outcome->power[i] = energy_stage(interface, velocity, scheme->viscous, dofs, &contact);
+
+    if (!last) {   // dt M a_i and r_i, for later stages
+        for (int32_t d = 0; d < dofs; d++)
+            momentum[d] = (momentum[d] - to->inertia[d]) / tableau->gamma;
+        memcpy(scheme->stage_reaction + (int64_t)i * count, to->reaction,
+               (size_t)count * sizeof(double));
         goto cleanup;
     }
-    for (int32_t k = 0; k < dofs; k++)
-        momentum[k] = (momentum[k] - to->inertia[k]) / tableau->gamma;
-    memcpy(scheme->stage_reaction + (int64_t)i * count, to->reaction,
-           (size_t)count * sizeof(double));
+    // The last stage is the end of the step.
+    to->time = from->time + step;
+    to->rod_way = scheme->rod_start + scaled * scheme->rod_rate[i];
+    for (int32_t d = 0; d < dofs; d++) {
+        to->displacement[d] = scheme->predictor[d] + scaled * to->velocity[d];
+        to->elastic_force[d] = scheme->force[d] + scaled * elastic[d];
+        to->inertia[d] = rate * (to->momentum[d] - to->inertia[d]);
+        outcome->load_work += system->load[d] * (to->displacement[d] - from->displacement[d]);
+    }
 cleanup:
     return error_is_clean(err);
-}
-
-// Before the stages, as it may make the rung anew. false: it cannot be had.
-static bool find_odd(Sdirk *scheme, int32_t k)
-{
-    bool acts = scheme->odd_acts && scheme->ladder->side != LADDER_WHOLE;
-    scheme->odd = acts ? ladder_contact_of(scheme->ladder, k, LADDER_ODD) : NULL;
-    return !acts || scheme->odd || scheme->ladder->side == LADDER_WHOLE;
 }
 
 bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
                 Error *err)
 {
     *outcome = (StepOutcome){0};
-    Trial trial = {.step = ladder_step(scheme->ladder, k),
-                   .scaled = ladder_reach(scheme->ladder, k),
-                   .rung = k,
-                   .from = from,
-                   .to = to,
-                   .outcome = outcome};
-    if (!ladder_rung(scheme->ladder, k, err) || !find_odd(scheme, k)) goto cleanup;
-    guess_contact(from, to);
+    // The matrices of the contact. That of the antisymmetric part comes before the stages, as it
+    // may make the rung anew.
+    if (!ladder_rung(scheme->ladder, k, scheme->part, err)) goto cleanup;
+    bool both = scheme->part != PART_WHOLE && scheme->antisymmetric_acts;
+    scheme->antisymmetric = both ? ladder_contact(scheme->ladder, k, PART_ANTISYMMETRIC) : NULL;
+    if (!scheme->ladder->half) scheme->part = PART_WHOLE;   // S is not its own mirror image
+    if (both && !scheme->antisymmetric && scheme->part != PART_WHOLE) goto cleanup;
+
+    // The contact as it was is the first guess of the stages.
+    size_t bytes = (size_t)from->interface_count * sizeof(double);
+    memcpy(to->status, from->status, (size_t)from->contact_count);
+    memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
+    memcpy(to->slip_rate, from->slip_rate, bytes);
+    memcpy(to->reaction, from->reaction, bytes);
     friction_states_begin(&scheme->memory, from);
     for (int32_t i = 0; i < scheme->tableau.stages; i++) {
-        TRY(solve_one_stage(scheme, &trial, i, err));
+        TRY(solve_stage(scheme, k, i, from, to, outcome, err));
         if (!outcome->solved) goto cleanup;
     }
-    outcome->error = estimate_error(scheme, from, to, trial.step);
-    double forgets = friction_states_error(&scheme->memory, &scheme->tableau, trial.step);
+
+    double step = ladder_step(scheme->ladder, k);
+    outcome->error = estimate_error(scheme, from, to, step);
+    double forgets = friction_states_error(&scheme->memory, &scheme->tableau, step);
     if (forgets > outcome->error) outcome->error = forgets;
     bool audited = scheme->steps++ % AUDIT_EVERY == 0;
     outcome->residual = audited ? end_residual(scheme, to) : 0;

@@ -28,10 +28,11 @@ typedef struct Sdirk {
     const FrictionLaw *law;
     Rod *rod;
     const LoadCourse *course;   // set once the rod moves; NULL: the load stays; not owned
-    HalfStep *half;   // solves contact where the ladder is asked for one side; not owned
-    bool odd_acts;   // there what is odd is stepped along
-    ContactMatrix *odd;   // by this; NULL: it is not; not owned
-    ContactSolver solver;   // of both sides; its counters are of all; owned, like all that follows
+    HalfStep *half;   // solves contact where `part` is the symmetric one; not owned
+    ContactPart part;   // of the contact that is solved: the whole or the symmetric part
+    bool antisymmetric_acts;   // beside the symmetric part this one is stepped along ...
+    ContactMatrix *antisymmetric;   // ... with this matrix; NULL: it is not; not owned
+    ContactSolver solver;   // of the whole; its counters are of all; owned, like all that follows
     FrictionStates memory;   // of friction; nothing where none remembers
     double *rhs, *force, *viscous;   // [dof_count] work
     double *predictor;   // [dof_count] work: u_i*
@@ -48,7 +49,7 @@ typedef struct Sdirk {
 
 typedef struct StepOutcome {
     bool solved;   // false: a contact problem had no solution; `to` has no meaning
-    bool lopsided;   // because it was to be halved and is not its own mirror image
+    bool asymmetric;   // because it was to be halved and is not its own mirror image
     double error;   // size of the estimated local error of u (bulk_operator_size), or of what
         // friction remembers, if that is larger; length
     double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only

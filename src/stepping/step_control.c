@@ -34,7 +34,7 @@ enum { SCANNED_PARTS = 200 };
 
 // The antisymmetric part is stepped along where it is more than this part of the symmetric one:
 // rounding.
-static const double ODD_LIMIT = 1e-12;
+static const double ANTISYMMETRIC_LIMIT = 1e-12;
 
 // Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,
 // and cost a minute.
@@ -45,7 +45,7 @@ static const double STEPS_LEFT_MAX = 1e8;
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
-    *control = (StepControl){.def = *def, .certified = true, .odd_decays = true};
+    *control = (StepControl){.def = *def, .certified = true, .antisymmetric_decays = true};
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
@@ -99,18 +99,12 @@ void step_control_restart(StepControl *control)
     control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
 }
 
-// Chooses whether the next step from `now` solves the whole contact or its symmetric part.
-static void choose_side(StepControl *control)
+static CertifiedParts parts_of(StepControl *control)
 {
-    bool halved = control->ladder.half && !control->lopsided &&
-                  half_step_take_law(&control->half, control->scheme.law);
-    control->ladder.side = halved ? LADDER_EVEN : LADDER_WHOLE;
-    control->scheme.odd_acts = !control->odd_decays || control->half.odd_part > ODD_LIMIT;
-}
-
-static BothSides sides_of(StepControl *control)
-{
-    return (BothSides){&control->certificate, &control->half, &control->ladder};
+    return (CertifiedParts){.whole = &control->certificate,
+                            .half = &control->half,
+                            .ladder = &control->ladder,
+                            .halved = control->scheme.part != PART_WHOLE};
 }
 
 typedef enum Verdict {
@@ -161,8 +155,7 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
     double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
-    return growth > 1 &&
-           both_sides_ask(sides_of(control), state, SIDES_OSCILLATE_LESS, range, growth);
+    return growth > 1 && parts_ask(parts_of(control), state, PARTS_OSCILLATE_LESS, range, growth);
 }
 
 // May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates
@@ -183,16 +176,16 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
     else
         all.first = 0;
     return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
-           both_sides_ask(sides_of(control), state, SIDES_EXCLUDE_RUNAWAY, all, 0);
+           parts_ask(parts_of(control), state, PARTS_EXCLUDE_RUNAWAY, all, 0);
 }
 
-// Cheapest first. *certified and *odd_decays: of the state the step leads to; where the certificate
-// is switched off true and false, without a look.
+// The cheapest questions come first. *certified and *antisymmetric_decays are of the state that the
+// step leads to; where the certificate is switched off they are true and false, without a look.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
-                          bool *certified, bool *odd_decays)
+                          bool *certified, bool *antisymmetric_decays)
 {
     *certified = true;
-    *odd_decays = false;
+    *antisymmetric_decays = false;
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
     // Where no shorter step is left the run's own ledger decides (run/simulation).
@@ -200,12 +193,12 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
     if (!control->def.use_certificate) return STEP_ACCEPTED;
     double reach = ladder_reach(&control->ladder, k);
-    *certified = both_sides_hold(sides_of(control), &control->next, reach, odd_decays);
+    *certified = parts_hold(parts_of(control), &control->next, reach, antisymmetric_decays);
     if (*certified) return STEP_ACCEPTED;
     if (k < wave_rung(control))
         return may_skip_waves(control, &control->next, k) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
     RungRange own = {k, k + 1};
-    bool resolved = both_sides_ask(sides_of(control), &control->next, SIDES_RESOLVE, own, 0);
+    bool resolved = parts_ask(parts_of(control), &control->next, PARTS_RESOLVE, own, 0);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
@@ -313,26 +306,7 @@ static void scan_growth(StepControl *control, int32_t k)
     if (control->certified || slipping <= control->scanned + more) return;
     control->scanned = slipping;
     RungRange known = {k < wave_rung(control) ? -1 : k, k + 1};
-    control->grows =
-        !both_sides_ask(sides_of(control), &control->now, SIDES_FIND_NO_RUNAWAY, known, 0);
-}
-
-// `now` and `next` exchange their arrays.
-static void accept_step(StepControl *control, int32_t k, const StepOutcome *outcome)
-{
-    control->ledger = book_step(control, k, outcome);
-    State accepted = control->next;
-    control->next = control->now;
-    control->now = accepted;
-    control->outcome = *outcome;
-    control->last_step = ladder_step(&control->ladder, k);
-    control->counters.accepted++;
-    if (k >= wave_rung(control))
-        oscillation_record_add(&control->oscillations, &control->now, control->last_step,
-                               control->certified);
-    else
-        control->counters.stepped_over_oscillations += !control->certified;
-    control->ladder.accepted[k]++;
+    control->grows = !parts_ask(parts_of(control), &control->now, PARTS_FIND_NO_RUNAWAY, known, 0);
 }
 
 // A step that was shortened only to end where the run ends does not choose the next rung.
@@ -344,37 +318,41 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         [STEP_UNBALANCED] = "its energies do not balance",
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
     StepCounters *counters = &control->counters;
+    Ladder *ladder = &control->ladder;
+    StepOutcome outcome;
+    bool certified = true, antisymmetric_decays, retried = false;
     int32_t k = fit_rung(control, control->rung, remaining);
-    bool shortened = k != control->rung, retried = false, certified = true, odd_decays;
+    bool shortened = k != control->rung;
+
+    // Steps are tried with smaller and smaller rungs until one is accepted.
     for (;;) {
-        StepOutcome outcome;
-        double speed, mu;
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
-        control->scheme.solver.sweeps_on = k == control->ladder.rung_count - 1;
-        choose_side(control);
+        control->scheme.solver.sweeps_on = k == ladder->rung_count - 1;
+        // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
+        // where that does not decay.
+        bool halved = ladder->half && !control->asymmetric &&
+                      half_step_take_law(&control->half, control->scheme.law);
+        control->scheme.part = halved ? PART_SYMMETRIC : PART_WHOLE;
+        control->scheme.antisymmetric_acts = !control->antisymmetric_decays ||
+                                             control->half.asymmetry > ANTISYMMETRIC_LIMIT;
+
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
-        if (outcome.lopsided) {
-            control->lopsided = true;
+        if (outcome.asymmetric) {
+            control->asymmetric = true;
             continue;
         }
-        Verdict verdict = judge_step(control, k, &outcome, &certified, &odd_decays);
-        if (verdict == STEP_ACCEPTED) {
-            control->certified = certified;
-            control->odd_decays = odd_decays;
-            accept_step(control, k, &outcome);
-            scan_growth(control, k);
-            if (!shortened || retried)
-                control->rung = next_rung(control, k, outcome.error, retried);
-            break;
-        }
+        Verdict verdict = judge_step(control, k, &outcome, &certified, &antisymmetric_decays);
+        if (verdict == STEP_ACCEPTED) break;
+
         counters->unsolved += verdict == STEP_UNSOLVED;
         counters->rejected_error += verdict == STEP_INACCURATE;
         counters->rejected_energy += verdict == STEP_UNBALANCED;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
         k = smaller_rung(control, k, verdict, &outcome);
-        if (k < control->ladder.rung_count) continue;
+        if (k < ladder->rung_count) continue;
+        double speed, mu;
         if (!friction_states_hold(&control->scheme.memory, control->now.slip_rate, &speed, &mu))
             FAIL(err, ERROR_COMPUTE,
                  "at t = %.9g friction comes to states, or to a mu (%g at velocity %g), that no "
@@ -383,6 +361,27 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
              control->now.time, control->def.step_min, reasons[verdict]);
     }
+
+    // Accepted: the ledger is booked, and `now` and `next` exchange their arrays.
+    control->ledger = book_step(control, k, &outcome);
+    State accepted = control->next;
+    control->next = control->now;
+    control->now = accepted;
+    control->outcome = outcome;
+    control->last_step = ladder_step(ladder, k);
+    control->certified = certified;
+    control->antisymmetric_decays = antisymmetric_decays;
+    counters->accepted++;
+    ladder->accepted[k]++;
+    if (k >= wave_rung(control))
+        oscillation_record_add(&control->oscillations, &control->now, control->last_step,
+                               certified);
+    else
+        counters->stepped_over_oscillations += !certified;
+
+    // What the next step needs: whether slip runs away, and the rung.
+    scan_growth(control, k);
+    if (!shortened || retried) control->rung = next_rung(control, k, outcome.error, retried);
 cleanup:
     return error_is_clean(err);
 }
@@ -428,13 +427,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void counters_archive(StepCounters *counters, Archive *archive)
-{
-    archive_counts_of(archive, &counters->accepted, &counters->rejected_error,
-                      &counters->rejected_energy, &counters->rejected_uncertified,
-                      &counters->unsolved, &counters->stepped_over_oscillations);
-}
-
 bool step_control_archive(StepControl *control, Archive *archive, Error *err)
 {
     state_archive(&control->now, archive);
@@ -446,8 +438,8 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_section(archive, "step control");
     archive_numbers_of(archive, &control->outcome.residual, &control->last_step);
     archive_flag(archive, &control->certified);
-    archive_flag(archive, &control->odd_decays);
-    archive_flag(archive, &control->lopsided);
+    archive_flag(archive, &control->antisymmetric_decays);
+    archive_flag(archive, &control->asymmetric);
     archive_flag(archive, &control->grows);
     archive_flag(archive, &control->settles);
     archive_integer(archive, &control->scanned);
@@ -455,7 +447,10 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_index(archive, &control->coarsest, 0, control->ladder.rung_count + 1);
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
-    counters_archive(&control->counters, archive);
+    StepCounters *counters = &control->counters;
+    archive_counts_of(archive, &counters->accepted, &counters->rejected_error,
+                      &counters->rejected_energy, &counters->rejected_uncertified,
+                      &counters->unsolved, &counters->stepped_over_oscillations);
     int64_t last = control->scheme.solver.newton.factorisations;
     int64_t last_halved = control->half.solver.newton.factorisations;
     return ladder_archive(&control->ladder, last, last_halved, archive, err);

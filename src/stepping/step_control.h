@@ -12,8 +12,8 @@
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
 #define AMONTONS_STEPPING_STEP_CONTROL_H
 
-#include "stepping/both_sides.h"
 #include "stepping/explicit_reference.h"
+#include "stepping/half_step.h"
 #include "stepping/sdirk.h"
 #include "stepping/oscillation_record.h"
 
@@ -43,8 +43,8 @@ typedef struct StepControl {
     StepControlDef def;
     Ladder ladder;   // owned, like all that follows
     Sdirk scheme;
-    Certificate certificate;   // of both sides
-    HalfStep half;   // of one, where they are alike
+    Certificate certificate;   // of the whole contact
+    HalfStep half;   // of its parts, where it is its own mirror image
     OscillationRecord oscillations;
     State now;   // the last accepted state
     State next;   // work
@@ -52,8 +52,8 @@ typedef struct StepControl {
     StepOutcome outcome;   // of the last accepted step
     double last_step;   // its length, time
     bool certified;   // `now` is dissipative
-    bool odd_decays;   // what is odd in it cannot gain energy
-    bool lopsided;   // a problem was not its own mirror image: all are solved whole from then on
+    bool antisymmetric_decays;   // its antisymmetric part cannot gain energy
+    bool asymmetric;   // a problem was not its own mirror image: all are solved whole from then on
     bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some rung's
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then

@@ -99,7 +99,7 @@ TEST(test_every_step)
         assert_true(sdirk_create(&rig.block, TABLEAU_SDIRK2, &ladder, &scheme, &err));
         assert_true(state_create(&rig.system, &rig.interface, &now, &err));
         assert_true(state_create(&rig.system, &rig.interface, &next, &err));
-        assert_non_null(ladder_rung(&ladder, 0, &err));
+        assert_non_null(ladder_rung(&ladder, 0, PART_WHOLE, &err));
         for (int32_t s = 0; s < STEPS; s++) {
             StepOutcome outcome;
             assert_true(sdirk_step(&scheme, random_index(&random, 3), &now, &next, &outcome, &err));

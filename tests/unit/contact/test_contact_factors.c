@@ -3,7 +3,7 @@
 // against differences); problems solved with them.
 #define HAND_NODES 80
 
-#include "contact/contact_factors.h"
+#include "contact/contact_newton.h"
 
 #include "contact_by_hand.h"
 

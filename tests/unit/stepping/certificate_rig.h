@@ -29,8 +29,8 @@ static inline void certificate_rig_build(const RigDef *def, double longest, doub
 static inline ContactMatrix *certificate_rig_rung(CertificateRig *built, int32_t k)
 {
     Error err = {0};
-    assert_non_null(ladder_rung(&built->ladder, k, &err));
-    return ladder_contact(&built->ladder, k);
+    assert_non_null(ladder_rung(&built->ladder, k, PART_WHOLE, &err));
+    return ladder_contact(&built->ladder, k, PART_WHOLE);
 }
 
 static inline void certificate_rig_destroy(CertificateRig *built)

@@ -166,11 +166,12 @@ TEST(test_all_rungs)
     certificate_rig_build(&def, 1, 1e-2, &on);
     for (int32_t k = 1; k < on.ladder.rung_count; k += 2) certificate_rig_rung(&on, k);
     for (int32_t trial = 0; trial < 100; trial++) {
-        double weak = ladder_contact(&on.ladder, 3)->schur[0] * def.law.critical_velocity;
+        double weak = ladder_contact(&on.ladder, 3, PART_WHOLE)->schur[0] *
+                      def.law.critical_velocity;
         random_state(&random, &on.rig, weak * random_between(&random, 0.2, 8), &on.seen);
         int32_t known = trial % (on.ladder.rung_count + 1) - 1, left = 0, at_known = 0;
         for (int32_t k = 1; k < on.ladder.rung_count; k += 2) {
-            const double *schur = ladder_contact(&on.ladder, k)->schur;
+            const double *schur = ladder_contact(&on.ladder, k, PART_WHOLE)->schur;
             Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
             list_moving(&slip);
             *(k == known ? &at_known : &left) += sign_by_differences(&slip) <= 0;
@@ -242,7 +243,7 @@ static double largest_ratio(CertificateRig *on, Ladder *ladder)
 {
     double largest = 0;
     for (int32_t k = 0; k < ladder->rung_count; k++) {
-        ContactMatrix *rung = ladder_contact(ladder, k);
+        ContactMatrix *rung = ladder_contact(ladder, k, PART_WHOLE);
         if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung, 1));
     }
     return largest;
@@ -252,7 +253,7 @@ static void build_rungs(Ladder *ladder, int32_t apart)
 {
     Error err = {0};
     for (int32_t k = 0; k < ladder->rung_count; k += apart)
-        assert_non_null(ladder_rung(ladder, k, &err));
+        assert_non_null(ladder_rung(ladder, k, PART_WHOLE, &err));
 }
 
 // The reactions of `seen` times `factor`; loads go with them.

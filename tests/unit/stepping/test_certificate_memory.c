@@ -340,8 +340,8 @@ static void check_narrow(bool several)
     Ladder *ladder = &fixture.built.ladder;
     int32_t last = ladder->rung_count - 1, cleared = 0, growing = 0, refused = 0, rightly = 0;
     int32_t excluded = 0, slower = 0, real = 0;
-    assert_non_null(ladder_rung(ladder, 0, &err));
-    assert_non_null(ladder_rung(ladder, last, &err));
+    assert_non_null(ladder_rung(ladder, 0, PART_WHOLE, &err));
+    assert_non_null(ladder_rung(ladder, last, PART_WHOLE, &err));
     for (int32_t trial = 0; trial < TRIALS; trial++) {
         randomise(&fixture);
         list_free(&fixture);

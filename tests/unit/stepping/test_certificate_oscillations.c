@@ -25,9 +25,9 @@ static void fixture_build(double length, Fixture *fixture)
     fixture->damping = rig_dense(rig, rig->bulk.damping);
     fixture->stiffness = rig_dense(rig, rig->bulk.stiffness);
     // Those between are the certificate's affair: without them it clears what grows.
-    assert_non_null(ladder_rung(&fixture->built.ladder, 0, &err));
-    assert_non_null(
-        ladder_rung(&fixture->built.ladder, fixture->built.ladder.rung_count - 1, &err));
+    assert_non_null(ladder_rung(&fixture->built.ladder, 0, PART_WHOLE, &err));
+    assert_non_null(ladder_rung(&fixture->built.ladder, fixture->built.ladder.rung_count - 1,
+                                PART_WHOLE, &err));
 }
 
 static void fixture_destroy(Fixture *fixture)

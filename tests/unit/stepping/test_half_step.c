@@ -65,8 +65,8 @@ static void pushed_destroy(Pushed *pushed)
 static void compare_certificates(StepControl *control)
 {
     const State *now = &control->now, *one = half_step_fold(&control->half, now);
-    bool even = certificate_holds(&control->half.even, one, 0);
-    bool odd = certificate_holds(&control->half.odd, one, 0);
+    bool even = certificate_holds(&control->half.symmetric, one, 0);
+    bool odd = certificate_holds(&control->half.antisymmetric, one, 0);
     assert_int_equal(certificate_holds(&control->certificate, now, 0), even && odd);
 }
 
@@ -77,7 +77,7 @@ static void same_steps(const int32_t cells[3], const double *rise)
     int32_t halved = 0, certified = 0, count = 0, slipping = 0;
     pushed_build(cells, rise, &half);
     pushed_build(cells, rise, &whole);
-    whole.control.lopsided = true;
+    whole.control.asymmetric = true;
     assert_true(half.control.half.exists);
     for (; half.control.now.time < 45; count++) {
         assert_true(step_control_advance(&half.control, INFINITY, &err));
@@ -89,12 +89,12 @@ static void same_steps(const int32_t cells[3], const double *rise)
         assert_all_near("r", one->reaction, other->reaction, one->interface_count, 1e-9);
         assert_memory_equal(one->status, other->status, (size_t)one->contact_count);
         assert_int_equal(half.control.certified, whole.control.certified);
-        halved += half.control.ladder.side == LADDER_EVEN;
+        halved += half.control.scheme.part == PART_SYMMETRIC;
         certified += half.control.certified;
         slipping += one->status[one->contact_count / 2] != CONTACT_STICK;
         compare_certificates(&half.control);
     }
-    assert_false(half.control.lopsided);
+    assert_false(half.control.asymmetric);
     print_message("%d steps, %d on one side, %d certified\n", count, halved, certified);
     assert_true(halved > 0.8 * count && certified < count && slipping > 10);
     pushed_destroy(&half);
@@ -116,7 +116,7 @@ TEST(test_friction_that_differs)
     pushed_build((int32_t[]){4, 4, 2}, (double[]){0.4, 1e-12}, &across);
     assert_true(step_control_advance(&across.control, INFINITY, &err));
     assert_true(across.control.half.exists);
-    assert_int_equal(across.control.ladder.side, LADDER_WHOLE);   // not its own mirror image
+    assert_int_equal(across.control.scheme.part, PART_WHOLE);   // not its own mirror image
     pushed_destroy(&across);
 }
 
@@ -142,21 +142,21 @@ TEST(test_pushed_aside)
     const int32_t cells[] = {4, 4, 2};
     pushed_build(cells, NULL, &half);
     pushed_build(cells, NULL, &whole);
-    whole.control.lopsided = true;
+    whole.control.asymmetric = true;
     Pushed *both[] = {&half, &whole};
     for (int32_t k = 0; k < 2; k++) {
         while (both[k]->control.now.time < 12)
             assert_true(step_control_advance(&both[k]->control, INFINITY, &err));
         push_aside(1e-6, both[k]);
     }
-    assert_false(half.control.lopsided);
+    assert_false(half.control.asymmetric);
     for (int32_t k = 0; k < 40; k++) {
         assert_true(step_control_advance(&half.control, INFINITY, &err));
         assert_true(step_control_advance(&whole.control, INFINITY, &err));
         assert_all_near("u", half.control.now.displacement, whole.control.now.displacement,
                         half.control.now.dof_count, 1e-11);
     }
-    assert_true(half.control.lopsided);
+    assert_true(half.control.asymmetric);
     pushed_destroy(&half);
     pushed_destroy(&whole);
 }
@@ -174,8 +174,8 @@ TEST(test_odd_is_followed)
     const int32_t cells[] = {4, 4, 2};
     pushed_build(cells, NULL, &half);
     pushed_build(cells, NULL, &whole);
-    whole.control.lopsided = true;
-    while (half.control.odd_decays) {
+    whole.control.asymmetric = true;
+    while (half.control.antisymmetric_decays) {
         assert_true(half.control.now.time < 60);
         assert_true(step_control_advance(&half.control, INFINITY, &err));
         assert_true(step_control_advance(&whole.control, INFINITY, &err));
@@ -187,13 +187,13 @@ TEST(test_odd_is_followed)
             const State *now = &both[k]->control.now;
             const Interface *interface = &both[k]->rig.interface;
             assert_true(step_control_advance(&both[k]->control, INFINITY, &err));
-            acting += k == 0 && !half.control.odd_decays;
+            acting += k == 0 && !half.control.antisymmetric_decays;
             odd[k][n] = 0;
             for (int32_t i = 0; i < interface->contact_count; i++)
                 odd[k][n] += (interface->y[i] - 0.25) * now->slip_rate[3 * i];
         }
     }
-    assert_false(half.control.lopsided);
+    assert_false(half.control.asymmetric);
     assert_true(acting > 0);
     for (int32_t n = 0; n < acting; n++)
         assert_near("odd", odd[0][n] / way[0], odd[1][n] / way[1], 2e-2 * fabs(odd[1][0] / way[1]));

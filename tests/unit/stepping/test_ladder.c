@@ -49,9 +49,9 @@ TEST(test_rungs)
     int64_t live = memory_counters().live;
     ladder_init(&rig.system, 2, 0.1, &ladder);
     assert_int_equal(rig.system.factorisations, 0);
-    InterfaceOperator *rung = ladder_rung(&ladder, 2, &err);
+    InterfaceOperator *rung = ladder_rung(&ladder, 2, PART_WHOLE, &err);
     assert_non_null(rung);
-    assert_ptr_equal(ladder_rung(&ladder, 2, &err), rung);
+    assert_ptr_equal(ladder_rung(&ladder, 2, PART_WHOLE, &err), rung);
     assert_int_equal(rig.system.factorisations, 1);
     assert_null(ladder.rung[0]);
 
@@ -70,7 +70,7 @@ TEST(test_rungs)
 
     for (int32_t dof = 0; dof < n; dof++) rig.bulk.mass[dof] = -1;   // an impossible matrix
     ladder_init(&rig.system, 2, 0.1, &ladder);
-    assert_null(ladder_rung(&ladder, 1, &err));
+    assert_null(ladder_rung(&ladder, 1, PART_WHOLE, &err));
     assert_int_equal(err.code, ERROR_COMPUTE);
     assert_non_null(strstr(err.message, "step 1: "));
     ladder_destroy(&ladder);

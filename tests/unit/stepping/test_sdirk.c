@@ -435,7 +435,7 @@ TEST(test_memory_faults)
         memory_fail_after(k);
         done = sdirk_create(&rig.block, TABLEAU_SDIRK2, &ladder, &scheme, &err) &&
                state_create(&rig.system, &rig.interface, &now, &err) &&
-               ladder_rung(&ladder, 1, &err) != NULL;
+               ladder_rung(&ladder, 1, PART_WHOLE, &err) != NULL;
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         state_destroy(&now);

@@ -38,7 +38,8 @@ static void check_rules(double wave_step, double tolerance)
             uncertified++;
             assert_true(step <= steps.wave_step);
             assert_true(certificate_step_resolves(&control->certificate, &control->now,
-                                                  ladder_contact(&control->ladder, k), 0));
+                                                  ladder_contact(&control->ladder, k, PART_WHOLE),
+                                                  0));
         }
         longest += step == steps.step_max;
         last = step;
@@ -255,7 +256,8 @@ TEST(test_allocations)
     StepControlDef steps = pushed_steps();
     PushedBlock run;
     pushed_build(&def, &steps, &run);
-    for (int32_t k = 0; k < 14; k++) assert_non_null(ladder_rung(&run.control.ladder, k, &err));
+    for (int32_t k = 0; k < 14; k++)
+        assert_non_null(ladder_rung(&run.control.ladder, k, PART_WHOLE, &err));
     int64_t allocations = memory_counters().allocations;
     while (run.control.now.time < 450) pushed_advance(&run, INFINITY);
     assert_int_equal(memory_counters().allocations, allocations);
