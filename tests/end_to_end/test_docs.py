@@ -139,7 +139,7 @@ class Text(unittest.TestCase):
         body, literature = text.split("## Literature")
         parts = re.split(r"^## \d+\. ", body, flags=re.M)[1:]
         self.assertGreaterEqual(len(parts), 15)
-        for part in parts[:-1]:
+        for part in parts:
             with self.subTest(part.split("\n")[0]):
                 self.assertRegex(part, r"\n- Code: `src/")
                 self.assertRegex(part, r"\n- Tests: `")
